@@ -1,0 +1,79 @@
+// What is said to a person: problems with a place in a file, and failures with an exit code.
+module;
+
+#include "candela/api.h"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+export module candela.diagnostics;
+
+export namespace candela {
+
+/// Exit codes of the command.
+enum class ExitCode : int { ok = 0, failure = 1, usage = 2, invalid_scene = 3, verification_failed = 4 };
+
+/// A failure that ends what was asked for. `what()` is one plain sentence for a person.
+class CANDELA_API Error : public std::runtime_error {
+  public:
+    Error(ExitCode code, const std::string& message);
+    ~Error() override;
+    ExitCode code() const noexcept { return code_; }
+
+  private:
+    ExitCode code_;
+};
+
+enum class Severity : int { warning, error };
+
+/// Lines and columns count from 1; line 0: the file as a whole.
+struct SourcePlace {
+    std::string file;
+    int line = 0;
+    int column = 0;
+    int length = 0;  // characters that the mark underlines; 0: unknown
+
+    friend bool operator==(const SourcePlace&, const SourcePlace&) = default;
+};
+
+struct Diagnostic {
+    Severity severity = Severity::error;
+    SourcePlace place;
+    std::string message;
+    std::string hint;  // what to do about it; may be empty
+};
+
+/// All that was found in one run. Not thread safe.
+class CANDELA_API Diagnostics {
+  public:
+    void error(SourcePlace place, std::string message, std::string hint = {});
+    void warning(SourcePlace place, std::string message, std::string hint = {});
+
+    /// Keeps a file's text, so that the offending line can be shown.
+    void remember_source(const std::string& file, std::string text);
+
+    bool has_errors() const noexcept;
+    /// Sorted by file (in the order in which the files were read), line and column.
+    std::vector<Diagnostic> sorted() const;
+    /// Line `place.line` of a remembered file, or nothing.
+    std::optional<std::string> source_line(const SourcePlace& place) const;
+
+    /// Every diagnostic as text, each with its line and a mark below the place.
+    std::string text(bool in_color) const;
+
+  private:
+    std::vector<Diagnostic> all_;
+    std::vector<std::string> files_;  // in reading order
+    std::map<std::string, std::string, std::less<>> sources_;
+};
+
+/// The candidate that `name` was most likely meant to be, if one is near enough: at most a third of its letters wrong,
+/// a swap of neighbours counting once (Damerau 1964).
+CANDELA_API std::optional<std::string> closest(std::string_view name, std::span<const std::string> candidates);
+
+}  // namespace candela

@@ -1,0 +1,95 @@
+// Plain vectors, colours and structure-of-arrays views: all that may cross a plugin's boundary.
+// Members are constexpr, and so inline: in a module, being defined within the class does not make them that.
+module;
+
+#include <cmath>
+#include <cstddef>
+
+export module candela.math;
+
+export namespace candela {
+
+/// A point, direction or normal. Right-handed Cartesian space, y up; metres for points.
+struct Vec3 {
+    float x = 0;
+    float y = 0;
+    float z = 0;
+
+    friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
+constexpr Vec3 operator*(float s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+constexpr float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3 cross(Vec3 a, Vec3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
+
+/// The unit vector along `a`; a zero vector stays zero.
+inline Vec3 normalized(Vec3 a) {
+    const float size = length(a);
+    return size > 0 ? (1 / size) * a : a;
+}
+
+/// A colour or an intensity, one number a channel. Scene-linear unless colour management is off.
+struct Rgb {
+    float r = 0;
+    float g = 0;
+    float b = 0;
+
+    friend constexpr bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+constexpr Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+constexpr Rgb operator*(float s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
+
+/// Three arrays of one length, read only. Owns nothing; the batch that holds it knows the length.
+struct ConstVec3Span {
+    const float* x = nullptr;
+    const float* y = nullptr;
+    const float* z = nullptr;
+
+    constexpr Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+    constexpr ConstVec3Span from(std::size_t first) const { return {x + first, y + first, z + first}; }
+    constexpr explicit operator bool() const { return x != nullptr; }
+};
+
+/// Three arrays of one length, to be written. Owns nothing; the batch that holds it knows the length.
+struct Vec3Span {
+    float* x = nullptr;
+    float* y = nullptr;
+    float* z = nullptr;
+
+    constexpr Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+    constexpr void set(std::size_t i, Vec3 v) const {
+        x[i] = v.x;
+        y[i] = v.y;
+        z[i] = v.z;
+    }
+    constexpr Vec3Span from(std::size_t first) const { return {x + first, y + first, z + first}; }
+    constexpr explicit operator bool() const { return x != nullptr; }
+    constexpr operator ConstVec3Span() const { return {x, y, z}; }
+};
+
+/// Two arrays of one length: texture coordinates.
+struct ConstVec2Span {
+    const float* x = nullptr;
+    const float* y = nullptr;
+
+    constexpr ConstVec2Span from(std::size_t first) const { return {x + first, y + first}; }
+    constexpr explicit operator bool() const { return x != nullptr; }
+};
+
+struct Vec2Span {
+    float* x = nullptr;
+    float* y = nullptr;
+
+    constexpr Vec2Span from(std::size_t first) const { return {x + first, y + first}; }
+    constexpr explicit operator bool() const { return x != nullptr; }
+    constexpr operator ConstVec2Span() const { return {x, y}; }
+};
+
+}  // namespace candela

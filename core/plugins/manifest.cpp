@@ -1,0 +1,204 @@
+// Manifests as JSON and as made from a descriptor.
+module;
+
+#include "candela/abi.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.plugins;
+
+import candela.diagnostics;
+import candela.math;
+
+namespace candela {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int k_manifest_version = 1;
+
+double shortest(float x) { return std::stod(fmt::format("{}", x)); }
+
+Json json_of(const Value& value) {
+    struct Writer {
+        Json operator()(bool b) const { return b; }
+        Json operator()(std::int64_t i) const { return i; }
+        Json operator()(double d) const { return d; }
+        Json operator()(const std::string& s) const { return s; }
+        Json operator()(const Vec3& v) const { return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)}); }
+    };
+    return std::visit(Writer{}, value);
+}
+
+Json json_of(const Parameter& p) {
+    Json json;
+    json["name"] = p.name;
+    json["type"] = name_of(p.type);
+    if (!p.unit.empty()) json["unit"] = p.unit;
+    if (p.fallback) json["default"] = json_of(*p.fallback);
+    if (p.minimum != k_no_minimum) json[p.minimum_excluded ? "above" : "minimum"] = shortest(p.minimum);
+    if (p.maximum != k_no_maximum) json[p.maximum_excluded ? "below" : "maximum"] = shortest(p.maximum);
+    if (!p.choices.empty()) json["choices"] = p.choices;
+    json["meaning"] = p.meaning;
+    return json;
+}
+
+Json json_of(const Manifest& m) {
+    Json json;
+    json["candela_manifest"] = k_manifest_version;
+    json["abi"] = m.abi;
+    json["kind"] = name_of(m.kind);
+    json["name"] = m.name;
+    json["version"] = m.version;
+    json["title"] = m.title;
+    json["summary"] = m.summary;
+    json["formula"] = m.formula;
+    json["reference"] = m.reference;
+    json["parameters"] = Json::array();
+    for (const Parameter& p : m.parameters) json["parameters"].push_back(json_of(p));
+    json["relations"] = Json::array();
+    for (const Relation& r : m.relations) {
+        json["relations"].push_back({{"type", name_of(r.type)},
+                                     {"left", r.left},
+                                     {"right", r.right},
+                                     {"only_warns", r.only_warns},
+                                     {"meaning", r.meaning}});
+    }
+    json["properties"] = Json::object();
+    for (const auto& [name, value] : m.properties) json["properties"][name] = value;
+    if (!m.formats.empty()) {
+        json["formats"] = Json::array();
+        for (const ManifestFormat& f : m.formats) {
+            json["formats"].push_back({{"extension", f.extension},
+                                       {"title", f.title},
+                                       {"pixels", f.pixels == PixelType::byte ? "byte" : "real"}});
+        }
+    }
+    json["kernel"] = m.has_kernel;
+    return json;
+}
+
+template <class Named>
+auto named(const Json& json, std::string_view what, Named named_function) {
+    const auto name = json.get<std::string>();
+    const auto found = named_function(name);
+    if (!found) throw Error(ExitCode::failure, fmt::format("'{}' is no {}", name, what));
+    return *found;
+}
+
+Value value_from(const Json& json, ParamType type) {
+    switch (type) {
+        case ParamType::real: return json.get<double>();
+        case ParamType::integer: return json.get<std::int64_t>();
+        case ParamType::boolean: return json.get<bool>();
+        case ParamType::choice:
+        case ParamType::text:
+        case ParamType::file: return json.get<std::string>();
+        default: return Vec3{json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
+    }
+}
+
+Parameter parameter_from(const Json& json) {
+    Parameter p;
+    p.name = json.at("name").get<std::string>();
+    p.type = named(json.at("type"), "type of a parameter", param_type_named);
+    p.unit = json.value("unit", "");
+    if (json.contains("default")) p.fallback = value_from(json["default"], p.type);
+    p.minimum_excluded = json.contains("above");
+    p.maximum_excluded = json.contains("below");
+    p.minimum = json.value(p.minimum_excluded ? "above" : "minimum", k_no_minimum);
+    p.maximum = json.value(p.maximum_excluded ? "below" : "maximum", k_no_maximum);
+    if (json.contains("choices")) p.choices = json["choices"].get<std::vector<std::string>>();
+    p.meaning = json.at("meaning").get<std::string>();
+    return p;
+}
+
+Manifest manifest_from(const Json& json) {
+    if (json.at("candela_manifest").get<int>() != k_manifest_version) {
+        throw Error(ExitCode::failure, "it is of another manifest version");
+    }
+    Manifest m;
+    m.abi = json.at("abi").get<std::string>();
+    m.kind = named(json.at("kind"), "kind of plugin", plugin_kind_named);
+    m.name = json.at("name").get<std::string>();
+    m.version = json.at("version").get<std::string>();
+    m.title = json.at("title").get<std::string>();
+    m.summary = json.at("summary").get<std::string>();
+    m.formula = json.at("formula").get<std::string>();
+    m.reference = json.at("reference").get<std::string>();
+    for (const Json& p : json.at("parameters")) m.parameters.push_back(parameter_from(p));
+    for (const Json& r : json.at("relations")) {
+        m.relations.push_back({named(r.at("type"), "type of a relation", relation_type_named),
+                               r.at("left").get<std::string>(), r.at("right").get<std::string>(),
+                               r.at("only_warns").get<bool>(), r.at("meaning").get<std::string>()});
+    }
+    for (const auto& [name, value] : json.at("properties").items()) {
+        m.properties.emplace_back(name, value.get<std::string>());
+    }
+    if (json.contains("formats")) {
+        for (const Json& f : json["formats"]) {
+            const auto pixels = f.at("pixels").get<std::string>() == "byte" ? PixelType::byte : PixelType::real;
+            m.formats.push_back({f.at("extension").get<std::string>(), f.at("title").get<std::string>(), pixels});
+        }
+    }
+    m.has_kernel = json.at("kernel").get<bool>();
+    return m;
+}
+
+}  // namespace
+
+std::string_view host_abi() noexcept { return CANDELA_ABI; }
+
+std::string Manifest::id() const { return fmt::format("{}/{}", candela::name_of(kind), name); }
+
+std::optional<std::string> Manifest::property(std::string_view property_name) const {
+    for (const auto& [key, value] : properties) {
+        if (key == property_name) return value;
+    }
+    return std::nullopt;
+}
+
+Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
+    Manifest m;
+    m.abi = abi;
+    m.kind = d.kind;
+    m.name = d.name;
+    m.version = d.version;
+    m.title = d.title;
+    m.summary = d.summary;
+    m.formula = d.formula;
+    m.reference = d.reference;
+    for (const ParamSpec& spec : d.parameters) m.parameters.push_back(parameter_of(spec));
+    for (const RelationSpec& spec : d.relations) m.relations.push_back(relation_of(spec));
+    for (const Property& p : d.properties) m.properties.emplace_back(p.name, p.value);
+    for (const FileFormat& f : d.formats) m.formats.push_back({f.extension, f.title, f.pixels});
+    m.has_kernel = d.kernel != nullptr;
+    return m;
+}
+
+std::string to_json(const Manifest& manifest) { return json_of(manifest).dump(2) + "\n"; }
+
+std::string to_json(std::span<const Manifest> manifests) {
+    Json all = Json::array();
+    for (const Manifest& manifest : manifests) all.push_back(json_of(manifest));
+    return all.dump(2) + "\n";
+}
+
+Manifest manifest_from_json(std::string_view text) {
+    try {
+        return manifest_from(Json::parse(text));
+    } catch (const Json::exception& problem) {
+        throw Error(ExitCode::failure, fmt::format("it is no manifest: {}", problem.what()));
+    }
+}
+
+}  // namespace candela

@@ -1,0 +1,230 @@
+// Where plugins are looked for.
+module;
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+module candela.plugins;
+
+import candela.diagnostics;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string id_of(PluginKind kind, std::string_view name) { return fmt::format("{}/{}", name_of(kind), name); }
+
+std::optional<std::string> text_of_file(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return std::nullopt;
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (in.bad()) return std::nullopt;
+    return text;
+}
+
+bool is_regular(const fs::path& file) {
+    std::error_code ignored;
+    return fs::is_regular_file(file, ignored);
+}
+
+void add_path_list(std::vector<fs::path>& directories, std::string_view list) {
+    while (!list.empty()) {
+        const auto colon = list.find(':');
+        if (colon != 0) directories.emplace_back(list.substr(0, colon));
+        list.remove_prefix(colon == std::string_view::npos ? list.size() : colon + 1);
+    }
+}
+
+std::string_view environment(const char* name) {
+    const char* const value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+}  // namespace
+
+std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
+    std::vector<fs::path> directories(first.begin(), first.end());
+    add_path_list(directories, environment("CANDELA_PLUGIN_PATH"));
+    if (const auto data = environment("XDG_DATA_HOME"); !data.empty()) {
+        directories.push_back(fs::path(data) / "candela/plugins");
+    } else if (const auto home = environment("HOME"); !home.empty()) {
+        directories.push_back(fs::path(home) / ".local/share/candela/plugins");
+    }
+    // Where this library is: lib/libcandela_core.so, so lib/candela/plugins.
+    directories.push_back(boost::dll::this_line_location().parent_path() / "candela/plugins");
+    return directories;
+}
+
+Registry::Registry(std::vector<fs::path> search_path) : search_path_(std::move(search_path)) {}
+
+const PluginFile* Registry::look_at(const fs::path& directory, const std::string& id, PluginKind kind,
+                                    std::string_view name) {
+    const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
+    const fs::path manifest_path = directory / (stem + ".json");
+    const fs::path library = directory / (stem + ".so");
+    const auto refuse = [&](const std::string& reason) {
+        refused_[library] = fmt::format("plugin '{}' is refused: {}", library.string(), reason);
+        return nullptr;
+    };
+    const bool has_library = is_regular(library);
+    const auto text = text_of_file(manifest_path);
+    if (!text) {
+        return has_library ? refuse(fmt::format("its manifest {}.json is not beside it; build it with candela_add_plugin()", stem))
+                           : nullptr;
+    }
+    if (!has_library) return refuse("its manifest is there, the library is not");
+    auto file = std::make_unique<PluginFile>();
+    try {
+        file->manifest = manifest_from_json(*text);
+    } catch (const Error& problem) {
+        return refuse(fmt::format("its manifest {}.json cannot be used: {}", stem, problem.what()));
+    }
+    if (file->manifest.id() != id) {
+        return refuse(fmt::format("its manifest is that of {}; a plugin's file is called <kind>-<name>.so", file->manifest.id()));
+    }
+    if (file->manifest.abi != host_abi()) {
+        return refuse(fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                                  file->manifest.abi, host_abi()));
+    }
+    file->library = library;
+    return (found_[id] = std::move(file)).get();
+}
+
+const PluginFile* Registry::find(PluginKind kind, std::string_view name) {
+    const std::lock_guard lock(mutex_);
+    const std::string id = id_of(kind, name);
+    if (const auto known = found_.find(id); known != found_.end()) return known->second.get();
+    if (name.find('/') != std::string_view::npos) return nullptr;
+    for (const fs::path& directory : search_path_) {
+        if (const PluginFile* const file = look_at(directory, id, kind, name)) return file;
+    }
+    found_[id] = nullptr;
+    return nullptr;
+}
+
+const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
+    if (const PluginFile* const file = find(kind, name)) return *file;
+    const std::lock_guard lock(mutex_);
+    const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
+    for (const auto& [library, reason] : refused_) {
+        if (library.stem() == stem) throw Error(ExitCode::failure, reason);
+    }
+    const std::vector<std::string> known = names(kind);
+    const auto near = closest(name, known);
+    throw Error(ExitCode::failure,
+                fmt::format("no {} plugin is called '{}'; {} (installed: {})", candela::name_of(kind), name,
+                            near ? fmt::format("did you mean '{}'?", *near) : "candela list shows all",
+                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+}
+
+void Registry::scan() {
+    if (scanned_) return;
+    scanned_ = true;
+    for (const fs::path& directory : search_path_) {
+        std::error_code ignored;
+        std::set<std::string> stems;
+        for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
+            const std::string extension = entry.path().extension().string();
+            if (extension == ".so" || extension == ".json") stems.insert(entry.path().stem().string());
+        }
+        for (const std::string& stem : stems) {
+            const auto hyphen = stem.find('-');
+            if (hyphen == std::string::npos) continue;
+            if (const auto kind = plugin_kind_named(stem.substr(0, hyphen))) find(*kind, stem.substr(hyphen + 1));
+        }
+    }
+}
+
+std::vector<const PluginFile*> Registry::list() {
+    const std::lock_guard lock(mutex_);
+    scan();
+    std::vector<const PluginFile*> all;
+    for (const auto& [id, file] : found_) {
+        if (file != nullptr) all.push_back(file.get());
+    }
+    std::sort(all.begin(), all.end(), [](const PluginFile* a, const PluginFile* b) {
+        return std::pair(a->manifest.kind, a->manifest.name) < std::pair(b->manifest.kind, b->manifest.name);
+    });
+    return all;
+}
+
+std::vector<std::string> Registry::names(PluginKind kind) {
+    std::vector<std::string> result;
+    for (const PluginFile* file : list()) {
+        if (file->manifest.kind == kind) result.push_back(file->manifest.name);
+    }
+    return result;
+}
+
+std::vector<Refusal> Registry::refusals() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<Refusal> result;
+    for (const auto& [file, reason] : refused_) result.push_back({file, reason});
+    return result;
+}
+
+const PluginFile* Registry::find_format(std::string_view extension) {
+    // The plugin called after its format is looked at first: it spares reading all the others' manifests.
+    const auto writes = [&](const PluginFile* file) {
+        const auto& formats = file->manifest.formats;
+        return std::any_of(formats.begin(), formats.end(),
+                           [&](const ManifestFormat& format) { return format.extension == extension; });
+    };
+    const auto is_fallback = [](const PluginFile* file) { return file->manifest.property("fallback").has_value(); };
+    if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && writes(file)) return file;
+    const PluginFile* best = nullptr;
+    for (const PluginFile* file : list()) {
+        if (writes(file) && (best == nullptr || (is_fallback(best) && !is_fallback(file)))) best = file;
+    }
+    return best;
+}
+
+std::vector<std::string> Registry::extensions() {
+    std::set<std::string> all;
+    for (const PluginFile* file : list()) {
+        for (const ManifestFormat& format : file->manifest.formats) all.insert(format.extension);
+    }
+    return {all.begin(), all.end()};
+}
+
+ParamSet Registry::parameters(PluginKind kind, std::string_view name) {
+    return ParamSet(require(kind, name).manifest.parameters);
+}
+
+std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string_view name, const ParamSet& values,
+                                                    ColorEncoding encoding) {
+    const PluginFile& file = require(kind, name);
+    const PluginDescriptor& descriptor = load_plugin(file.library, &file.manifest);
+    try {
+        std::unique_ptr<Instance> instance(descriptor.create(values.delivered(encoding)));
+        if (instance == nullptr) throw std::runtime_error("made nothing");
+        return instance;
+    } catch (...) {
+        rethrow_as_plugin_error(kind, name);
+    }
+}
+
+void Registry::throw_wrong_interface(PluginKind kind, std::string_view name) {
+    throw Error(ExitCode::failure, fmt::format("plugin {}/{} made something that is no {}", candela::name_of(kind), name,
+                                               candela::name_of(kind)));
+}
+
+}  // namespace candela

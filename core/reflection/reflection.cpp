@@ -1,0 +1,7 @@
+module candela.reflection;
+
+namespace candela {
+
+ReflectionModel::~ReflectionModel() = default;
+
+}  // namespace candela

@@ -1,0 +1,8 @@
+module candela.shape;
+
+namespace candela {
+
+MeshSink::~MeshSink() = default;
+Shape::~Shape() = default;
+
+}  // namespace candela

@@ -1,0 +1,33 @@
+// Which instruction set the batch loops run with. Every loop is compiled for each; see candela/multiversion.h.
+module;
+
+#include "candela/api.h"
+
+#include <optional>
+#include <string_view>
+
+export module candela.simd;
+
+export namespace candela {
+
+/// From narrow to wide; a processor that has one has all before it.
+enum class InstructionSet : int { baseline = 0, avx2 = 1, avx512 = 2 };
+
+inline constexpr InstructionSet k_instruction_sets[] = {InstructionSet::baseline, InstructionSet::avx2,
+                                                        InstructionSet::avx512};
+
+/// The widest set this processor has.
+CANDELA_API InstructionSet best_instruction_set() noexcept;
+
+/// The set in use: the widest, unless use_instruction_set() chose another. Any thread.
+CANDELA_API InstructionSet instruction_set() noexcept;
+
+/// Chooses the set for all later batches of this process: for tests and measurements.
+/// Returns false, and changes nothing, where the processor lacks it.
+CANDELA_API bool use_instruction_set(InstructionSet set) noexcept;
+
+/// "baseline", "avx2" or "avx512".
+CANDELA_API std::string_view name_of(InstructionSet set) noexcept;
+CANDELA_API std::optional<InstructionSet> instruction_set_named(std::string_view name) noexcept;
+
+}  // namespace candela

@@ -1,0 +1,21 @@
+#include "candela/light_plugin.h"
+
+namespace candela::kernel {
+#include "ambient.kernel"
+}
+
+using candela::kernel::AmbientLight;
+using namespace candela::sdk;
+
+namespace {
+
+constexpr auto k_fields = fields(light_color(&AmbientLight::color),
+                                 light_intensity(&AmbientLight::intensity, "intensity, the same everywhere"));
+
+}  // namespace
+
+CANDELA_AMBIENT_LIGHT_PLUGIN(ambient, AmbientLight, k_fields,
+                             {.title = "Ambient light",
+                              .summary = "Light from everywhere: it stands for all that other surfaces pass on.",
+                              .formula = "I_ambient = color intensity",
+                              .reference = "Shreiner, Angel (2012), Interactive computer graphics, 6th edition"})

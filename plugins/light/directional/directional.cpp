@@ -1,0 +1,26 @@
+#include "candela/light_plugin.h"
+
+namespace candela::kernel {
+#include "directional.kernel"
+}
+
+using candela::kernel::DirectionalLight;
+using namespace candela::sdk;
+
+namespace {
+
+constexpr auto k_fields =
+    fields(light_color(&DirectionalLight::color),
+           light_intensity(&DirectionalLight::intensity, "intensity, the same everywhere"),
+           direction(&DirectionalLight::direction, "direction", "the way the light travels"));
+
+constexpr candela::Property k_properties[] = {{"attenuation", "constant"}};
+
+}  // namespace
+
+CANDELA_LIGHT_PLUGIN(directional, DirectionalLight, k_fields,
+                     {.title = "Directional light",
+                      .summary = "Light from infinitely far away, like the sun's.",
+                      .formula = "L = -direction\nI_L = color intensity",
+                      .reference = "Shreiner, Angel (2012), Interactive computer graphics, 6th edition",
+                      .properties = k_properties})

@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# Installs every Debian or Ubuntu package that building, testing and running Candela needs.
+#
+#   scripts/setup.sh           everything, for developers and CI
+#   scripts/setup.sh --build   only what building and rendering need
+#
+# Works as root or through sudo. Does nothing where nothing is missing. On a release whose own CMake or Catch2 is too
+# old, the release's backports are added from the mirror that apt already uses.
+set -euo pipefail
+
+readonly k_cmake_at_least=3.28
+readonly k_catch2_at_least=3
+
+say() { printf 'setup: %s\n' "$*" >&2; }
+fail() { say "$*"; exit 1; }
+
+everything=yes
+case "${1-}" in
+  '') ;;
+  --build) everything=no ;;
+  -h|--help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) say "unknown argument '$1' (allowed: --build)"; exit 2 ;;
+esac
+
+command -v apt-get >/dev/null || fail "this script knows apt only; CONTRIBUTING.md lists what to install elsewhere"
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || fail "packages must be installed: run this as root, or install sudo"
+  as_root=(sudo)
+fi
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 "$@"; }
+
+installed() { dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
+installed_version() { dpkg-query -W -f '${Version}' "$1" 2>/dev/null || true; }
+candidate() { LC_ALL=C apt-cache policy "$1" 2>/dev/null | sed -n 's/^  Candidate: //p' | grep -vx '(none)' || true; }
+at_least() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$2"; }
+
+packages=(
+  ca-certificates git make
+  clang-19 clang-tools-19 lld-19 libstdc++-12-dev ninja-build cmake cmake-data
+  libeigen3-dev libtomlplusplus-dev libtbb-dev libfmt-dev nlohmann-json3-dev libspng-dev
+  libassimp-dev libopenimageio-dev
+)
+if [ "$everything" = yes ]; then
+  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3-minimal)
+fi
+
+# Boost: Debian 12 has 1.81 beside its default 1.74; later releases need no such choice.
+if installed libboost1.81-dev || [ -n "$(candidate libboost1.81-dev)" ]; then
+  boost=(libboost1.81-dev libboost-program-options1.81-dev)
+else
+  boost=(libboost-dev libboost-program-options-dev)
+fi
+
+missing=()
+find_missing() {
+  local package
+  missing=()
+  for package in "${packages[@]}" "${boost[@]}"; do
+    installed "$package" || missing+=("$package")
+  done
+  at_least "$(installed_version cmake)" "$k_cmake_at_least" || missing+=(cmake cmake-data)
+  if [ "$everything" = yes ]; then
+    at_least "$(installed_version catch2)" "$k_catch2_at_least" || missing+=(catch2)
+  fi
+}
+
+find_missing
+if [ ${#missing[@]} -eq 0 ]; then
+  exit 0
+fi
+
+say "missing: $(printf '%s\n' "${missing[@]}" | sort -u | tr '\n' ' ')"
+apt update
+# A bare machine has empty lists until now, so the choices that look at candidates are made again.
+if [ -z "$(candidate libboost1.81-dev)" ]; then
+  boost=(libboost-dev libboost-program-options-dev)
+else
+  boost=(libboost1.81-dev libboost-program-options1.81-dev)
+fi
+[ -n "$(candidate libstdc++-12-dev)" ] || packages=("${packages[@]/#libstdc++-12-dev/libstdc++-14-dev}")
+
+# Adds the backports of this release from the mirror in use, and takes CMake and Catch2 from there.
+codename=$(. /etc/os-release && printf '%s' "${VERSION_CODENAME-}")
+needs_backports() {
+  ! at_least "$(candidate cmake)" "$k_cmake_at_least" ||
+    { [ "$everything" = yes ] && ! at_least "$(candidate catch2)" "$k_catch2_at_least"; }
+}
+from_backports=()
+if needs_backports; then
+  backports="$codename-backports"
+  if ! apt-get indextargets --format '$(RELEASE)' 'Created-By: Packages' | grep -qx "$backports"; then
+    mirror=$(apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
+      awk -v release="$codename" '$1 == release && $2 == "main" { print $3; exit }')
+    [ -n "$mirror" ] || fail "apt knows no mirror of '$codename' main, so its backports cannot be found"
+    options=
+    keyring=/usr/share/keyrings/debian-archive-keyring.gpg
+    [ -r "$keyring" ] && options="[signed-by=$keyring] "
+    say "adding $backports from the mirror in use"
+    printf 'deb %s%s %s main\n' "$options" "$mirror" "$backports" |
+      "${as_root[@]}" tee "/etc/apt/sources.list.d/candela-backports.list" >/dev/null
+    apt update
+  fi
+  from_backports=(cmake cmake-data)
+  [ "$everything" = yes ] && from_backports+=(catch2)
+fi
+
+find_missing
+if [ ${#from_backports[@]} -gt 0 ]; then
+  apt install -y --no-install-recommends -t "$codename-backports" "${from_backports[@]}" >/dev/null
+  find_missing
+fi
+if [ ${#missing[@]} -gt 0 ]; then
+  say "installing ${#missing[@]} packages and what they need (a few minutes on a bare machine)"
+  apt install -y --no-install-recommends "${missing[@]}" >/dev/null
+fi
+
+find_missing
+[ ${#missing[@]} -eq 0 ] || fail "still missing after installation: ${missing[*]}"
+say "done"

@@ -1,0 +1,99 @@
+# candela_add_plugin(<kind>/<name> SOURCES <file>... [KERNEL <file>] [LIBRARIES <target>...] [VERSION <x.y.z>])
+#
+# A plugin: <kind>-<name>.so and, made from it, <kind>-<name>.json. Kind is light, reflection, shading, shape or image.
+# The target is called candela_<kind>_<name>.
+#   SOURCES    what is compiled; one of the files ends with the macro of its kind (candela/<kind>_plugin.h)
+#   KERNEL     the model's formulas in the kernel language; its text is embedded for the program generator
+#   LIBRARIES  what else is linked
+#   VERSION    of the plugin; the project's by default
+include_guard(GLOBAL)
+
+set(CANDELA_PLUGIN_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
+
+# How batch loops are compiled, in plugins and in the core: wide vectors where the function's own target has them. (That
+# square roots set no errno must be the same for all who import a module, so candela::core says that.)
+add_library(candela_batch_flags INTERFACE)
+target_compile_options(candela_batch_flags INTERFACE
+    $<$<NOT:$<CONFIG:Debug>>:-O3>
+    $<$<AND:$<CXX_COMPILER_ID:Clang>,$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>>:-mprefer-vector-width=512>)
+
+function(candela_add_plugin id)
+    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION" "SOURCES;LIBRARIES")
+    if(PLUGIN_UNPARSED_ARGUMENTS)
+        message(FATAL_ERROR "candela_add_plugin(${id}): unknown arguments ${PLUGIN_UNPARSED_ARGUMENTS}")
+    endif()
+    if(NOT id MATCHES "^(light|reflection|shading|shape|image)/([a-z][a-z0-9-]*)$")
+        message(FATAL_ERROR "candela_add_plugin(${id}): the first argument is <kind>/<name>; kind is light, reflection, "
+            "shading, shape or image, name is of lower-case letters, digits and hyphens")
+    endif()
+    set(kind ${CMAKE_MATCH_1})
+    set(name ${CMAKE_MATCH_2})
+    if(NOT PLUGIN_VERSION)
+        set(PLUGIN_VERSION ${PROJECT_VERSION})
+    endif()
+    if(NOT PLUGIN_VERSION)
+        set(PLUGIN_VERSION 0.0.0)
+    endif()
+    set(target candela_${kind}_${name})
+    set(file ${kind}-${name})
+
+    # The kernel's text, or null.
+    set(text_source ${CMAKE_CURRENT_BINARY_DIR}/${file}_kernel_text.cpp)
+    if(PLUGIN_KERNEL)
+        cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
+    else()
+        set(kernel "")
+    endif()
+    add_custom_command(OUTPUT ${text_source}
+        COMMAND ${CMAKE_COMMAND} -DKERNEL=${kernel} -DOUTPUT=${text_source}
+            -P ${CANDELA_PLUGIN_CMAKE_DIR}/EmbedKernel.cmake
+        DEPENDS ${kernel} ${CANDELA_PLUGIN_CMAKE_DIR}/EmbedKernel.cmake
+        VERBATIM)
+
+    add_library(${target} MODULE ${PLUGIN_SOURCES} ${text_source})
+    target_compile_features(${target} PRIVATE cxx_std_20)
+    set_target_properties(${target} PROPERTIES
+        PREFIX "" OUTPUT_NAME ${file} SUFFIX .so
+        CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF CXX_SCAN_FOR_MODULES ON
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON
+        LINK_DEPENDS ${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
+    if(DEFINED CANDELA_PLUGIN_OUTPUT_DIRECTORY)
+        set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CANDELA_PLUGIN_OUTPUT_DIRECTORY})
+    endif()
+    set_source_files_properties(${text_source} PROPERTIES CXX_SCAN_FOR_MODULES OFF)
+    target_compile_definitions(${target} PRIVATE
+        CANDELA_PLUGIN_NAME="${name}" CANDELA_PLUGIN_VERSION="${PLUGIN_VERSION}")
+    target_link_libraries(${target} PRIVATE candela::core candela_batch_flags ${PLUGIN_LIBRARIES})
+    # Only candela_* leaves the library: module initialisers are otherwise visible, and two plugins could clash.
+    target_link_options(${target} PRIVATE -Wl,--version-script=${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
+    if(NOT CANDELA_SANITIZE)
+        # A missing symbol fails here, not when somebody loads the plugin. (Sanitizer runtimes live in the host.)
+        target_link_options(${target} PRIVATE -Wl,-z,defs)
+    endif()
+
+    # The manifest, from the plugin's own descriptor.
+    set(manifest $<TARGET_FILE_DIR:${target}>/${file}.json)
+    set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${file}.manifest)
+    add_custom_command(OUTPUT ${stamp}
+        COMMAND candela::manifest $<TARGET_FILE:${target}> ${manifest}
+        COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
+        DEPENDS ${target} candela::manifest
+        COMMENT "Writing the manifest of ${id}"
+        VERBATIM)
+    add_custom_target(${target}_manifest ALL DEPENDS ${stamp})
+    set_target_properties(${target} PROPERTIES CANDELA_MANIFEST ${file}.json)
+endfunction()
+
+# candela_install_plugin(<kind>/<name> [DESTINATION <dir>]): the library and its manifest, into lib/candela/plugins.
+function(candela_install_plugin id)
+    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "DESTINATION" "")
+    string(REPLACE "/" "_" suffix ${id})
+    set(target candela_${suffix})
+    if(NOT PLUGIN_DESTINATION)
+        set(PLUGIN_DESTINATION lib/candela/plugins)
+    endif()
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../..")
+    get_target_property(manifest ${target} CANDELA_MANIFEST)
+    install(TARGETS ${target} LIBRARY DESTINATION ${PLUGIN_DESTINATION})
+    install(FILES $<TARGET_FILE_DIR:${target}>/${manifest} DESTINATION ${PLUGIN_DESTINATION})
+endfunction()

@@ -1,0 +1,263 @@
+// The kernel language in C++: the part of GLSL that a <name>.kernel file may use.
+//
+// A kernel is the common subset of C++ and GLSL: structs of float, int, vec2 and vec3; functions marked KERNEL that take
+// and return values; locals, ternaries, arithmetic; float literals written 0.5f; and the functions below, which have
+// GLSL's names and meanings. Every function is inlined into the batch loop that calls it and is written so that clang
+// vectorises that loop: no branches, no calls, no error numbers, and no results in the denormal range.
+//
+// Include kernels inside `namespace candela::kernel { ... }`, where the names resolve to these functions.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+// A kernel function has its kind's arguments, whether or not the model has a use for each.
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
+#define KERNEL [[gnu::always_inline, maybe_unused]] static inline
+#define CANDELA_KERNEL_INLINE [[gnu::always_inline]] inline
+
+namespace candela::kernel {
+
+struct vec2 {
+    float x, y;
+    vec2() = default;
+    CANDELA_KERNEL_INLINE constexpr explicit vec2(float s) : x(s), y(s) {}
+    CANDELA_KERNEL_INLINE constexpr vec2(float x_, float y_) : x(x_), y(y_) {}
+    CANDELA_KERNEL_INLINE constexpr vec2(const vec2& v) : x(v.x), y(v.y) {}
+    CANDELA_KERNEL_INLINE constexpr vec2& operator=(const vec2& v) {
+        x = v.x;
+        y = v.y;
+        return *this;
+    }
+};
+
+struct vec3 {
+    float x, y, z;
+    vec3() = default;
+    CANDELA_KERNEL_INLINE constexpr explicit vec3(float s) : x(s), y(s), z(s) {}
+    CANDELA_KERNEL_INLINE constexpr vec3(float x_, float y_, float z_) : x(x_), y(y_), z(z_) {}
+    // Written out: an implicit copy is a block of memory, which keeps a `condition ? a : b` from becoming a vector blend.
+    CANDELA_KERNEL_INLINE constexpr vec3(const vec3& v) : x(v.x), y(v.y), z(v.z) {}
+    CANDELA_KERNEL_INLINE constexpr vec3& operator=(const vec3& v) {
+        x = v.x;
+        y = v.y;
+        z = v.z;
+        return *this;
+    }
+};
+
+#define CANDELA_VEC3_OPERATOR(op)                                                                             \
+    CANDELA_KERNEL_INLINE constexpr vec3 operator op(vec3 a, vec3 b) {                                        \
+        return vec3(a.x op b.x, a.y op b.y, a.z op b.z);                                                      \
+    }                                                                                                         \
+    CANDELA_KERNEL_INLINE constexpr vec3 operator op(vec3 a, float s) {                                       \
+        return vec3(a.x op s, a.y op s, a.z op s);                                                            \
+    }                                                                                                         \
+    CANDELA_KERNEL_INLINE constexpr vec3 operator op(float s, vec3 a) {                                       \
+        return vec3(s op a.x, s op a.y, s op a.z);                                                            \
+    }                                                                                                         \
+    CANDELA_KERNEL_INLINE constexpr vec3& operator op##=(vec3& a, vec3 b) { return a = a op b; }              \
+    CANDELA_KERNEL_INLINE constexpr vec3& operator op##=(vec3& a, float s) { return a = a op s; }
+CANDELA_VEC3_OPERATOR(+)
+CANDELA_VEC3_OPERATOR(-)
+CANDELA_VEC3_OPERATOR(*)
+CANDELA_VEC3_OPERATOR(/)
+#undef CANDELA_VEC3_OPERATOR
+CANDELA_KERNEL_INLINE constexpr vec3 operator-(vec3 a) { return vec3(-a.x, -a.y, -a.z); }
+
+#define CANDELA_VEC2_OPERATOR(op)                                                                             \
+    CANDELA_KERNEL_INLINE constexpr vec2 operator op(vec2 a, vec2 b) { return vec2(a.x op b.x, a.y op b.y); } \
+    CANDELA_KERNEL_INLINE constexpr vec2 operator op(vec2 a, float s) { return vec2(a.x op s, a.y op s); }    \
+    CANDELA_KERNEL_INLINE constexpr vec2 operator op(float s, vec2 a) { return vec2(s op a.x, s op a.y); }
+CANDELA_VEC2_OPERATOR(+)
+CANDELA_VEC2_OPERATOR(-)
+CANDELA_VEC2_OPERATOR(*)
+CANDELA_VEC2_OPERATOR(/)
+#undef CANDELA_VEC2_OPERATOR
+
+// Comparison and rounding.
+
+CANDELA_KERNEL_INLINE constexpr float min(float a, float b) { return b < a ? b : a; }
+CANDELA_KERNEL_INLINE constexpr float max(float a, float b) { return a < b ? b : a; }
+CANDELA_KERNEL_INLINE constexpr int min(int a, int b) { return b < a ? b : a; }
+CANDELA_KERNEL_INLINE constexpr int max(int a, int b) { return a < b ? b : a; }
+CANDELA_KERNEL_INLINE constexpr float clamp(float x, float low, float high) { return min(max(x, low), high); }
+CANDELA_KERNEL_INLINE constexpr float mix(float a, float b, float t) { return a * (1.0f - t) + b * t; }
+CANDELA_KERNEL_INLINE constexpr float step(float edge, float x) { return x < edge ? 0.0f : 1.0f; }
+CANDELA_KERNEL_INLINE constexpr float smoothstep(float edge0, float edge1, float x) {
+    const float t = clamp((x - edge0) / (edge1 - edge0), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+CANDELA_KERNEL_INLINE constexpr float sign(float x) { return x > 0.0f ? 1.0f : (x < 0.0f ? -1.0f : 0.0f); }
+CANDELA_KERNEL_INLINE float abs(float x) { return __builtin_fabsf(x); }
+
+/// To the nearest integer, halves to even, for |x| < 2^22. Adding and subtracting 1.5 * 2^23 needs no SSE 4.1, so that
+/// the baseline loop vectorises too.
+CANDELA_KERNEL_INLINE float round_to_even(float x) { return (x + 12582912.0f) - 12582912.0f; }
+/// For |x| < 2^22; beyond that a float has no fraction worth speaking of.
+CANDELA_KERNEL_INLINE float floor(float x) {
+    const float nearest = round_to_even(x);
+    const float rounded = nearest > x ? nearest - 1.0f : nearest;
+    return abs(x) < 4194304.0f ? rounded : x;
+}
+CANDELA_KERNEL_INLINE float ceil(float x) { return -floor(-x); }
+CANDELA_KERNEL_INLINE float fract(float x) { return x - floor(x); }
+CANDELA_KERNEL_INLINE float mod(float x, float y) { return x - y * floor(x / y); }
+
+// Powers. Polynomials by Remez exchange; the figures in brackets are the largest relative errors of the polynomial.
+
+CANDELA_KERNEL_INLINE float sqrt(float x) { return __builtin_sqrtf(x); }
+CANDELA_KERNEL_INLINE float inversesqrt(float x) { return 1.0f / __builtin_sqrtf(x); }
+
+/// 2^x, kept within [2^-100, 2^127]: denormals would cost three times the whole frame [2.6e-9].
+CANDELA_KERNEL_INLINE float exp2(float x) {
+    const float bounded = clamp(x, -100.0f, 127.0f);
+    const float whole = round_to_even(bounded);
+    const float f = bounded - whole;
+    float p = 0.00015594665842f;
+    p = p * f + 0.0013406644051f;
+    p = p * f + 0.0096176930172f;
+    p = p * f + 0.055503105504f;
+    p = p * f + 0.24022652783f;
+    p = p * f + 0.69314721497f;
+    p = p * f + 1.0f;
+    return std::bit_cast<float>(std::bit_cast<std::int32_t>(p) + (static_cast<std::int32_t>(whole) << 23));
+}
+
+/// Base-two logarithm of x, of 2^-126 for all that is smaller [1.7e-7].
+CANDELA_KERNEL_INLINE float log2(float x) {
+    const auto bits = std::bit_cast<std::int32_t>(max(x, 1.17549435e-38f));
+    const std::int32_t exponent = (bits - 0x3f3504f3) >> 23;  // mantissa in [sqrt(1/2), sqrt(2))
+    const float f = std::bit_cast<float>(bits - (exponent << 23)) - 1.0f;
+    float p = -0.14581009726f;
+    p = p * f + 0.23404164661f;
+    p = p * f - 0.24887708166f;
+    p = p * f + 0.28709880585f;
+    p = p * f - 0.36023963289f;
+    p = p * f + 0.48092323857f;
+    p = p * f - 0.72135278806f;
+    p = p * f + 1.442694962f;
+    return static_cast<float>(exponent) + p * f;
+}
+
+CANDELA_KERNEL_INLINE float exp(float x) { return exp2(1.44269504f * x); }
+CANDELA_KERNEL_INLINE float log(float x) { return 0.693147181f * log2(x); }
+/// x^y for x >= 0; x^0 is 1.
+CANDELA_KERNEL_INLINE float pow(float x, float y) { return exp2(y * log2(x)); }
+
+// Angles, in radians.
+
+CANDELA_KERNEL_INLINE constexpr float radians(float degrees) { return 0.0174532925f * degrees; }
+CANDELA_KERNEL_INLINE constexpr float degrees(float radians) { return 57.2957795f * radians; }
+
+/// Distance of x from the nearest multiple of pi, and whether that multiple is odd; for |x| up to a few thousand.
+struct ReducedAngle {
+    float rest;
+    float sign;
+};
+CANDELA_KERNEL_INLINE ReducedAngle reduce_by_pi(float x) {
+    const float n = round_to_even(0.318309886f * x);
+    const float rest = ((x - n * 3.140625f) - n * 9.67502593994e-4f) - n * 1.50995799e-7f;
+    const float odd = n - 2.0f * round_to_even(0.5f * n);  // -1, 0 or 1
+    return {rest, 1.0f - 2.0f * abs(odd)};
+}
+CANDELA_KERNEL_INLINE float sin(float x) {  // [4.3e-9]
+    const ReducedAngle r = reduce_by_pi(x);
+    const float z = r.rest * r.rest;
+    float p = 2.6052249168e-6f;
+    p = p * z - 0.00019809075306f;
+    p = p * z + 0.008333051064f;
+    p = p * z - 0.16666657992f;
+    p = p * z + 1.0f;
+    return r.sign * r.rest * p;
+}
+CANDELA_KERNEL_INLINE float cos(float x) {  // [2.4e-10]
+    const ReducedAngle r = reduce_by_pi(x);
+    const float z = r.rest * r.rest;
+    float p = -2.607710459e-7f;
+    p = p * z + 2.4761886226e-5f;
+    p = p * z - 0.0013888403508f;
+    p = p * z + 0.041666640728f;
+    p = p * z - 0.4999999955f;
+    return r.sign * (p * z + 1.0f);
+}
+CANDELA_KERNEL_INLINE float tan(float x) { return sin(x) / cos(x); }
+
+/// asin of t in [0, 1/2] [8.1e-8].
+CANDELA_KERNEL_INLINE float asin_of_small(float t) {
+    const float z = t * t;
+    float p = 0.050653528257f;
+    p = p * z + 0.039647069538f;
+    p = p * z + 0.075476364806f;
+    p = p * z + 0.16665105905f;
+    p = p * z + 1.0000000814f;
+    return t * p;
+}
+/// Arguments outside [-1, 1] count as its ends.
+CANDELA_KERNEL_INLINE float acos(float x) {
+    const float a = min(abs(x), 1.0f);
+    const bool large = a > 0.5f;
+    const float s = asin_of_small(large ? sqrt(0.5f * (1.0f - a)) : a);
+    const float of_a = large ? 2.0f * s : 1.57079633f - s;
+    return x < 0.0f ? 3.14159265f - of_a : of_a;
+}
+CANDELA_KERNEL_INLINE float asin(float x) {
+    const float a = min(abs(x), 1.0f);
+    const bool large = a > 0.5f;
+    const float s = asin_of_small(large ? sqrt(0.5f * (1.0f - a)) : a);
+    const float of_a = large ? 1.57079633f - 2.0f * s : s;
+    return x < 0.0f ? -of_a : of_a;
+}
+CANDELA_KERNEL_INLINE float atan(float x) {  // [8.9e-8]
+    const float a = abs(x);
+    const bool large = a > 1.0f;
+    const float t = large ? 1.0f / a : a;
+    const float z = t * t;
+    float p = -0.004780488272f;
+    p = p * z + 0.024557242061f;
+    p = p * z - 0.059904880312f;
+    p = p * z + 0.099427705145f;
+    p = p * z - 0.14029423813f;
+    p = p * z + 0.19971375855f;
+    p = p * z - 0.33332093564f;
+    p = p * z + 0.99999991142f;
+    const float of_a = large ? 1.57079633f - t * p : t * p;
+    return x < 0.0f ? -of_a : of_a;
+}
+CANDELA_KERNEL_INLINE float atan(float y, float x) {
+    const float of_quotient = atan(y / (x == 0.0f ? 1.0e-30f : x));
+    return of_quotient + (x < 0.0f ? (y < 0.0f ? -3.14159265f : 3.14159265f) : 0.0f);
+}
+
+// Vectors.
+
+CANDELA_KERNEL_INLINE constexpr float dot(vec2 a, vec2 b) { return a.x * b.x + a.y * b.y; }
+CANDELA_KERNEL_INLINE float length(vec2 a) { return sqrt(dot(a, a)); }
+
+CANDELA_KERNEL_INLINE constexpr float dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+CANDELA_KERNEL_INLINE constexpr vec3 cross(vec3 a, vec3 b) {
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+CANDELA_KERNEL_INLINE float length(vec3 a) { return sqrt(dot(a, a)); }
+CANDELA_KERNEL_INLINE float distance(vec3 a, vec3 b) { return length(a - b); }
+/// The unit vector along `a`. GLSL leaves the zero vector undefined; here it stays zero.
+CANDELA_KERNEL_INLINE vec3 normalize(vec3 a) { return a * inversesqrt(max(dot(a, a), 1.0e-36f)); }
+CANDELA_KERNEL_INLINE constexpr vec3 reflect(vec3 incident, vec3 normal) {
+    return incident - 2.0f * dot(normal, incident) * normal;
+}
+CANDELA_KERNEL_INLINE constexpr vec3 min(vec3 a, vec3 b) { return vec3(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)); }
+CANDELA_KERNEL_INLINE constexpr vec3 max(vec3 a, vec3 b) { return vec3(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)); }
+CANDELA_KERNEL_INLINE constexpr vec3 clamp(vec3 a, float low, float high) {
+    return vec3(clamp(a.x, low, high), clamp(a.y, low, high), clamp(a.z, low, high));
+}
+CANDELA_KERNEL_INLINE constexpr vec3 mix(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
+CANDELA_KERNEL_INLINE vec3 abs(vec3 a) { return vec3(abs(a.x), abs(a.y), abs(a.z)); }
+CANDELA_KERNEL_INLINE vec3 exp(vec3 a) { return vec3(exp(a.x), exp(a.y), exp(a.z)); }
+CANDELA_KERNEL_INLINE vec3 sqrt(vec3 a) { return vec3(sqrt(a.x), sqrt(a.y), sqrt(a.z)); }
+CANDELA_KERNEL_INLINE vec3 pow(vec3 a, vec3 b) { return vec3(pow(a.x, b.x), pow(a.y, b.y), pow(a.z, b.z)); }
+
+#include "candela/prelude.kernel"
+
+}  // namespace candela::kernel

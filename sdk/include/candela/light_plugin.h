@@ -1,0 +1,109 @@
+// A light from kernel functions:
+//
+//     Incident x_illuminate(XLight light, Receiver r)     what a light with one direction sends
+//     vec3 x_illuminate_ambient(XLight light, Receiver r) what an ambient light sends
+#pragma once
+
+#include "candela/multiversion.h"
+#include "candela/plugin.h"
+
+import candela.light;
+
+namespace candela::sdk {
+
+// The parameters that the shipped lights share.
+template <class P>
+constexpr Field<P> light_color(vec3 P::* member) {
+    return color(member, "color", vec3(255.0f), "colour of the light");
+}
+template <class P>
+constexpr Field<P> light_intensity(float P::* member, const char* meaning) {
+    return real(member, "intensity", 1, meaning).minimum(0);
+}
+
+/// The parameters of kernel function distance_attenuation().
+inline constexpr const char* k_attenuations[] = {"inverse-square", "offset-linear", "none"};
+template <class P>
+constexpr Field<P> attenuation(std::int32_t P::* member) {
+    return choice(member, "attenuation", k_attenuations, "how the light fades with distance r");
+}
+template <class P>
+constexpr Field<P> attenuation_offset(float P::* member) {
+    return real(member, "attenuation_offset", 0.01f, "k of offset-linear attenuation 1/(r + k)").minimum(0).unit("m");
+}
+
+CANDELA_KERNEL_INLINE kernel::Receiver receiver_at(const ReceiverBatch& batch, std::size_t i) {
+    return {kernel_vector(batch.position[i]), kernel_vector(batch.normal[i])};
+}
+
+CANDELA_KERNEL_INLINE void put(const Vec3Span& span, std::size_t i, vec3 v) {
+    span.x[i] = v.x;
+    span.y[i] = v.y;
+    span.z[i] = v.z;
+}
+
+template <class Params, auto illuminate>
+struct IlluminateLoop {
+    CANDELA_BATCH_LOOP static void run(Params light, ReceiverBatch receivers, IncidentBatch incident) {
+        const std::size_t count = receivers.count;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const kernel::Incident sent = call<illuminate>(light, receiver_at(receivers, i));
+            put(incident.to_light, i, sent.to_light);
+            put(incident.diffuse, i, sent.diffuse);
+            put(incident.specular, i, sent.specular);
+        }
+    }
+};
+
+template <class Params, auto illuminate_ambient>
+struct IlluminateAmbientLoop {
+    CANDELA_BATCH_LOOP static void run(Params light, ReceiverBatch receivers, Vec3Span ambient) {
+        const std::size_t count = receivers.count;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            put(ambient, i, call<illuminate_ambient>(light, receiver_at(receivers, i)));
+        }
+    }
+};
+
+template <class Params, auto illuminate_>
+class KernelLight final : public Light {
+  public:
+    explicit KernelLight(const Params& params) : params_(params) {}
+    int sample_count() const noexcept override { return 1; }
+    bool has_ambient() const noexcept override { return false; }
+    void illuminate(int, const ReceiverBatch& receivers, const IncidentBatch& incident) const override {
+        multiversion<IlluminateLoop<Params, illuminate_>>(params_, receivers, incident);
+    }
+
+  private:
+    Params params_;
+};
+
+template <class Params, auto illuminate_ambient_>
+class KernelAmbientLight final : public Light {
+  public:
+    explicit KernelAmbientLight(const Params& params) : params_(params) {}
+    int sample_count() const noexcept override { return 0; }
+    bool has_ambient() const noexcept override { return true; }
+    void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const override {
+        multiversion<IlluminateAmbientLoop<Params, illuminate_ambient_>>(params_, receivers, ambient);
+    }
+
+  private:
+    Params params_;
+};
+
+}  // namespace candela::sdk
+
+/// A plugin from the kernel function `prefix_illuminate`; `Params` is its first argument.
+#define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                                     \
+    CANDELA_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), fields, \
+                   __VA_ARGS__)
+
+/// A plugin from the kernel function `prefix_illuminate_ambient`; `Params` is its first argument.
+#define CANDELA_AMBIENT_LIGHT_PLUGIN(prefix, Params, fields, ...)                                             \
+    CANDELA_PLUGIN(                                                                                           \
+        light, (candela::sdk::KernelAmbientLight<Params, &candela::kernel::prefix##_illuminate_ambient>),     \
+        fields, __VA_ARGS__)

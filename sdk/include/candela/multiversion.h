@@ -1,0 +1,58 @@
+// One batch loop, compiled for every instruction set and chosen when it is called.
+//
+//     struct AddLoop {
+//         CANDELA_BATCH_LOOP static void run(std::size_t count, const float* a, float* sum) {
+//             CANDELA_VECTORIZE
+//             for (std::size_t i = 0; i < count; ++i) sum[i] += a[i];
+//         }
+//     };
+//     candela::multiversion<AddLoop>(count, a, sum);
+//
+// Everything the loop calls must be inlined into it, or it is neither vectorised nor compiled for the wider set;
+// clang warns where a CANDELA_VECTORIZE loop stayed scalar.
+#pragma once
+
+#include "candela/api.h"
+
+#define CANDELA_BATCH_LOOP [[gnu::always_inline]]
+
+#if defined(__clang__)
+#define CANDELA_VECTORIZE _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define CANDELA_VECTORIZE _Pragma("GCC ivdep")
+#endif
+
+namespace candela {
+
+/// candela::instruction_set() as a number, for headers, which cannot import: 0 baseline, 1 AVX2, 2 AVX-512.
+CANDELA_API int instruction_set_level() noexcept;
+
+template <class Loop, class... Arguments>
+struct Multiversion {
+    static void baseline(const Arguments&... arguments) { Loop::run(arguments...); }
+#if defined(__x86_64__)
+    __attribute__((target("arch=x86-64-v3"))) static void avx2(const Arguments&... arguments) {
+        Loop::run(arguments...);
+    }
+    __attribute__((target("arch=x86-64-v4"))) static void avx512(const Arguments&... arguments) {
+        Loop::run(arguments...);
+    }
+#endif
+};
+
+/// Runs `Loop::run(arguments...)` with the instruction set in use. Arguments are taken by const reference, so a loop
+/// copies what it reads into locals or takes them by value: then the compiler knows that its stores do not change them.
+template <class Loop, class... Arguments>
+inline void multiversion(const Arguments&... arguments) {
+    using Versions = Multiversion<Loop, Arguments...>;
+#if defined(__x86_64__)
+    switch (instruction_set_level()) {
+        case 2: return Versions::avx512(arguments...);
+        case 1: return Versions::avx2(arguments...);
+        default: break;
+    }
+#endif
+    Versions::baseline(arguments...);
+}
+
+}  // namespace candela

@@ -1,0 +1,204 @@
+// What every plugin needs: its parameters, tied to the members of a struct, and its two exported functions.
+//
+// A plugin's source includes the header of its kind (light_plugin.h, reflection_plugin.h, shading_plugin.h,
+// shape_plugin.h, image_plugin.h), which includes this one, and ends with that header's macro.
+// CANDELA_PLUGIN_NAME and CANDELA_PLUGIN_VERSION come from candela_add_plugin().
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <type_traits>
+
+#include "candela/abi.h"
+#include "candela/kernel.h"
+
+import candela.descriptor;
+import candela.math;
+
+namespace candela::sdk {
+
+/// The text of the plugin's .kernel file, or null; the build defines it.
+extern const char* const k_kernel_text;
+
+using kernel::vec2;
+using kernel::vec3;
+
+CANDELA_KERNEL_INLINE vec3 kernel_vector(Vec3 v) { return vec3(v.x, v.y, v.z); }
+CANDELA_KERNEL_INLINE vec3 kernel_vector(Rgb c) { return vec3(c.r, c.g, c.b); }
+
+/// A parameter and the member of `Params` that receives it.
+template <class Params>
+struct Field {
+    ParamSpec spec;
+    float Params::* real = nullptr;
+    std::int32_t Params::* integer = nullptr;
+    vec3 Params::* vector = nullptr;
+    const char* Params::* text = nullptr;
+
+    void store(Params& params, const ParamValue& value) const {
+        if (real != nullptr) params.*real = value.number[0];
+        if (integer != nullptr) params.*integer = value.integer;
+        if (vector != nullptr) params.*vector = vec3(value.number[0], value.number[1], value.number[2]);
+        if (text != nullptr) params.*text = value.text;
+    }
+
+    // The rest of the declaration, after the kind of value: real(...).at_least(0).unit("m").
+
+    constexpr Field minimum(float low) const { return with([&](ParamSpec& s) { s.minimum = low; }); }
+    constexpr Field maximum(float high) const { return with([&](ParamSpec& s) { s.maximum = high; }); }
+    constexpr Field range(float low, float high) const { return minimum(low).maximum(high); }
+    constexpr Field above(float low) const {
+        return with([&](ParamSpec& s) { s.minimum = low, s.minimum_excluded = true; });
+    }
+    constexpr Field below(float high) const {
+        return with([&](ParamSpec& s) { s.maximum = high, s.maximum_excluded = true; });
+    }
+    constexpr Field unit(const char* name) const { return with([&](ParamSpec& s) { s.unit = name; }); }
+    constexpr Field required() const { return with([&](ParamSpec& s) { s.required = true; }); }
+
+  private:
+    template <class Change>
+    constexpr Field with(Change change) const {
+        Field result = *this;
+        change(result.spec);
+        return result;
+    }
+};
+
+// Declarations. `meaning` is one sentence; a default is written as a person writes it in a scene: degrees, colours 0-255.
+
+template <class P>
+constexpr Field<P> real(float P::* member, const char* name, float fallback, const char* meaning) {
+    return {.spec = {.name = name, .type = ParamType::real, .meaning = meaning, .fallback = {{fallback}}},
+            .real = member};
+}
+/// In degrees for the scene, in radians for the plugin.
+template <class P>
+constexpr Field<P> angle(float P::* member, const char* name, float fallback, const char* meaning) {
+    return real(member, name, fallback, meaning).unit("deg");
+}
+template <class P>
+constexpr Field<P> integer(std::int32_t P::* member, const char* name, std::int32_t fallback, const char* meaning) {
+    return {.spec = {.name = name, .type = ParamType::integer, .meaning = meaning, .fallback = {.integer = fallback}},
+            .integer = member};
+}
+/// One of `words`; the member receives its index, the default is the first.
+template <class P>
+constexpr Field<P> choice(std::int32_t P::* member, const char* name, std::span<const char* const> words,
+                          const char* meaning) {
+    return {.spec = {.name = name, .type = ParamType::choice, .meaning = meaning, .choices = words}, .integer = member};
+}
+template <class P>
+constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool fallback, const char* meaning) {
+    return {.spec = {.name = name,
+                     .type = ParamType::boolean,
+                     .meaning = meaning,
+                     .fallback = {.integer = fallback ? 1 : 0}},
+            .integer = member};
+}
+template <class P>
+constexpr Field<P> three(vec3 P::* member, ParamType type, const char* name, vec3 fallback, const char* meaning) {
+    return {.spec = {.name = name,
+                     .type = type,
+                     .meaning = meaning,
+                     .fallback = {{fallback.x, fallback.y, fallback.z}}},
+            .vector = member};
+}
+template <class P>
+constexpr Field<P> color(vec3 P::* member, const char* name, vec3 fallback, const char* meaning) {
+    return three(member, ParamType::color, name, fallback, meaning);
+}
+template <class P>
+constexpr Field<P> point(vec3 P::* member, const char* name, const char* meaning) {
+    return three(member, ParamType::point, name, vec3(0.0f), meaning).required().unit("m");
+}
+template <class P>
+constexpr Field<P> direction(vec3 P::* member, const char* name, const char* meaning) {
+    return three(member, ParamType::direction, name, vec3(0.0f), meaning).required();
+}
+/// A number, or one per channel, 0 to 1.
+template <class P>
+constexpr Field<P> coefficient(vec3 P::* member, const char* name, float fallback, const char* meaning) {
+    return three(member, ParamType::triple, name, vec3(fallback), meaning).range(0, 1);
+}
+template <class P>
+constexpr Field<P> file(const char* P::* member, const char* name, const char* meaning) {
+    return {.spec = {.name = name, .type = ParamType::file, .meaning = meaning, .required = true}, .text = member};
+}
+
+template <class Params, std::size_t count>
+Params params_from(const std::array<Field<Params>, count>& fields, std::span<const ParamValue> values) {
+    Params params{};
+    for (std::size_t i = 0; i < count; ++i) fields[i].store(params, values[i]);
+    return params;
+}
+
+/// What a plugin says of itself beyond its parameters.
+struct About {
+    const char* title = "";
+    const char* summary = "";
+    const char* formula = "";
+    const char* reference = "";
+    std::span<const RelationSpec> relations{};
+    std::span<const Property> properties{};
+    std::span<const FileFormat> formats{};
+};
+
+/// The `Params` of a plugin without parameters.
+struct NoParams {};
+inline constexpr std::array<Field<NoParams>, 0> k_no_fields{};
+
+template <std::size_t count, class Params>
+constexpr std::array<ParamSpec, count> specs_of(const std::array<Field<Params>, count>& fields) {
+    std::array<ParamSpec, count> specs{};
+    for (std::size_t i = 0; i < count; ++i) specs[i] = fields[i].spec;
+    return specs;
+}
+
+template <class... Fields>
+constexpr auto fields(Fields... all) {
+    return std::array<std::common_type_t<Fields...>, sizeof...(Fields)>{all...};
+}
+
+/// Calls a kernel function with the parameters first, or without them where it takes none.
+template <auto function, class Params, class... Arguments>
+CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
+    if constexpr (std::is_invocable_v<decltype(function), Params, Arguments...>) {
+        return function(params, arguments...);
+    } else {
+        return function(arguments...);
+    }
+}
+
+}  // namespace candela::sdk
+
+/// Exports a plugin of `kind` whose instances are made by `new Model(params)`, `params` filled through `fields_`, an
+/// array of candela::sdk::Field. The rest is a candela::sdk::About.
+#define CANDELA_PLUGIN(kind_, Model, fields_, ...)                                                            \
+    extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }                        \
+    extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {                  \
+        static constexpr auto specs = candela::sdk::specs_of(fields_);                                        \
+        static const candela::sdk::About about = __VA_ARGS__;                                                 \
+        static const candela::PluginDescriptor descriptor{                                                    \
+            .kind = candela::PluginKind::kind_,                                                               \
+            .name = CANDELA_PLUGIN_NAME,                                                                      \
+            .version = CANDELA_PLUGIN_VERSION,                                                                \
+            .title = about.title,                                                                             \
+            .summary = about.summary,                                                                         \
+            .formula = about.formula,                                                                         \
+            .reference = about.reference,                                                                     \
+            .parameters = specs,                                                                              \
+            .relations = about.relations,                                                                     \
+            .properties = about.properties,                                                                   \
+            .formats = about.formats,                                                                         \
+            .kernel = candela::sdk::k_kernel_text,                                                            \
+            .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* {                 \
+                return new Model(candela::sdk::params_from(fields_, values));                      \
+            }};                                                                                               \
+        return &descriptor;                                                                                   \
+    }
+
+#define CANDELA_EXPORT __attribute__((visibility("default")))
