@@ -138,7 +138,9 @@ std::string expectation(const Parameter& p) {
     const std::string tail = range.empty() ? "" : ", " + range;
     switch (p.type) {
         case ParamType::real: return "a number" + tail;
-        case ParamType::integer: return "a whole number" + tail;
+        case ParamType::integer:
+            if (!p.choices.empty()) return fmt::format("one of {}", fmt::join(p.choices, ", "));
+            return "a whole number" + tail;
         case ParamType::boolean: return "true or false";
         case ParamType::choice: return fmt::format("one of '{}'", fmt::join(p.choices, "', '"));
         case ParamType::text: return "a text in quotes";
@@ -147,7 +149,7 @@ std::string expectation(const Parameter& p) {
         case ParamType::point: return "three numbers, a place in metres";
         case ParamType::direction: return "three numbers, not all zero";
         case ParamType::color: return "three whole numbers 0-255";
-        case ParamType::triple: return "a number, or three, one per channel" + tail;
+        case ParamType::triple: return "a number, or three of them" + tail;
     }
     return "a value";
 }
@@ -160,8 +162,11 @@ std::optional<std::string> complaint(const Parameter& p, const Value& value) {
         }
         return std::nullopt;
     }
-    const std::vector<double> numbers = numbers_of(value);
-    for (const double x : numbers) {
+    if (p.type == ParamType::integer && !p.choices.empty() &&
+        std::find(p.choices.begin(), p.choices.end(), text_of(value)) == p.choices.end()) {
+        return fmt::format("{} is not one of {}", text_of(value), fmt::join(p.choices, ", "));
+    }
+    for (const double x : numbers_of(value)) {
         if (std::isnan(x)) return "nan is not a number that can be used";
         if (!std::isfinite(x) || std::abs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
             return fmt::format("{} is too large (at most {:.3g})", x, std::numeric_limits<float>::max());

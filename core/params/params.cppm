@@ -58,7 +58,7 @@ struct ParamSpec {
     float maximum = k_no_maximum;
     bool minimum_excluded = false;
     bool maximum_excluded = false;
-    std::span<const char* const> choices{};
+    std::span<const char* const> choices{};  // of a choice; of an integer, where only some are allowed
 };
 
 enum class RelationType : int { less, less_or_equal, sum_at_most_one };

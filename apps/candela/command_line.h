@@ -1,0 +1,48 @@
+// The parts of a command line that several verbs share.
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <string>
+#include <vector>
+
+import candela.core;
+
+/// A verb's options, its positional arguments and its help. Throws candela::Error (usage) with a suggestion for what it does
+/// not know.
+class CommandLine {
+  public:
+    /// `usage`: "candela render [SCENE...] [options]".
+    CommandLine(std::string usage, std::string explanation);
+
+    /// To add the verb's own options to.
+    boost::program_options::options_description_easy_init options() { return visible_.add_options(); }
+    /// Takes all arguments that are no options.
+    void positional(const std::string& name, int how_many);
+
+    /// False where help was asked for (and printed): the verb is done.
+    bool parse(const std::vector<std::string>& arguments);
+
+    bool has(const std::string& name) const { return values_.count(name) > 0; }
+    template <class T>
+    T get(const std::string& name) const {
+        return values_[name].as<T>();
+    }
+    /// All values of a repeated option; none where it was not given.
+    std::vector<std::string> all(const std::string& name) const;
+
+  private:
+    std::string usage_;
+    std::string explanation_;
+    boost::program_options::options_description visible_{"Options"};
+    boost::program_options::options_description hidden_;
+    boost::program_options::positional_options_description positional_;
+    boost::program_options::variables_map values_;
+};
+
+/// Adds --plugin-dir.
+void add_plugin_options(CommandLine& line);
+candela::Registry registry_from(const CommandLine& line);
+
+/// Adds what says how a scene is read: SCENE..., --shading, --set and so on.
+void add_scene_options(CommandLine& line);
+candela::SceneRequest scene_request_from(const CommandLine& line);

@@ -1,0 +1,62 @@
+// candela list: the installed plugins.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+#include <optional>
+
+#include "command_line.h"
+#include "terminal.h"
+#include "verbs.h"
+
+using candela::Error;
+using candela::ExitCode;
+
+namespace {
+
+/// "light", and also "lights".
+candela::PluginKind kind_from(std::string name) {
+    std::vector<std::string> names;
+    for (const candela::PluginKind kind : candela::k_plugin_kinds) {
+        const std::string singular(candela::name_of(kind));
+        if (name == singular || name == singular + "s") return kind;
+        names.push_back(singular);
+    }
+    const auto near = candela::closest(name, names);
+    throw Error(ExitCode::usage, fmt::format("'{}' is no kind of plugin; {}(kinds: {})", name,
+                                             near ? fmt::format("did you mean '{}'? ", *near) : "", fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+int run_list(const std::vector<std::string>& arguments) {
+    CommandLine line("candela list [KIND] [options]",
+                     "Lists the installed plugins; of one kind (light, reflection, shading, shape, image) if it is named.");
+    line.positional("kind", 1);
+    line.options()("json", "all that the plugins say about themselves, as JSON");
+    add_plugin_options(line);
+    if (!line.parse(arguments)) return 0;
+
+    std::optional<candela::PluginKind> wanted;
+    if (line.has("kind")) wanted = kind_from(line.all("kind").front());
+    candela::Registry registry = registry_from(line);
+    std::vector<candela::Manifest> manifests;
+    for (const candela::PluginFile* file : registry.list()) {
+        if (!wanted || file->manifest.kind == *wanted) manifests.push_back(file->manifest);
+    }
+    for (const candela::Refusal& refusal : registry.refusals()) {
+        std::cerr << "candela: warning: " << refusal.reason << '\n';
+    }
+    if (line.has("json")) {
+        std::cout << candela::to_json(manifests);
+        return 0;
+    }
+    std::optional<candela::PluginKind> heading;
+    for (const candela::Manifest& manifest : manifests) {
+        if (heading != manifest.kind) std::cout << fmt::format("{}{}\n", heading ? "\n" : "", candela::name_of(manifest.kind));
+        heading = manifest.kind;
+        std::cout << fmt::format("  {:<14} {}\n", manifest.name, manifest.summary);
+    }
+    if (manifests.empty()) std::cerr << "candela: no plugins found\n";
+    return 0;
+}

@@ -1,0 +1,104 @@
+// candela VERB …: composes lights, shapes, shading and reflection models by name.
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "terminal.h"
+#include "verbs.h"
+
+import candela.core;
+
+namespace {
+
+using candela::Error;
+using candela::ExitCode;
+
+constexpr std::array k_verbs = {
+    Verb{"render", "render a scene to a picture", run_render},
+    Verb{"check", "read a scene and say what is wrong with it", run_check},
+    Verb{"list", "list the installed plugins", run_list},
+    Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
+};
+
+std::string help() {
+    std::string text =
+        "Candela renders scenes with lights, shading models and reflection models that are plugins.\n\n"
+        "Usage: candela VERB [arguments]\n\nVerbs\n";
+    for (const Verb& verb : k_verbs) text += fmt::format("  {:<10} {}\n", verb.name, verb.summary);
+    text +=
+        "\n  candela VERB --help   the arguments of a verb\n"
+        "  candela --version     the version\n\n"
+        "Try: candela render            the default scene, to candela.png\n";
+    return text;
+}
+
+/// CANDELA_INSTRUCTION_SET=baseline|avx2|avx512: for measurements and for finding faults.
+void choose_instruction_set() {
+    const char* const name = std::getenv("CANDELA_INSTRUCTION_SET");
+    if (name == nullptr || *name == '\0') return;
+    const auto set = candela::instruction_set_named(name);
+    if (!set) {
+        throw Error(ExitCode::usage,
+                    fmt::format("CANDELA_INSTRUCTION_SET is '{}'; it can be baseline, avx2 or avx512", name));
+    }
+    if (!candela::use_instruction_set(*set)) {
+        throw Error(ExitCode::usage, fmt::format("CANDELA_INSTRUCTION_SET is '{}', which this processor does not have", name));
+    }
+}
+
+int run(const std::vector<std::string>& arguments) {
+    if (arguments.empty()) {
+        std::cerr << help();
+        return static_cast<int>(ExitCode::usage);
+    }
+    const std::string& name = arguments.front();
+    if (name == "--version" || name == "version") {
+        std::cout << "candela " CANDELA_VERSION << "\n";
+        return 0;
+    }
+    std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+    if (name == "--help" || name == "-h" || (name == "help" && rest.empty())) {
+        std::cout << help();
+        return 0;
+    }
+    if (name == "help") return run({rest.front(), "--help"});
+    choose_instruction_set();
+    std::vector<std::string> names;
+    for (const Verb& verb : k_verbs) {
+        if (verb.name == name) return verb.run(rest);
+        names.emplace_back(verb.name);
+    }
+    const auto near = candela::closest(name, names);
+    throw Error(ExitCode::usage, fmt::format("unknown verb '{}'; {}", name,
+                                             near ? fmt::format("did you mean '{}'?", *near) : "candela --help shows all"));
+}
+
+int fail(ExitCode code, const std::string& message) {
+    std::cerr << (stderr_takes_color() ? "\x1b[1;31mcandela: error:\x1b[0m " : "candela: error: ") << message << '\n';
+    return static_cast<int>(code);
+}
+
+}  // namespace
+
+std::span<const Verb> verbs() { return k_verbs; }
+
+int main(int argc, char** argv) {
+    try {
+        const int code = run({argv + 1, argv + argc});
+        std::cout.flush();
+        if (!std::cout) return fail(ExitCode::failure, "standard output cannot be written");
+        return code;
+    } catch (const Error& problem) {
+        return fail(problem.code(), problem.what());
+    } catch (const std::bad_alloc&) {
+        return fail(ExitCode::failure, "not enough memory");
+    } catch (const std::exception& problem) {
+        return fail(ExitCode::failure, problem.what());
+    }
+}

@@ -1,0 +1,94 @@
+// candela render: a scene becomes a picture.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+#include <string>
+
+#include "command_line.h"
+#include "terminal.h"
+#include "verbs.h"
+
+namespace po = boost::program_options;
+using candela::Error;
+using candela::ExitCode;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+int threads_from(const CommandLine& line) {
+    if (!line.has("threads")) return 0;
+    const int threads = line.get<int>("threads");
+    if (threads < 1 || threads > 1024) {
+        throw Error(ExitCode::usage, fmt::format("--threads is {}; it can be 1 to 1024", threads));
+    }
+    return threads;
+}
+
+/// Prints what was found since the last time.
+void report(const candela::Diagnostics& diagnostics) { std::cerr << diagnostics.text(stderr_takes_color()); }
+
+}  // namespace
+
+int run_render(const std::vector<std::string>& arguments) {
+    CommandLine line("candela render [SCENE...] [options]",
+                     "Renders a scene, or several files that together are one, to a picture. Without a scene: the default\n"
+                     "scene, one cube and one point light. The format follows the extension of the picture's name.");
+    line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("candela.png"),
+                   "the picture; - writes a PNG to standard output");
+    add_scene_options(line);
+    line.options()("threads", po::value<int>()->value_name("N"), "processors to use; all, unless said")(
+        "verbose", "say how long each stage took");
+    if (!line.parse(arguments)) return 0;
+
+    const auto begin = Clock::now();
+    const std::string output = line.get<std::string>("output");
+    if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
+        throw Error(ExitCode::usage, "-o - would print a PNG on this terminal; send it to a file or a pipe");
+    }
+    const int threads = threads_from(line);
+    candela::Registry registry = registry_from(line);
+    const candela::PictureFormat format = candela::format_of(output, registry);
+
+    candela::Diagnostics diagnostics;
+    const auto scene = candela::read_scene(scene_request_from(line), registry, diagnostics);
+    report(diagnostics);
+    if (!scene) return static_cast<int>(ExitCode::invalid_scene);
+    const double read_ms = milliseconds_since(begin);
+
+    const auto compile_begin = Clock::now();
+    candela::Diagnostics about_meshes;
+    const candela::CompiledScene compiled = candela::compile(*scene, registry, about_meshes);
+    report(about_meshes);
+    const double compile_ms = milliseconds_since(compile_begin);
+
+    candela::Film film(scene->image.width, scene->image.height, format.pixels, scene->image.color_management);
+    candela::RenderStatistics statistics;
+    {
+        ProgressBar bar("rendering");
+        const candela::RenderOptions options{
+            .threads = threads, .progress = [&](std::size_t done, std::size_t all) { bar.update(done, all); }};
+        statistics = candela::render(compiled, film, options);
+    }
+    const auto write_begin = Clock::now();
+    candela::write_picture(film, format, output, registry);
+    const double write_ms = milliseconds_since(write_begin);
+
+    if (line.has("verbose")) {
+        std::cerr << fmt::format(
+            "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      {:8.2f} ms  ({} points lit, {})\n"
+            "  writing    {:8.2f} ms\n",
+            read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles, statistics.points_lit,
+            candela::name_of(candela::instruction_set()), write_ms);
+    }
+    std::cerr << fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {:.3g} ms\n", output == "-" ? "picture" : output,
+                             film.width(), film.height(), statistics.triangles, statistics.triangles == 1 ? "" : "s",
+                             statistics.pixels_shaded, milliseconds_since(begin));
+    return 0;
+}

@@ -1,0 +1,41 @@
+// Talking to a person: colour, questions and progress, on a terminal only.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <thread>
+
+/// Whether stderr may be coloured: it is a terminal, and NO_COLOR is not set.
+bool stderr_takes_color();
+
+/// Whether there is somebody to ask: both stdin and stderr are terminals.
+bool can_ask();
+
+/// Asks on stderr; yes is the default, the end of input is no.
+bool ask(const std::string& question);
+
+/// A bar on stderr for work that takes longer than half a second, if stderr is a terminal.
+class ProgressBar {
+  public:
+    explicit ProgressBar(std::string label);
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    ~ProgressBar();
+
+    /// Any thread.
+    void update(std::size_t done, std::size_t all);
+
+  private:
+    void draw();
+
+    std::string label_;
+    std::atomic<std::size_t> done_{0}, all_{0};
+    std::mutex mutex_;
+    std::condition_variable end_;
+    bool ended_ = false;
+    bool drawn_ = false;
+    std::thread thread_;
+};

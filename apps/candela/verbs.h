@@ -1,0 +1,19 @@
+// What the command can do: one file a verb.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+struct Verb {
+    const char* name;
+    const char* summary;
+    int (*run)(const std::vector<std::string>& arguments);
+};
+
+int run_render(const std::vector<std::string>& arguments);
+int run_check(const std::vector<std::string>& arguments);
+int run_list(const std::vector<std::string>& arguments);
+int run_describe(const std::vector<std::string>& arguments);
+
+std::span<const Verb> verbs();

@@ -1,0 +1,58 @@
+// The picture while it is made, and its way into a file.
+module;
+
+#include "candela/api.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+export module candela.film;
+
+import candela.image;
+import candela.math;
+import candela.params;
+import candela.plugins;
+
+export namespace candela {
+
+/// Pixels as their file format wants them: 8-bit, clamped and encoded, or 32-bit float, as computed.
+class CANDELA_API Film {
+  public:
+    Film(int width, int height, PixelType pixels, ColorEncoding encoding);
+
+    int width() const noexcept { return width_; }
+    int height() const noexcept { return height_; }
+
+    /// Stores a rectangle of intensities, rows `stride` apart. Different threads may store different pixels at once.
+    void store(int x, int y, int width, int height, ConstVec3Span intensity, int stride);
+
+    PictureView view() const noexcept;
+
+  private:
+    int width_;
+    int height_;
+    PixelType pixels_;
+    ColorEncoding encoding_;
+    std::vector<std::uint8_t> bytes_;
+    std::vector<float> reals_;
+};
+
+/// Which plugin writes a picture, and how it wants its pixels.
+struct PictureFormat {
+    std::string plugin;
+    std::string extension;
+    PixelType pixels = PixelType::byte;
+};
+
+/// The format of a path, by its extension; "-", standard output, is PNG. Throws Error for an extension that nobody writes.
+CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
+
+/// Writes the picture beside its place and renames it, so that nobody ever finds half a file; "-" and what is no ordinary
+/// file is written to directly. Throws Error.
+CANDELA_API void write_picture(const Film& film, const PictureFormat& format, const std::filesystem::path& path,
+                               Registry& registry);
+
+}  // namespace candela

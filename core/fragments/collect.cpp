@@ -1,0 +1,98 @@
+// From the samples of a tile to fragments.
+module;
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+module candela.fragments;
+
+namespace candela {
+
+void FragmentList::clear() {
+    triangle.clear();
+    x.clear();
+    y.clear();
+    pixel.clear();
+    weight.clear();
+}
+
+void FragmentList::add(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, float share) {
+    triangle.push_back(triangle_index);
+    x.push_back(at_x);
+    y.push_back(at_y);
+    pixel.push_back(at_pixel);
+    weight.push_back(share);
+}
+
+FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t triangle) {
+    const auto& first = scene.first_triangle;
+    const auto holds = [&](std::size_t object) { return first[object] <= triangle && triangle < first[object + 1]; };
+    if (last_ < used_ && holds(lists_[last_].object)) return lists_[last_];
+    for (last_ = 0; last_ < used_; ++last_) {
+        if (holds(lists_[last_].object)) return lists_[last_];
+    }
+    if (used_ == lists_.size()) lists_.emplace_back();
+    FragmentList& list = lists_[used_++];
+    list.clear();
+    list.object = static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), triangle) - first.begin() - 1);
+    return list;
+}
+
+void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& visibility,
+                            std::vector<float>& background_weight) {
+    used_ = 0;
+    last_ = 0;
+    background_weight.assign(visibility.plane(), 0.0f);
+    const int samples = visibility.samples;
+    const float share = 1 / static_cast<float>(samples);
+    const std::span<const SamplePosition> pattern = sample_pattern(samples);
+
+    for (int row = 0; row < visibility.height; ++row) {
+        for (int column = 0; column < visibility.width; ++column) {
+            const auto pixel = static_cast<std::uint32_t>(row * visibility.stride + column);
+            const float left = static_cast<float>(visibility.x0 + column);
+            const float top = static_cast<float>(visibility.y0 + row);
+            // The triangles that the pixel's samples see, in the order of the samples.
+            struct Seen {
+                std::uint32_t triangle;
+                int count, x, y;  // samples, and the sum of their positions in sixteenths
+            };
+            std::array<Seen, 16> seen;
+            std::size_t kinds = 0;
+            for (int s = 0; s < samples; ++s) {
+                const std::uint32_t triangle = visibility.at(s, column, row);
+                const auto [x, y] = pattern[static_cast<std::size_t>(s)];
+                std::size_t k = 0;
+                while (k < kinds && seen[k].triangle != triangle) ++k;
+                if (k == kinds) seen[kinds++] = {triangle, 0, 0, 0};
+                ++seen[k].count;
+                seen[k].x += x;
+                seen[k].y += y;
+            }
+            for (std::size_t k = 0; k < kinds; ++k) {
+                const Seen& s = seen[k];
+                const float weight = static_cast<float>(s.count) * share;
+                if (s.triangle == k_no_triangle) {
+                    background_weight[pixel] = weight;
+                    continue;
+                }
+                // In the pixel's middle; where the triangle covers only part of the pixel, in the middle of that part.
+                const bool is_whole = s.count == samples;
+                const float sixteenths = 16 * static_cast<float>(s.count);
+                const float x = is_whole ? 0.5f : static_cast<float>(s.x) / sixteenths;
+                const float y = is_whole ? 0.5f : static_cast<float>(s.y) / sixteenths;
+                FragmentList& list = list_of(scene, s.triangle);
+                list.add(s.triangle - scene.first_triangle[list.object], left + x, top + y, pixel, weight);
+            }
+        }
+    }
+    std::sort(lists_.begin(), lists_.begin() + static_cast<std::ptrdiff_t>(used_),
+              [](const FragmentList& a, const FragmentList& b) { return a.object < b.object; });
+}
+
+}  // namespace candela

@@ -1,0 +1,56 @@
+// The triangles of one object: what a shape plugin gave, placed in the world.
+module;
+
+#include "candela/api.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+export module candela.mesh;
+
+import candela.math;
+import candela.shading;
+import candela.shape;
+
+export namespace candela {
+
+/// Three arrays of their own memory.
+struct Vec3Arrays {
+    std::vector<float> x, y, z;
+
+    inline void resize(std::size_t count) {
+        x.resize(count);
+        y.resize(count);
+        z.resize(count);
+    }
+    inline std::size_t size() const { return x.size(); }
+    inline bool empty() const { return x.empty(); }
+    inline Vec3Span span() { return {x.data(), y.data(), z.data()}; }
+    inline ConstVec3Span span() const { return {x.data(), y.data(), z.data()}; }
+};
+
+/// Triangles in world space. Vertices are shared; corners of a triangle run counter-clockwise seen from outside.
+struct Mesh {
+    Vec3Arrays position;
+    std::vector<std::uint32_t> corners;
+    Vec3Arrays face_normal;    // a triangle each, unit; zero where it has no area
+    Vec3Arrays vertex_normal;  // a vertex each, unit
+    std::vector<float> u, v;   // a vertex each, or empty
+    Vec3Arrays dpdu, dpdv;     // a vertex each, or empty
+    bool closed = false;       // else it is seen from both sides
+    std::size_t open_edges = 0;
+
+    inline std::size_t vertex_count() const { return position.size(); }
+    inline std::size_t triangle_count() const { return corners.size() / 3; }
+};
+
+/// Tessellates `shape`, places it, and gives it the vertex normals of `shading`.
+/// Throws std::exception: what the shape throws; std::invalid_argument for a mesh without triangles, with a corner that is
+/// no vertex, or with a position that is no finite number.
+CANDELA_API Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Placement& placement,
+                            const ShadingModel& shading);
+
+}  // namespace candela

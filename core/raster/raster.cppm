@@ -1,0 +1,100 @@
+// Visibility: which triangle each sample of the picture sees.
+//
+// Triangles are projected once a frame, sorted into tiles of the picture, and rasterised tile by tile. The results depend on
+// neither the number of threads nor the size of the tiles.
+module;
+
+#include "candela/api.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+export module candela.raster;
+
+import candela.math;
+import candela.mesh;
+
+export namespace candela {
+
+/// What the observer sees. Pixel (0, 0) is top left; the centre of pixel (x, y) is at (x + 1/2, y + 1/2).
+struct CANDELA_API Camera {
+    Vec3 eye;
+    Vec3 right, up, forward;  // orthonormal
+    Projection projection = Projection::perspective;
+    float pixels_per_unit = 1;  // perspective: at distance one; orthographic: a metre
+    int width = 1;
+    int height = 1;
+
+    /// `size`: perspective, the full vertical angle in degrees; orthographic, metres that fit the picture's height.
+    static Camera looking(Vec3 eye, Vec3 look_at, Vec3 up, Projection projection, float size, int width, int height);
+};
+
+inline constexpr std::uint32_t k_no_triangle = 0xffff'ffffu;
+
+/// Sub-pixel positions of the samples, in sixteenths of a pixel from its top left.
+struct SamplePosition {
+    std::uint8_t x, y;
+};
+/// For 1, 4, 8 or 16 samples a pixel: the centre, or the patterns of the D3D 11 specification.
+CANDELA_API std::span<const SamplePosition> sample_pattern(int samples) noexcept;
+
+/// A triangle, or a piece of a clipped one, in fixed-point pixels; wound so that its area is positive with y down.
+struct RasterTriangle {
+    std::int32_t x[3];
+    std::int32_t y[3];
+    float closeness[3];  // linear on the screen; larger is nearer
+    std::uint32_t id;
+};
+
+/// The triangles of one stretch of the scene, by tile.
+struct TriangleBin {
+    std::vector<RasterTriangle> triangles;
+    int first_column = 0, columns = 0, first_row = 0, rows = 0;  // tiles that the stretch touches
+    std::vector<std::uint32_t> start;  // of each tile's list in `entries`; one more than tiles
+    std::vector<std::uint32_t> entries;
+};
+
+/// A scene as the camera sees it: the same for all tiles. Immutable once made.
+struct ProjectedScene {
+    Camera camera;
+    int tile_size = 64;
+    int subpixel_bits = 8;
+    int tile_columns = 0, tile_rows = 0;
+
+    // Per vertex, all meshes in turn: its pixel position times w, and its distance along the view. In perspective w is that
+    // distance, in an orthographic view it is 1.
+    std::vector<float> x, y, distance;
+    std::vector<std::uint32_t> first_vertex;    // of each mesh
+    std::vector<std::uint32_t> first_triangle;  // of each mesh, and the total
+
+    std::vector<TriangleBin> bins;
+
+    inline int tile_count() const { return tile_columns * tile_rows; }
+};
+
+/// Tiles are squares of `tile_size` pixels, a multiple of 16. Triangles are numbered through all meshes. Throws
+/// std::length_error where there are more than 2^32 - 2 triangles or vertices.
+CANDELA_API ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size);
+
+/// What one tile sees. Reused from tile to tile.
+struct TileVisibility {
+    int x0 = 0, y0 = 0;          // its top left pixel
+    int width = 0, height = 0;   // the pixels of it that lie in the picture
+    int stride = 0;              // of a row, a multiple of 16
+    int samples = 1;
+    std::vector<std::uint32_t> triangle;  // sample by sample, row by row; k_no_triangle: background
+    std::vector<float> closeness;
+
+    inline std::size_t plane() const { return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride); }
+    inline std::uint32_t at(int sample, int px, int py) const {
+        return triangle[static_cast<std::size_t>(sample) * plane() + static_cast<std::size_t>(py * stride + px)];
+    }
+};
+
+/// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle of each sample, of equally near ones the
+/// first; a sample on a shared edge belongs to one triangle only (top-left rule). Any thread.
+CANDELA_API void rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibility& visibility);
+
+}  // namespace candela

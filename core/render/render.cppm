@@ -1,0 +1,101 @@
+// The stages in order: Scene -> meshes -> normals -> visibility -> fragments -> light -> reflection -> Film.
+module;
+
+#include "candela/api.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+export module candela.render;
+
+import candela.diagnostics;
+import candela.film;
+import candela.fragments;
+import candela.lighting;
+import candela.math;
+import candela.mesh;
+import candela.plugins;
+import candela.raster;
+import candela.scene;
+
+export namespace candela {
+
+/// An object with its triangles and its models.
+struct SolidObject {
+    std::string label;
+    Mesh mesh;
+    SurfaceModels surface;
+};
+
+/// A scene with its plugins loaded and its objects tessellated: what is the same for every picture of it. Not changed by
+/// rendering; between pictures its observer, lights, colours and models may be replaced at will.
+struct CompiledScene {
+    Observer observer;
+    ImageSettings image;
+    std::vector<LitSource> lights;
+    std::vector<SolidObject> objects;
+};
+
+/// Loads what the scene names, and nothing else. Reports meshes that are not closed. Throws Error, also for what a plugin
+/// throws.
+CANDELA_API CompiledScene compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics);
+
+struct RenderOptions {
+    int threads = 0;    // 0: all
+    int tile_size = 0;  // pixels, a multiple of 16; 0: chosen. The picture is the same whatever it is.
+    std::function<void(std::size_t done, std::size_t all)> progress;  // tiles; called by any thread, by several at once
+};
+
+struct RenderStatistics {
+    std::size_t triangles = 0;
+    std::size_t pixels_shaded = 0;  // that show an object
+    std::size_t points_lit = 0;     // faces, vertices and fragments at which light was evaluated
+    double seconds_projecting = 0;  // vertices, clipping, sorting into tiles
+    double seconds_on_tiles = 0;    // visibility, light, reflection, pixels
+};
+
+/// Renders one picture. The same bytes for any number of threads and any tile size. Throws Error.
+CANDELA_API RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
+
+}  // namespace candela
+
+namespace candela {
+
+/// Turns the visibility of one tile into intensities. Holds a tile's arrays: one for each thread.
+class TileShader {
+  public:
+    TileShader(const CompiledScene& scene, const ProjectedScene& projected);
+
+    /// Rasterises and shades a tile, and stores it.
+    void run(int tile, Film& film);
+
+    std::size_t pixels_shaded() const { return pixels_shaded_; }
+    std::size_t points_lit() const { return points_lit_; }
+
+  private:
+    void shade(const FragmentList& fragments);
+    void shade_fragments(const ProjectedMesh& mesh, const FragmentList& fragments);
+    void shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments);
+    void shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments);
+    void light(const SurfaceModels& surface, const Vec3Span& intensity);
+    void add(const FragmentList& fragments, std::size_t first, std::size_t count, ConstVec3Span intensity);
+
+    const CompiledScene& scene_;
+    const ProjectedScene& projected_;
+    Lighting lighting_;
+    TileVisibility visibility_;
+    TileFragments fragments_;
+    SurfacePoints points_;
+    std::vector<float> background_weight_;
+    std::vector<std::uint32_t> triangles_;
+    std::vector<VertexSide> vertices_;
+    Vec3Arrays batch_;   // intensities of one batch
+    Vec3Arrays places_;  // of a tile's faces or vertices
+    Vec3Arrays pixels_;
+    std::size_t pixels_shaded_ = 0;
+    std::size_t points_lit_ = 0;
+};
+
+}  // namespace candela

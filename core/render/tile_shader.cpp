@@ -1,0 +1,162 @@
+// One tile, from visibility to pixels.
+module;
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+module candela.render;
+
+import candela.film;
+import candela.fragments;
+import candela.lighting;
+import candela.math;
+import candela.mesh;
+import candela.params;
+import candela.raster;
+import candela.scene;
+import candela.shading;
+
+namespace candela {
+
+namespace {
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+template <class T>
+std::size_t position_of(const std::vector<T>& sorted, const T& value) {
+    return static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+}
+
+VertexSide corner(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t k, bool is_back) {
+    return {mesh.mesh.corners[3 * std::size_t{triangle} + k], is_back};
+}
+
+}  // namespace
+
+TileShader::TileShader(const CompiledScene& scene, const ProjectedScene& projected)
+    : scene_(scene), projected_(projected), lighting_(scene.lights, projected.camera) {
+    batch_.resize(k_batch_size);
+}
+
+void TileShader::run(int tile, Film& film) {
+    rasterize(projected_, tile, scene_.image.samples, visibility_);
+    fragments_.collect(projected_, visibility_, background_weight_);
+
+    const std::size_t plane = visibility_.plane();
+    pixels_.resize(plane);
+    const Rgb background = decoded(scene_.image.background, scene_.image.color_management);
+    for (std::size_t i = 0; i < plane; ++i) {
+        const Rgb rgb = background_weight_[i] * background;
+        pixels_.span().set(i, {rgb.r, rgb.g, rgb.b});
+    }
+    for (const FragmentList& list : fragments_.lists()) shade(list);
+
+    for (int row = 0; row < visibility_.height; ++row) {
+        const auto first = background_weight_.begin() + row * visibility_.stride;
+        pixels_shaded_ += static_cast<std::size_t>(
+            std::count_if(first, first + visibility_.width, [](float weight) { return weight < 1; }));
+    }
+    film.store(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height, std::as_const(pixels_).span(),
+               visibility_.stride);
+}
+
+void TileShader::shade(const FragmentList& fragments) {
+    const SolidObject& object = scene_.objects[fragments.object];
+    const ProjectedMesh mesh{projected_, object.mesh, projected_.first_vertex[fragments.object]};
+    switch (object.surface.shading->lighting_rate()) {
+        case LightingRate::face: return shade_faces(mesh, fragments);
+        case LightingRate::vertex: return shade_vertices(mesh, fragments);
+        case LightingRate::fragment: return shade_fragments(mesh, fragments);
+    }
+}
+
+void TileShader::light(const SurfaceModels& surface, const Vec3Span& intensity) {
+    lighting_.light(surface, points_, intensity);
+    points_lit_ += points_.count;
+}
+
+void TileShader::add(const FragmentList& fragments, std::size_t first, std::size_t count, ConstVec3Span intensity) {
+    const Vec3Span pixels = pixels_.span();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t pixel = fragments.pixel[first + i];
+        pixels.set(pixel, pixels[pixel] + fragments.weight[first + i] * intensity[i]);
+    }
+}
+
+/// Light at every fragment.
+void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& fragments) {
+    const SurfaceModels& surface = scene_.objects[fragments.object].surface;
+    for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {
+        const std::size_t count = std::min(k_batch_size, fragments.size() - first);
+        gather_fragments(mesh, fragments, first, count, surface.needs(), points_);
+        light(surface, batch_.span());
+        add(fragments, first, count, std::as_const(batch_).span());
+    }
+}
+
+/// Light once a face that the tile sees.
+void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments) {
+    const SurfaceModels& surface = scene_.objects[fragments.object].surface;
+    triangles_ = fragments.triangle;
+    sort_unique(triangles_);
+    places_.resize(triangles_.size());
+    for (std::size_t first = 0; first < triangles_.size(); first += k_batch_size) {
+        const std::size_t count = std::min(k_batch_size, triangles_.size() - first);
+        gather_faces(mesh, std::span(triangles_).subspan(first, count), surface.needs(), points_);
+        light(surface, places_.span().from(first));
+    }
+    for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {
+        const std::size_t count = std::min(k_batch_size, fragments.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            batch_.span().set(i, places_.span()[position_of(triangles_, fragments.triangle[first + i])]);
+        }
+        add(fragments, first, count, std::as_const(batch_).span());
+    }
+}
+
+/// Light once a vertex of a face that the tile sees, and once a side of it; interpolated in between.
+void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments) {
+    const SurfaceModels& surface = scene_.objects[fragments.object].surface;
+    triangles_ = fragments.triangle;
+    sort_unique(triangles_);
+    vertices_.clear();
+    for (const std::uint32_t triangle : triangles_) {
+        const bool is_back = mesh.is_back(triangle);
+        for (std::size_t k = 0; k < 3; ++k) vertices_.push_back(corner(mesh, triangle, k, is_back));
+    }
+    sort_unique(vertices_);
+    places_.resize(vertices_.size());
+    for (std::size_t first = 0; first < vertices_.size(); first += k_batch_size) {
+        const std::size_t count = std::min(k_batch_size, vertices_.size() - first);
+        gather_vertices(mesh, std::span(vertices_).subspan(first, count), surface.needs(), points_);
+        light(surface, places_.span().from(first));
+    }
+    const ConstVec3Span intensity = std::as_const(places_).span();
+    for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {
+        const std::size_t count = std::min(k_batch_size, fragments.size() - first);
+        gather_fragments(mesh, fragments, first, count, {}, points_);
+        std::array<Vec3, 3> at_corner;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t triangle = fragments.triangle[first + i];
+            if (i == 0 || triangle != fragments.triangle[first + i - 1]) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    at_corner[k] = intensity[position_of(vertices_, corner(mesh, triangle, k, points_.facing[i] < 0))];
+                }
+            }
+            const Vec3 b = points_.barycentric.span()[i];
+            batch_.span().set(i, b.x * at_corner[0] + b.y * at_corner[1] + b.z * at_corner[2]);
+        }
+        add(fragments, first, count, std::as_const(batch_).span());
+    }
+}
+
+}  // namespace candela

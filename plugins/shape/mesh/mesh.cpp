@@ -1,0 +1,99 @@
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "candela/shape_plugin.h"
+
+using namespace candela::sdk;
+
+namespace {
+
+struct MeshShape {
+    const char* file;
+};
+
+std::string lower_extension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+/// The triangles of a file, its parts put together and its node transformations applied.
+class FileMesh final : public candela::Shape {
+  public:
+    explicit FileMesh(const MeshShape& shape) : file_(shape.file) {}
+
+    void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
+        Assimp::Importer importer;
+        // Points and lines have no surface.
+        importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+        const aiScene* const scene =
+            importer.ReadFile(file_, aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType |
+                                         aiProcess_PreTransformVertices);
+        if (scene == nullptr) throw std::runtime_error("'" + file_ + "': " + importer.GetErrorString());
+        const std::span<aiMesh* const> parts(scene->mMeshes, scene->mNumMeshes);
+
+        candela::MeshLayout layout{.has_normals = true, .has_uv = true};
+        for (const aiMesh* part : parts) {
+            layout.vertices += part->mNumVertices;
+            layout.triangles += part->mNumFaces;
+            layout.has_normals = layout.has_normals && part->HasNormals();
+            layout.has_uv = layout.has_uv && part->HasTextureCoords(0);
+        }
+        // An STL file has normals of facets, not of vertices.
+        if (lower_extension(file_) == ".stl") layout.has_normals = false;
+        layout.has_smooth_groups = !layout.has_normals;
+        if (layout.triangles == 0) throw std::runtime_error("'" + file_ + "' has no triangles");
+
+        const candela::MeshSpans mesh = sink.allocate(layout);
+        std::size_t vertex = 0;
+        std::size_t corner = 0;
+        for (const aiMesh* part : parts) {
+            const auto first = static_cast<std::uint32_t>(vertex);
+            for (const aiFace& face : std::span(part->mFaces, part->mNumFaces)) {
+                if (face.mNumIndices != 3) throw std::runtime_error("'" + file_ + "' has a face that is no triangle");
+                for (const unsigned index : std::span(face.mIndices, 3)) {
+                    if (index >= part->mNumVertices) {
+                        throw std::runtime_error("'" + file_ + "' has a face whose corner is vertex " +
+                                                 std::to_string(index) + " of " + std::to_string(part->mNumVertices));
+                    }
+                    mesh.corners[corner++] = first + index;
+                }
+            }
+            for (unsigned i = 0; i < part->mNumVertices; ++i, ++vertex) {
+                mesh.position.set(vertex, vector(part->mVertices[i]));
+                if (layout.has_normals) mesh.normal.set(vertex, vector(part->mNormals[i]));
+                if (layout.has_uv) {
+                    mesh.uv.x[vertex] = part->mTextureCoords[0][i].x;
+                    mesh.uv.y[vertex] = part->mTextureCoords[0][i].y;
+                }
+            }
+        }
+        if (layout.has_smooth_groups) weld_by_position(mesh.position, vertex, mesh.smooth_group);
+    }
+
+  private:
+    static candela::Vec3 vector(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+
+    std::string file_;
+};
+
+constexpr auto k_fields =
+    fields(file(&MeshShape::file, "file", "OBJ, PLY, STL, glTF or GLB file, relative to the scene file"));
+
+}  // namespace
+
+CANDELA_PLUGIN(shape, FileMesh, k_fields,
+               {.title = "Mesh from a file",
+                .summary = "Triangles from OBJ, PLY, STL, glTF and GLB files. Normals are the file's; where it has none, the "
+                           "shading model makes them, smooth where corners touch.",
+                .reference = "The Open Asset Import Library, assimp"})

@@ -1,0 +1,114 @@
+#include "candela/shape_plugin.h"
+#include "patches.h"
+
+using namespace candela::sdk;
+
+namespace {
+
+using candela::Vec3;
+
+struct TeapotShape {
+    float size;
+    std::int32_t segments;
+};
+
+using Weights = std::array<float, 4>;
+
+/// Cubic Bernstein polynomials; at the ends exactly 0 and 1, so that patches that share a boundary meet exactly.
+Weights bernstein(float t) {
+    const float s = 1 - t;
+    return {s * s * s, 3 * t * s * s, 3 * t * t * s, t * t * t};
+}
+Weights bernstein_derivative(float t) {
+    const float s = 1 - t;
+    return {-3 * s * s, 3 * s * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t * t};
+}
+
+Vec3 blend(const teapot::Patch& patch, const Weights& u, const Weights& v) {
+    Vec3 sum;
+    for (std::size_t row = 0; row < 4; ++row) {
+        Vec3 along_u;
+        for (std::size_t column = 0; column < 4; ++column) along_u = along_u + u[column] * patch[row][column];
+        sum = sum + v[row] * along_u;
+    }
+    return sum;
+}
+
+class Teapot final : public candela::Shape {
+  public:
+    explicit Teapot(const TeapotShape& shape) : shape_(shape) {}
+
+    void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
+        const std::vector<teapot::Patch> patches = teapot::patches();
+        const auto n = static_cast<std::size_t>(shape_.segments);
+        const std::size_t width = n + 1;
+        const float scale = shape_.size / teapot::k_height;
+
+        // Where a patch ends in a point, one of two triangles has no area; which, is known once the vertices are.
+        std::vector<Vec3> position;
+        for (const teapot::Patch& patch : patches) {
+            for (std::size_t i = 0; i < width * width; ++i) {
+                const auto [u, v] = parameters(i);
+                const Vec3 p = blend(patch, bernstein(u), bernstein(v));
+                position.push_back(scale * Vec3{p.x, p.y - 0.5f * teapot::k_height, p.z});
+            }
+        }
+        std::vector<std::uint32_t> corners;
+        const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
+            if (position[a] == position[b] || position[b] == position[c] || position[c] == position[a]) return;
+            for (const std::size_t vertex : {a, b, c}) corners.push_back(static_cast<std::uint32_t>(vertex));
+        };
+        for (std::size_t p = 0; p < patches.size(); ++p) {
+            for (std::size_t cell = 0; cell < n * n; ++cell) {
+                const std::size_t a = p * width * width + cell / n * width + cell % n;
+                triangle(a, a + 1, a + 1 + width);
+                triangle(a, a + 1 + width, a + width);
+            }
+        }
+
+        const candela::MeshSpans mesh = sink.allocate({.vertices = position.size(),
+                                                       .triangles = corners.size() / 3,
+                                                       .has_uv = true,
+                                                       .has_derivatives = true,
+                                                       .has_smooth_groups = true,
+                                                       .closedness = candela::Closedness::open});
+        std::copy(corners.begin(), corners.end(), mesh.corners.begin());
+        for (std::size_t i = 0; i < position.size(); ++i) {
+            const teapot::Patch& patch = patches[i / (width * width)];
+            const auto [u, v] = parameters(i % (width * width));
+            mesh.position.set(i, position[i]);
+            mesh.uv.x[i] = u;
+            mesh.uv.y[i] = v;
+            mesh.dpdu.set(i, scale * blend(patch, bernstein_derivative(u), bernstein(v)));
+            mesh.dpdv.set(i, scale * blend(patch, bernstein(u), bernstein_derivative(v)));
+        }
+        // One normal a place: smooth across the seams of the patches.
+        weld_by_position(mesh.position, position.size(), mesh.smooth_group);
+    }
+
+  private:
+    /// u and v of a patch's vertex.
+    std::pair<float, float> parameters(std::size_t vertex) const {
+        const auto n = static_cast<std::size_t>(shape_.segments);
+        return {static_cast<float>(vertex % (n + 1)) / static_cast<float>(n),
+                static_cast<float>(vertex / (n + 1)) / static_cast<float>(n)};
+    }
+
+    TeapotShape shape_;
+};
+
+constexpr auto k_fields =
+    fields(real(&TeapotShape::size, "size", 1, "height, from the bottom to the knob").above(0).unit("m"),
+           integer(&TeapotShape::segments, "segments", 10, "faces along each edge of the 32 patches").range(1, 1024));
+
+constexpr candela::Property k_properties[] = {{"open"}};
+
+}  // namespace
+
+CANDELA_PLUGIN(shape, Teapot, k_fields,
+               {.title = "Teapot",
+                .summary = "Newell's teapot, centred on its axis at half its height, spout along +x; not closed.",
+                .formula = "p(u, v) = sum B_i(u) B_j(v) P_ij  over 32 bicubic Bezier patches",
+                .reference = "Newell (1975), The utilization of procedure models in digital image synthesis, "
+                             "University of Utah",
+                .properties = k_properties})

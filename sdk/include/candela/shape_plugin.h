@@ -1,0 +1,146 @@
+// Shapes. A parametric surface comes from three kernel functions, u and v from 0 to 1, dpdu x dpdv pointing outwards:
+//
+//     vec3 x_position(XShape s, float u, float v)
+//     vec3 x_dpdu(XShape s, float u, float v)
+//     vec3 x_dpdv(XShape s, float u, float v)
+//
+// Any other shape derives from candela::Shape, fills the arrays of a MeshSink, and ends with
+//
+//     CANDELA_PLUGIN(shape, MyShape, k_fields, {.title = …})
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <unordered_map>
+
+#include "candela/multiversion.h"
+#include "candela/plugin.h"
+
+import candela.shape;
+
+namespace candela::sdk {
+
+/// The density parameter that the shipped curved shapes share.
+template <class P>
+constexpr Field<P> segments(std::int32_t P::* member, std::int32_t fallback, const char* meaning) {
+    return integer(member, "segments", fallback, meaning).range(3, 8192);
+}
+
+/// What the edges of a surface's parameter square are to one another.
+struct Topology {
+    bool u_is_periodic = false;  // u = 1 is u = 0
+    bool v_is_periodic = false;
+    bool v_ends_in_poles = false;  // v = 0 and v = 1 are one point each
+};
+
+template <class Params, auto position, auto dpdu, auto dpdv>
+struct SurfaceRowLoop {
+    CANDELA_BATCH_LOOP static void run(Params params, float v, float u_step, std::size_t count, Vec3Span p, Vec2Span uv,
+                                       Vec3Span pu, Vec3Span pv) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const float u = static_cast<float>(static_cast<std::int32_t>(i)) * u_step;
+            const vec3 point = call<position>(params, u, v);
+            const vec3 along_u = call<dpdu>(params, u, v);
+            const vec3 along_v = call<dpdv>(params, u, v);
+            p.x[i] = point.x;
+            p.y[i] = point.y;
+            p.z[i] = point.z;
+            uv.x[i] = u;
+            uv.y[i] = v;
+            pu.x[i] = along_u.x;
+            pu.y[i] = along_u.y;
+            pu.z[i] = along_u.z;
+            pv.x[i] = along_v.x;
+            pv.y[i] = along_v.y;
+            pv.z[i] = along_v.z;
+        }
+    }
+};
+
+/// The triangles of a grid of `columns` x `rows` quadrilaterals over the parameter square.
+template <class Params, auto position, auto dpdu, auto dpdv>
+void tessellate_surface(const Params& params, Topology topology, std::size_t columns, std::size_t rows, MeshSink& sink) {
+    const std::size_t width = columns + 1;
+    const bool closed = topology.u_is_periodic && (topology.v_is_periodic || topology.v_ends_in_poles);
+    const std::size_t poles = topology.v_ends_in_poles ? 2 : 0;
+    const MeshSpans mesh = sink.allocate({.vertices = width * (rows + 1),
+                                          .triangles = columns * (2 * rows - poles),
+                                          .has_uv = true,
+                                          .has_derivatives = true,
+                                          .has_smooth_groups = true,
+                                          .closedness = closed ? Closedness::closed : Closedness::open});
+
+    for (std::size_t row = 0; row <= rows; ++row) {
+        const std::size_t first = row * width;
+        const float v = static_cast<float>(row) / static_cast<float>(rows);
+        multiversion<SurfaceRowLoop<Params, position, dpdu, dpdv>>(
+            params, v, 1.0f / static_cast<float>(columns), width, mesh.position.from(first), mesh.uv.from(first),
+            mesh.dpdu.from(first), mesh.dpdv.from(first));
+    }
+
+    // Vertices that are one place get one position to the last bit, and one normal.
+    const auto same = [&](std::size_t vertex, std::size_t as) {
+        mesh.position.set(vertex, mesh.position[as]);
+        mesh.smooth_group[vertex] = mesh.smooth_group[as];
+    };
+    for (std::size_t row = 0; row <= rows; ++row) {
+        const bool is_pole = topology.v_ends_in_poles && (row == 0 || row == rows);
+        for (std::size_t column = 0; column <= columns; ++column) {
+            const std::size_t vertex = row * width + column;
+            mesh.smooth_group[vertex] = static_cast<std::uint32_t>(vertex);
+            if (topology.v_is_periodic && row == rows) {
+                same(vertex, column);
+            } else if (is_pole && column > 0) {
+                same(vertex, row * width);
+            } else if (topology.u_is_periodic && column == columns) {
+                same(vertex, row * width);
+            }
+        }
+    }
+
+    std::size_t corner = 0;
+    const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
+        for (const std::size_t vertex : {a, b, c}) mesh.corners[corner++] = static_cast<std::uint32_t>(vertex);
+    };
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t column = 0; column < columns; ++column) {
+            const std::size_t a = row * width + column;
+            const std::size_t b = a + 1;
+            const std::size_t c = b + width;
+            const std::size_t d = a + width;
+            const bool starts_in_pole = topology.v_ends_in_poles && row == 0;
+            const bool ends_in_pole = topology.v_ends_in_poles && row + 1 == rows;
+            if (!starts_in_pole) triangle(a, b, ends_in_pole ? d : c);
+            if (!ends_in_pole) triangle(starts_in_pole ? b : a, c, d);
+        }
+    }
+}
+
+/// Puts vertices at one position, to the last bit, into one smooth group.
+inline void weld_by_position(ConstVec3Span position, std::size_t count, std::span<std::uint32_t> smooth_group) {
+    struct Key {
+        std::uint32_t bits[3];
+        bool operator==(const Key&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& key) const {
+            std::uint64_t h = 0x9e3779b97f4a7c15u;
+            for (const std::uint32_t b : key.bits) h = (h ^ b) * 0xff51afd7ed558ccdu, h ^= h >> 32;
+            return static_cast<std::size_t>(h);
+        }
+    };
+    std::unordered_map<Key, std::uint32_t, Hash> first_at;
+    first_at.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float p[3] = {position.x[i] + 0.0f, position.y[i] + 0.0f, position.z[i] + 0.0f};  // -0 is 0
+        Key key{};
+        std::memcpy(key.bits, p, sizeof p);
+        smooth_group[i] = first_at.try_emplace(key, static_cast<std::uint32_t>(i)).first->second;
+    }
+}
+
+}  // namespace candela::sdk
