@@ -10,8 +10,8 @@ std::string_view default_scene_text() noexcept {
     return R"(version = 1
 
 [observer]
-position = [2.4, 1.6, 3.6]
-look_at  = [0.0, -0.85, -0.3]
+position = [0.6, 1.3, 3.0]
+look_at  = [0.0, -0.6, -1.0]
 
 [shading]
 model = "phong"
@@ -23,14 +23,14 @@ model = "phong"
 name      = "lamp"
 type      = "point"
 position  = [0.0, 0.0, 0.0]
-intensity = 1.6
+intensity = 2.5
 
 [[object]]
 name     = "cube"
 type     = "cube"
 size     = 1.2
-position = [0.0, -1.1, -0.3]
-rotation = [0.0, 30.0, 0.0]
+position = [0.0, -0.9, -1.2]
+rotation = [0.0, 35.0, 0.0]
 color    = [235, 120, 40]
 )";
 }

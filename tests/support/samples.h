@@ -1,0 +1,88 @@
+// Random points and directions, and references in double precision that are written from the equations alone.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+import candela.core;
+
+/// Batch sizes at which everything is tried: one, an odd few, a full vector, many.
+inline constexpr std::array<std::size_t, 4> k_batch_sizes = {1, 7, 64, 1000};
+
+/// Double-precision vectors for references.
+struct Double3 {
+    double x = 0, y = 0, z = 0;
+};
+inline Double3 exact(candela::Vec3 v) { return {v.x, v.y, v.z}; }
+inline Double3 operator+(Double3 a, Double3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Double3 operator-(Double3 a, Double3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Double3 operator*(double s, Double3 a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(Double3 a, Double3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double length(Double3 a) { return std::sqrt(dot(a, a)); }
+inline Double3 unit(Double3 a) { return (1 / length(a)) * a; }
+
+class Random {
+  public:
+    explicit Random(unsigned seed) : engine_(seed) {}
+    double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+    candela::Vec3 direction();
+    candela::Vec3 point(double half_size);
+
+  private:
+    std::mt19937 engine_;
+};
+
+/// A surface point, a light's sample and the observer, as a reflection model is given them.
+struct ReflectionSample {
+    candela::Vec3 normal, to_observer, to_light;
+    candela::Vec3 diffuse, specular;  // light's intensities
+};
+
+struct ReflectedPair {
+    candela::Vec3 diffuse, specular;
+};
+
+/// Runs `model` over the samples as one batch; the sums start at zero.
+std::vector<ReflectedPair> reflect(const candela::ReflectionModel& model, const std::vector<ReflectionSample>& samples,
+                                   candela::Rgb color);
+/// Likewise, of ambient light of intensity `ambient`.
+std::vector<candela::Vec3> reflect_ambient(const candela::ReflectionModel& model,
+                                           const std::vector<ReflectionSample>& samples, candela::Rgb color,
+                                           candela::Vec3 ambient);
+
+struct ExactPair {
+    Double3 diffuse, specular;
+};
+using ReflectionReference = std::function<ExactPair(Double3 n, Double3 v, Double3 l, Double3 color)>;
+
+/// Compares a reflection model with a reference at random samples, for every instruction set and batch size, and one sample
+/// at a time with the batch (1e-5).
+void check_reflection(const candela::ReflectionModel& model, const ReflectionReference& reference, double tolerance);
+
+/// What a light sends to a receiver.
+struct IncidentSample {
+    candela::Vec3 to_light, diffuse, specular;
+};
+std::vector<IncidentSample> illuminate(const candela::Light& light, const std::vector<candela::Vec3>& positions,
+                                       candela::Vec3 normal = {0, 1, 0});
+std::vector<candela::Vec3> illuminate_ambient(const candela::Light& light, const std::vector<candela::Vec3>& positions);
+
+struct ExactIncident {
+    Double3 to_light, intensity;
+};
+using LightReference = std::function<ExactIncident(Double3 position)>;
+
+/// Compares a light with a reference at random points within 5 m, as check_reflection() does.
+void check_light(const candela::Light& light, const LightReference& reference, double tolerance);
+
+/// Whether two numbers agree to `relative` of the larger, or to `absolute` near zero.
+bool agree(double a, double b, double relative, double absolute = 1e-7);
+bool agree(candela::Vec3 a, candela::Vec3 b, double relative, double absolute = 1e-7);
+bool agree(candela::Vec3 a, Double3 b, double relative, double absolute = 1e-7);
+std::string text(candela::Vec3 v);
+std::string text(Double3 v);

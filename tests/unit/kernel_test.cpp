@@ -1,0 +1,95 @@
+#include <candela/kernel.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace k = candela::kernel;
+
+namespace {
+
+/// The largest error over [low, high], relative to max(|exact|, floor).
+template <class Approximate, class Exact>
+double worst(double low, double high, double floor, Approximate approximate, Exact exact) {
+    double error = 0;
+    for (int i = 0; i <= 200000; ++i) {
+        const auto x = static_cast<float>(low + (high - low) * i / 200000);
+        const double expected = exact(static_cast<double>(x));
+        error = std::max(error, std::abs(static_cast<double>(approximate(x)) - expected) / std::max(std::abs(expected), floor));
+    }
+    return error;
+}
+
+}  // namespace
+
+TEST_CASE("kernel powers and logarithms agree with double precision to a few units in the last place") {
+    CHECK(worst(-99, 99, 0, [](float x) { return k::exp2(x); }, [](double x) { return std::exp2(x); }) < 3e-7);
+    CHECK(worst(1e-6, 4, 1e-2, [](float x) { return k::log2(x); }, [](double x) { return std::log2(x); }) < 5e-7);
+    CHECK(worst(-30, 30, 0, [](float x) { return k::exp(x); }, [](double x) { return std::exp(x); }) < 3e-6);
+    CHECK(worst(0.01, 100, 1e-2, [](float x) { return k::log(x); }, [](double x) { return std::log(x); }) < 5e-7);
+}
+
+TEST_CASE("kernel pow agrees with double precision for every shininess in use") {
+    for (const double y : {0.5, 1.0, 2.0, 10.0, 32.0, 150.0, 1000.0}) {
+        INFO("exponent " << y);
+        const auto exponent = static_cast<float>(y);
+        CHECK(worst(0.5, 1, 1e-6, [&](float x) { return k::pow(x, exponent); }, [&](double x) { return std::pow(x, y); }) <
+              3e-7 * (y + 2));
+    }
+}
+
+TEST_CASE("kernel pow keeps zero and one exact, and stays out of the denormal range") {
+    CHECK(k::pow(0.3f, 0.0f) == 1.0f);
+    CHECK(k::pow(0.0f, 0.0f) == 1.0f);
+    CHECK(k::pow(1.0f, 1234.5f) == 1.0f);
+    CHECK(k::pow(0.0f, 10.0f) < 1e-30f);
+    for (const float base : {0.0f, 1e-30f, 0.01f, 0.5f}) {
+        const float power = k::pow(base, 5000.0f);
+        CHECK(std::isnormal(power));
+        CHECK(power < 1e-29f);
+    }
+    CHECK(std::isfinite(k::exp2(1e9f)));
+    CHECK(k::clamped_power(-0.5f, 2.0f) < 1e-20f);
+    CHECK(k::clamped_power(-0.5f, 0.0f) == 1.0f);
+}
+
+TEST_CASE("kernel angles agree with double precision") {
+    constexpr double k_pi = std::numbers::pi;
+    CHECK(worst(-20, 20, 1, [](float x) { return k::sin(x); }, [](double x) { return std::sin(x); }) < 3e-7);
+    CHECK(worst(-20, 20, 1, [](float x) { return k::cos(x); }, [](double x) { return std::cos(x); }) < 3e-7);
+    CHECK(worst(-1.4, 1.4, 1, [](float x) { return k::tan(x); }, [](double x) { return std::tan(x); }) < 1e-6);
+    CHECK(worst(-1, 1, 1, [](float x) { return k::asin(x); }, [](double x) { return std::asin(x); }) < 5e-7);
+    CHECK(worst(-1, 1, 1, [](float x) { return k::acos(x); }, [](double x) { return std::acos(x); }) < 5e-7);
+    CHECK(worst(-50, 50, 1, [](float x) { return k::atan(x); }, [](double x) { return std::atan(x); }) < 5e-7);
+    for (int i = 0; i < 360; ++i) {
+        const double angle = (i + 0.5) * k_pi / 180 - k_pi;
+        const auto y = static_cast<float>(std::sin(angle)), x = static_cast<float>(std::cos(angle));
+        CHECK(std::abs(static_cast<double>(k::atan(y, x)) - std::atan2(y, x)) < 5e-7);
+    }
+    CHECK(k::cos(0.0f) == 1.0f);
+    CHECK(k::acos(1.5f) == 0.0f);
+}
+
+TEST_CASE("kernel rounding follows GLSL") {
+    for (const float x : {-2.5f, -2.0f, -1.2f, -0.0f, 0.0f, 0.3f, 0.5f, 0.99f, 1.0f, 7.5f, 123456.7f, 1e10f, -1e10f}) {
+        INFO(x);
+        CHECK(k::floor(x) == std::floor(x));
+        CHECK(k::ceil(x) == std::ceil(x));
+        CHECK(k::fract(x) == x - std::floor(x));
+    }
+    CHECK(k::mod(7.5f, 2.0f) == 1.5f);
+    CHECK(k::mod(-1.0f, 3.0f) == 2.0f);
+    CHECK(k::step(0.5f, 0.5f) == 1.0f);
+    CHECK(k::smoothstep(0.0f, 2.0f, 1.0f) == 0.5f);
+    CHECK(k::mix(2.0f, 4.0f, 0.25f) == 2.5f);
+}
+
+TEST_CASE("kernel vectors: reflect is T1 with the incident direction, normalize survives zero") {
+    const k::vec3 r = k::reflect(k::vec3(1.0f, -1.0f, 0.0f), k::vec3(0.0f, 1.0f, 0.0f));
+    CHECK(r.x == 1.0f);
+    CHECK(r.y == 1.0f);
+    const k::vec3 zero = k::normalize(k::vec3(0.0f));
+    CHECK(zero.x == 0.0f);
+    CHECK(std::abs(k::length(k::normalize(k::vec3(1e-10f, 2e-10f, -3e-10f))) - 1.0f) < 1e-6f);
+    CHECK(k::cross(k::vec3(1.0f, 0.0f, 0.0f), k::vec3(0.0f, 1.0f, 0.0f)).z == 1.0f);
+}
