@@ -49,8 +49,8 @@ constexpr Rgb operator*(float s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
 /// Where an object stands: scaled (by more than zero), then rotated about x, then y, then z (fixed axes, degrees), then
 /// moved.
 struct Placement {
-    Vec3 position;
-    Vec3 rotation;
+    Vec3 position{};
+    Vec3 rotation{};
     Vec3 scale{1, 1, 1};
 };
 

@@ -30,7 +30,8 @@ struct TileTriangle {
     std::int32_t e[3];   // edge functions, >= 0 inside
     std::int32_t ex[3];  // their steps to the right
     std::int32_t ey[3];  // and down
-    float z, zx, zy;     // closeness and its steps
+    float z, zx, zy;     // closeness at the anchor, and its steps
+    int anchor_x, anchor_y;  // a pixel at the triangle, whatever the tile: rounding must not depend on tiles
     std::uint32_t id;
     int x0, x1, y0, y1;  // pixels that its box covers; x0 and x1 multiples of k_block
 };
@@ -41,14 +42,14 @@ struct TriangleLoop {
             const std::int32_t row0 = t.e[0] + y * t.ey[0];
             const std::int32_t row1 = t.e[1] + y * t.ey[1];
             const std::int32_t row2 = t.e[2] + y * t.ey[2];
-            const float row_z = t.z + static_cast<float>(y) * t.zy;
+            const float row_z = t.z + static_cast<float>(y - t.anchor_y) * t.zy;
             float* const closeness = plane.closeness + y * plane.stride;
             std::uint32_t* const triangle = plane.triangle + y * plane.stride;
             for (int block = t.x0; block < t.x1; block += k_block) {
                 CANDELA_VECTORIZE
                 for (int x = block; x < block + k_block; ++x) {
                     const std::int32_t outside = (row0 + x * t.ex[0]) | (row1 + x * t.ex[1]) | (row2 + x * t.ex[2]);
-                    const float z = row_z + static_cast<float>(x) * t.zx;
+                    const float z = row_z + static_cast<float>(x - t.anchor_x) * t.zx;
                     const float old_z = closeness[x];
                     const std::uint32_t old_id = triangle[x];
                     const bool wins = outside >= 0 && z > old_z;
@@ -113,8 +114,13 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
     const double zx = (z10 * y20 - z20 * y10) / area;
     const double zy = (z20 * x10 - z10 * x20) / area;
     const double one = static_cast<double>(std::int64_t{1} << bits);
-    result.z = static_cast<float>(static_cast<double>(t.closeness[0]) + zx * static_cast<double>(grid.x - t.x[0]) +
-                                  zy * static_cast<double>(grid.y - t.y[0]));
+    // The sample next to the first corner.
+    result.anchor_x = static_cast<int>((t.x[0] - grid.x) >> bits);
+    result.anchor_y = static_cast<int>((t.y[0] - grid.y) >> bits);
+    const std::int64_t to_anchor_x = grid.x + (std::int64_t{result.anchor_x} << bits) - t.x[0];
+    const std::int64_t to_anchor_y = grid.y + (std::int64_t{result.anchor_y} << bits) - t.y[0];
+    result.z = static_cast<float>(static_cast<double>(t.closeness[0]) + zx * static_cast<double>(to_anchor_x) +
+                                  zy * static_cast<double>(to_anchor_y));
     result.zx = static_cast<float>(zx * one);
     result.zy = static_cast<float>(zy * one);
     result.id = t.id;

@@ -45,7 +45,7 @@ CANDELA_API CompiledScene compile(const Scene& scene, Registry& registry, Diagno
 struct RenderOptions {
     int threads = 0;    // 0: all
     int tile_size = 0;  // pixels, a multiple of 16; 0: chosen. The picture is the same whatever it is.
-    std::function<void(std::size_t done, std::size_t all)> progress;  // tiles; called by any thread, by several at once
+    std::function<void(std::size_t done, std::size_t all)> progress{};  // tiles; called by any thread, by several at once
 };
 
 struct RenderStatistics {

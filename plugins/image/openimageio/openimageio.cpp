@@ -59,6 +59,8 @@ class OpenImageIo final : public candela::ImageFormat {
             spec.attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
         }
         spec.attribute("Software", "Candela");
+        // Left out, some writers put the time of writing there, and no two files of one picture are the same.
+        spec.attribute("DateTime", "");
         spec.attribute("CompressionQuality", 95);
         const void* const pixels = is_float ? static_cast<const void*>(picture.reals.data())
                                             : static_cast<const void*>(picture.bytes.data());

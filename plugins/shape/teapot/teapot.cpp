@@ -24,14 +24,26 @@ Weights bernstein_derivative(float t) {
     return {-3 * s * s, 3 * s * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t * t};
 }
 
-Vec3 blend(const teapot::Patch& patch, const Weights& u, const Weights& v) {
+using Points = std::array<Vec3, 4>;
+
+Vec3 combine(const Points& points, const Weights& weights) {
     Vec3 sum;
-    for (std::size_t row = 0; row < 4; ++row) {
-        Vec3 along_u;
-        for (std::size_t column = 0; column < 4; ++column) along_u = along_u + u[column] * patch[row][column];
-        sum = sum + v[row] * along_u;
-    }
+    for (std::size_t i = 0; i < 4; ++i) sum = sum + weights[i] * points[i];
     return sum;
+}
+
+/// The patch's point or derivative, as the weights say.
+Vec3 blend(const teapot::Patch& patch, const Weights& u, const Weights& v) {
+    return combine({combine(patch[0], u), combine(patch[1], u), combine(patch[2], u), combine(patch[3], u)}, v);
+}
+
+/// The patch's point; where a row of control points is one point, exactly that.
+Vec3 point(const teapot::Patch& patch, float u, float v) {
+    const Weights weights = bernstein(u);
+    const auto row = [&](const Points& p) {
+        return p[0] == p[1] && p[1] == p[2] && p[2] == p[3] ? p[0] : combine(p, weights);
+    };
+    return combine({row(patch[0]), row(patch[1]), row(patch[2]), row(patch[3])}, bernstein(v));
 }
 
 class Teapot final : public candela::Shape {
@@ -49,7 +61,7 @@ class Teapot final : public candela::Shape {
         for (const teapot::Patch& patch : patches) {
             for (std::size_t i = 0; i < width * width; ++i) {
                 const auto [u, v] = parameters(i);
-                const Vec3 p = blend(patch, bernstein(u), bernstein(v));
+                const Vec3 p = point(patch, u, v);
                 position.push_back(scale * Vec3{p.x, p.y - 0.5f * teapot::k_height, p.z});
             }
         }

@@ -1,0 +1,127 @@
+// The same scene is the same picture, however it is worked on.
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <string>
+
+#include "support/command.h"
+#include "support/plugins.h"
+
+namespace {
+
+/// Four objects, three lights, all shading models, an open mesh.
+constexpr const char* k_scene = R"(version = 1
+[observer]
+position = [0.3, 1.6, 4.2]
+look_at = [0, 0, 0]
+[image]
+width = 333
+height = 217
+background = [20, 30, 40]
+[reflection]
+model = "phong"
+[[light]]
+type = "point"
+position = [-2, 3, 3]
+intensity = 14
+[[light]]
+type = "spot"
+position = [3, 3, 1]
+direction = [-1, -1.1, -0.3]
+intensity = 14
+[[light]]
+type = "ambient"
+color = [60, 60, 80]
+[[object]]
+type = "sphere"
+radius = 0.5
+position = [-1.6, 0, 0]
+shading = "flat"
+[[object]]
+type = "torus"
+position = [0.9, -0.7, 0.6]
+rotation = [30, 0, 0]
+shading = "gouraud"
+[[object]]
+type = "teapot"
+position = [0.2, 0.1, -0.8]
+shading = "phong"
+reflection = "blinn-phong"
+[[object]]
+type = "teapot"
+position = [-0.5, -0.9, 0.8]
+size = 0.6
+segments = 3
+shading = "gouraud"
+reflection = "half-lambert"
+)";
+
+class Fixture {
+  public:
+    explicit Fixture(int samples) {
+        candela::Diagnostics diagnostics;
+        candela::SceneRequest request;
+        request.files = {write_file(scratch_directory() / "scene.toml", k_scene)};
+        request.settings = {{"--samples", "image.samples", std::to_string(samples)}};
+        const auto scene = candela::read_scene(request, test_registry(), diagnostics);
+        INFO(diagnostics.text(false));
+        REQUIRE(scene.has_value());
+        compiled_ = candela::compile(*scene, test_registry(), diagnostics);
+    }
+
+    std::vector<float> picture(int threads, int tile_size) const {
+        candela::Film film(compiled_.image.width, compiled_.image.height, candela::PixelType::real, candela::ColorEncoding::srgb);
+        candela::render(compiled_, film, {.threads = threads, .tile_size = tile_size});
+        const auto pixels = film.view().reals;
+        return {pixels.begin(), pixels.end()};
+    }
+
+  private:
+    candela::CompiledScene compiled_;
+};
+
+}  // namespace
+
+TEST_CASE("a picture does not depend on the number of threads or the size of the tiles, to the bit") {
+    for (const int samples : {1, 4, 8, 16}) {
+        INFO(samples << " samples");
+        const Fixture fixture(samples);
+        const auto expected = fixture.picture(1, 64);
+        for (const int threads : {1, 2, 3, 8}) {
+            for (const int tile_size : {16, 32, 64, 128}) {
+                INFO(threads << " threads, tiles of " << tile_size);
+                CHECK((fixture.picture(threads, tile_size) == expected));
+            }
+        }
+    }
+}
+
+TEST_CASE("the command writes the same file with one thread and with eight") {
+    const auto directory = scratch_directory();
+    const auto scene = write_file(directory / "scene.toml", k_scene).string();
+    for (const char* const extension : {"png", "exr"}) {
+        const auto one = directory / ("one." + std::string(extension)), eight = directory / ("eight." + std::string(extension));
+        REQUIRE(run_candela({"render", scene, "--samples", "4", "--threads", "1", "-o", one.string()}).exit_code == 0);
+        REQUIRE(run_candela({"render", scene, "--samples", "4", "--threads", "8", "-o", eight.string()}).exit_code == 0);
+        CHECK(read_file(one).size() > 1000);
+        CHECK((read_file(one) == read_file(eight)));
+    }
+}
+
+TEST_CASE("every instruction set gives the same picture but for rounding") {
+    const Fixture fixture(1);
+    const candela::InstructionSet before = candela::instruction_set();
+    REQUIRE(candela::use_instruction_set(candela::InstructionSet::baseline));
+    const auto expected = fixture.picture(2, 64);
+    for (const candela::InstructionSet set : machine_instruction_sets()) {
+        INFO(candela::name_of(set));
+        REQUIRE(candela::use_instruction_set(set));
+        const auto picture = fixture.picture(2, 64);
+        // A hair of difference in a projected vertex moves an edge by a sub-pixel, and so may change a pixel on it.
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < picture.size(); ++i) {
+            if (std::abs(picture[i] - expected[i]) > 1e-4f * std::max(1.0f, expected[i])) ++different;
+        }
+        CHECK(different < picture.size() / 2000);
+    }
+    candela::use_instruction_set(before);
+}

@@ -1,0 +1,31 @@
+// Float pictures, rendered by the command and read back by OpenImageIO.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/samples.h"
+
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<float> rgb;
+
+    candela::Vec3 at(int x, int y) const {
+        const auto i = 3 * static_cast<std::size_t>(y * width + x);
+        return {rgb[i], rgb[i + 1], rgb[i + 2]};
+    }
+};
+
+Picture read_picture(const std::filesystem::path& file);
+
+/// Writes `scene` (TOML without its version) into `directory`, renders it to an EXR file with the command, reads that.
+Picture render_exr(const std::filesystem::path& directory, const std::string& scene,
+                   const std::vector<std::string>& arguments = {});
+
+/// The centre of a pixel in an orthographic view along -z from (0, 0, distance), y up, `metres` fitting the height.
+Double3 orthographic_point(const Picture& picture, int x, int y, double metres);
+
+/// The unit direction of a pixel's ray in a perspective view along -z, y up.
+Double3 perspective_ray(const Picture& picture, int x, int y, double fov_degrees);

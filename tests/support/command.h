@@ -1,0 +1,32 @@
+// The built command as a child process, and files for it.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+struct CommandResult {
+    int exit_code = -1;  // 128 + signal where a signal ended it
+    std::string out;
+    std::string err;
+};
+
+struct CommandSetup {
+    std::string input;                                         // on stdin, which is no terminal
+    std::vector<std::pair<std::string, std::string>> environment;  // added to this process's
+    std::filesystem::path directory;                           // to run in; the scratch directory if empty
+};
+
+/// Runs `candela arguments…` of the build tree.
+CommandResult run_candela(const std::vector<std::string>& arguments, const CommandSetup& setup = {});
+/// Runs any program, found as a shell finds it.
+CommandResult run_program(const std::vector<std::string>& words, const CommandSetup& setup = {});
+
+/// A new, empty directory of the running test; it stays for inspection until the same test runs again.
+std::filesystem::path scratch_directory();
+
+/// Writes a file, and returns its path.
+std::filesystem::path write_file(const std::filesystem::path& path, const std::string& content);
+std::string read_file(const std::filesystem::path& path);

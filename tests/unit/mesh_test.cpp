@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "support/plugins.h"
+#include "support/samples.h"
+
+using candela::Mesh;
+using candela::Placement;
+using candela::Shape;
+using candela::Vec3;
+
+namespace {
+
+Mesh build(const Shape& shape, const Placement& placement = {}) {
+    const auto shading = instance<candela::ShadingModel>("phong");
+    return candela::build_mesh(shape, {.uv = true, .derivatives = true}, placement, *shading);
+}
+
+/// By the divergence theorem: positive where the triangles face outwards.
+double volume(const Mesh& mesh) {
+    double six = 0;
+    const auto p = mesh.position.span();
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const Double3 a = exact(p[mesh.corners[3 * t]]), b = exact(p[mesh.corners[3 * t + 1]]), c = exact(p[mesh.corners[3 * t + 2]]);
+        six += a.x * (b.y * c.z - b.z * c.y) - a.y * (b.x * c.z - b.z * c.x) + a.z * (b.x * c.y - b.y * c.x);
+    }
+    return six / 6;
+}
+
+/// Vertices, edges, faces with vertices at one place counted once, and how many edges are not between two faces.
+struct Topology {
+    int euler = 0;
+    int open_edges = 0;
+};
+Topology topology(const Mesh& mesh) {
+    std::map<std::array<float, 3>, std::size_t> places;
+    const auto place = [&](std::uint32_t v) {
+        const Vec3 p = mesh.position.span()[v];
+        return places.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, places.size()).first->second;
+    };
+    std::map<std::pair<std::size_t, std::size_t>, int> edges;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t a = place(mesh.corners[3 * t + k]), b = place(mesh.corners[3 * t + (k + 1) % 3]);
+            edges[std::minmax(a, b)] += a < b ? 1 : -1;
+        }
+    }
+    Topology result;
+    result.euler = static_cast<int>(places.size()) - static_cast<int>(edges.size()) + static_cast<int>(mesh.triangle_count());
+    for (const auto& [edge, balance] : edges) result.open_edges += balance != 0 ? 1 : 0;
+    return result;
+}
+
+/// A shape from a list of triangles.
+class GivenShape final : public Shape {
+  public:
+    GivenShape() = default;
+    GivenShape(std::vector<Vec3> v, std::vector<std::uint32_t> c) : vertices(std::move(v)), corners(std::move(c)) {}
+
+    std::vector<Vec3> vertices;
+    std::vector<std::uint32_t> corners;
+
+    void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
+        const auto mesh = sink.allocate({.vertices = vertices.size(), .triangles = corners.size() / 3});
+        for (std::size_t i = 0; i < vertices.size(); ++i) mesh.position.set(i, vertices[i]);
+        std::copy(corners.begin(), corners.end(), mesh.corners.begin());
+    }
+};
+
+GivenShape tetrahedron() {
+    return GivenShape({{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3});
+}
+
+std::string complaint_about(const Shape& shape) {
+    try {
+        build(shape);
+    } catch (const std::exception& problem) {
+        return problem.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("the closed shapes are closed, face outwards, and have their Euler characteristic and volume") {
+    constexpr double k_pi = std::numbers::pi;
+    struct Expected {
+        const char* name;
+        int euler;
+        double volume;
+        double tolerance;
+    };
+    for (const Expected& e : {Expected{"sphere", 2, 4 * k_pi / 3 * 0.125, 0.01}, Expected{"cube", 2, 1, 1e-6},
+                              Expected{"torus", 0, 2 * k_pi * k_pi * 0.5 * 0.04, 0.01}}) {
+        INFO(e.name);
+        const Mesh mesh = build(*instance<Shape>(e.name));
+        const Topology found = topology(mesh);
+        CHECK(mesh.closed);
+        CHECK(found.open_edges == 0);
+        CHECK(found.euler == e.euler);
+        CHECK(agree(volume(mesh), e.volume, e.tolerance));
+    }
+}
+
+TEST_CASE("the smallest densities are still closed surfaces") {
+    for (const char* const name : {"sphere", "torus"}) {
+        for (const std::int64_t segments : {3, 4, 5, 7}) {
+            INFO(name << " of " << segments);
+            const Mesh mesh = build(*instance<Shape>(name, {{"segments", segments}}));
+            CHECK(topology(mesh).open_edges == 0);
+            CHECK(volume(mesh) > 0);
+        }
+    }
+}
+
+TEST_CASE("parametric shapes give exact derivatives: dp/du x dp/dv is the surface's normal") {
+    const Mesh sphere = build(*instance<Shape>("sphere", {{"radius", 2.0}}));
+    for (std::size_t i = 0; i < sphere.vertex_count(); ++i) {
+        const Double3 p = exact(sphere.position.span()[i]);
+        CHECK(agree(length(p), 2, 1e-6));
+        const Vec3 n = cross(sphere.dpdu.span()[i], sphere.dpdv.span()[i]);
+        if (length(n) < 1e-2f) continue;  // the poles
+        CHECK(agree(dot(unit(exact(n)), unit(p)), 1, 1e-5));
+    }
+    const Mesh torus = build(*instance<Shape>("torus"));
+    for (std::size_t i = 0; i < torus.vertex_count(); ++i) {
+        const Double3 p = exact(torus.position.span()[i]);
+        const double ring = std::hypot(p.x, p.z);
+        const Double3 outwards = unit({p.x - 0.5 * p.x / ring, p.y, p.z - 0.5 * p.z / ring});
+        CHECK(agree(dot(unit(exact(cross(torus.dpdu.span()[i], torus.dpdv.span()[i]))), outwards), 1, 1e-5));
+    }
+}
+
+TEST_CASE("vertex normals of a fine sphere converge to the sphere's own, across the seam and at the poles") {
+    const Mesh mesh = build(*instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{256}}}));
+    double worst = 1;
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        worst = std::min(worst, dot(exact(mesh.vertex_normal.span()[i]), unit(exact(mesh.position.span()[i]))));
+    }
+    CHECK(worst > 0.99999);
+}
+
+TEST_CASE("a cube keeps its sharp edges: the normals of a corner are those of its faces") {
+    const Mesh mesh = build(*instance<Shape>("cube"));
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(mesh.vertex_normal.span()[mesh.corners[3 * t + k]] == mesh.face_normal.span()[t]);
+        }
+    }
+}
+
+TEST_CASE("objects are scaled, then rotated about x, y and z in turn, then moved") {
+    GivenShape shape = tetrahedron();
+    shape.vertices[0] = {1, 0, 0};
+    const Mesh mesh = build(shape, {.position = {10, 20, 30}, .rotation = {90, 90, 0}, .scale = {2, 1, 1}});
+    // (1, 0, 0) -> (2, 0, 0); about x: unchanged; about y by 90: (0, 0, -2); moved: (10, 20, 28).
+    CHECK(agree(mesh.position.span()[0], Double3{10, 20, 28}, 1e-6, 1e-5));
+    const Mesh other = build(shape, {.rotation = {0, 90, 90}});
+    // About y: (0, 0, -1); about z: unchanged.
+    CHECK(agree(other.position.span()[0], Double3{0, 0, -1}, 1e-6, 1e-6));
+}
+
+TEST_CASE("a mesh of unknown closedness is looked at: vertices at one place count as one") {
+    GivenShape shape = tetrahedron();
+    CHECK(build(shape).closed);
+    // The same with three vertices of its own for every triangle.
+    GivenShape soup;
+    for (const std::uint32_t corner : shape.corners) {
+        soup.corners.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
+        soup.vertices.push_back(shape.vertices[corner]);
+    }
+    CHECK(build(soup).closed);
+    soup.corners.resize(9);
+    const Mesh open = build(soup);
+    CHECK_FALSE(open.closed);
+    CHECK(open.open_edges == 3);
+    // One triangle inside out: closed in number, not in sense.
+    GivenShape inside_out = tetrahedron();
+    std::swap(inside_out.corners[0], inside_out.corners[1]);
+    CHECK_FALSE(build(inside_out).closed);
+}
+
+TEST_CASE("what is no mesh is refused with a reason") {
+    GivenShape empty;
+    CHECK(complaint_about(empty).find("no triangles") != std::string::npos);
+    GivenShape wild = tetrahedron();
+    wild.corners[4] = 77;
+    CHECK(complaint_about(wild).find("vertex 77") != std::string::npos);
+    GivenShape infinite = tetrahedron();
+    infinite.vertices[2].y = std::numeric_limits<float>::infinity();
+    CHECK(complaint_about(infinite).find("vertex 2 is not a finite number") != std::string::npos);
+}
+
+TEST_CASE("a triangle without area has no normal, and does no harm to its neighbours'") {
+    GivenShape shape;
+    shape.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
+    shape.corners = {0, 1, 2, 0, 1, 3};
+    const Mesh mesh = build(shape);
+    CHECK(mesh.face_normal.span()[1] == Vec3{});
+    CHECK(mesh.vertex_normal.span()[0] == Vec3{0, 0, 1});
+}
