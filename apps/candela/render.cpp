@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "command_line.h"
@@ -31,9 +32,6 @@ int threads_from(const CommandLine& line) {
     return threads;
 }
 
-/// Prints what was found since the last time.
-void report(const candela::Diagnostics& diagnostics) { std::cerr << diagnostics.text(stderr_takes_color()); }
-
 }  // namespace
 
 int run_render(const std::vector<std::string>& arguments) {
@@ -58,15 +56,13 @@ int run_render(const std::vector<std::string>& arguments) {
 
     candela::Diagnostics diagnostics;
     const auto scene = candela::read_scene(scene_request_from(line), registry, diagnostics);
-    report(diagnostics);
-    if (!scene) return static_cast<int>(ExitCode::invalid_scene);
     const double read_ms = milliseconds_since(begin);
-
     const auto compile_begin = Clock::now();
-    candela::Diagnostics about_meshes;
-    const candela::CompiledScene compiled = candela::compile(*scene, registry, about_meshes);
-    report(about_meshes);
+    const auto compiled = scene ? candela::compile(*scene, registry, diagnostics) : std::nullopt;
     const double compile_ms = milliseconds_since(compile_begin);
+    std::cerr << diagnostics.text(stderr_takes_color());
+    if (!scene) return static_cast<int>(ExitCode::invalid_scene);
+    if (!compiled) return static_cast<int>(ExitCode::failure);
 
     candela::Film film(scene->image.width, scene->image.height, format.pixels, scene->image.color_management);
     candela::RenderStatistics statistics;
@@ -74,7 +70,7 @@ int run_render(const std::vector<std::string>& arguments) {
         ProgressBar bar("rendering");
         const candela::RenderOptions options{
             .threads = threads, .progress = [&](std::size_t done, std::size_t all) { bar.update(done, all); }};
-        statistics = candela::render(compiled, film, options);
+        statistics = candela::render(*compiled, film, options);
     }
     const auto write_begin = Clock::now();
     candela::write_picture(film, format, output, registry);

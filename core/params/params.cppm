@@ -77,16 +77,16 @@ using Value = std::variant<bool, std::int64_t, double, std::string, Vec3>;
 
 /// `ParamSpec` with its own memory.
 struct Parameter {
-    std::string name;
+    std::string name{};
     ParamType type = ParamType::real;
-    std::string unit;
-    std::string meaning;
-    std::optional<Value> fallback;  // none: required
+    std::string unit{};
+    std::string meaning{};
+    std::optional<Value> fallback{};  // none: required
     float minimum = k_no_minimum;
     float maximum = k_no_maximum;
     bool minimum_excluded = false;
     bool maximum_excluded = false;
-    std::vector<std::string> choices;
+    std::vector<std::string> choices{};
 
     friend bool operator==(const Parameter&, const Parameter&) = default;
 };

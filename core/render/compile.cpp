@@ -5,6 +5,8 @@ module;
 
 #include <exception>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -23,48 +25,81 @@ namespace candela {
 
 namespace {
 
-/// A plugin's failure, with the object or light that wanted it.
-template <class Interface>
-std::unique_ptr<Interface> made(Registry& registry, const Model& model, ColorEncoding encoding) {
-    return registry.create<Interface>(model.name, model.parameters, encoding);
-}
-
 Mesh mesh_of(const Object& object, const Shape& shape, const SurfaceModels& surface) {
     const PointNeeds needs = surface.needs();
     try {
         return build_mesh(shape, {.uv = needs.uv, .derivatives = needs.derivatives}, object.placement, *surface.shading);
     } catch (const std::bad_alloc&) {
-        throw Error(ExitCode::failure, fmt::format("object {}: not enough memory for its triangles", object.label));
-    } catch (const std::exception& problem) {
-        throw Error(ExitCode::failure,
-                    fmt::format("object {}: plugin shape/{}: {}", object.label, object.shape.name, problem.what()));
+        throw Error(ExitCode::failure, "there is not enough memory for its triangles");
+    } catch (...) {
+        rethrow_as_plugin_error(PluginKind::shape, object.shape.name);
     }
 }
 
-}  // namespace
-
-CompiledScene compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics) {
-    const ColorEncoding encoding = scene.image.color_management;
-    CompiledScene compiled{.observer = scene.observer, .image = scene.image, .lights = {}, .objects = {}};
-    for (const LightSource& light : scene.lights) {
-        compiled.lights.push_back({light.model.name, made<Light>(registry, light.model, encoding)});
+class Compiler {
+  public:
+    Compiler(const Scene& scene, Registry& registry, Diagnostics& diagnostics)
+        : encoding_(scene.image.color_management), registry_(registry), diagnostics_(diagnostics) {
+        compiled_.observer = scene.observer;
+        compiled_.image = scene.image;
+        for (const LightSource& light : scene.lights) {
+            guarded(fmt::format("light {}", light.label), light.place, [&] { add(light); });
+        }
+        for (const Object& object : scene.objects) {
+            guarded(fmt::format("object {}", object.label), object.place, [&] { add(object); });
+        }
     }
-    for (const Object& object : scene.objects) {
-        SurfaceModels surface{.color = decoded(object.color, encoding),
+
+    std::optional<CompiledScene> take() {
+        if (failed_) return std::nullopt;
+        return std::move(compiled_);
+    }
+
+  private:
+    template <class Work>
+    void guarded(const std::string& whose, const SourcePlace& place, Work work) {
+        try {
+            work();
+        } catch (const Error& problem) {
+            diagnostics_.error(place, fmt::format("{}: {}", whose, problem.what()));
+            failed_ = true;
+        }
+    }
+
+    template <class Interface>
+    std::unique_ptr<Interface> made(const Model& model) {
+        return registry_.create<Interface>(model.name, model.parameters, encoding_);
+    }
+
+    void add(const LightSource& light) { compiled_.lights.push_back({light.model.name, made<Light>(light.model)}); }
+
+    void add(const Object& object) {
+        SurfaceModels surface{.color = decoded(object.color, encoding_),
                               .shading_plugin = object.shading.name,
-                              .shading = made<ShadingModel>(registry, object.shading, encoding),
+                              .shading = made<ShadingModel>(object.shading),
                               .reflection_plugin = object.reflection.name,
-                              .reflection = made<ReflectionModel>(registry, object.reflection, encoding)};
-        const auto shape = made<Shape>(registry, object.shape, encoding);
+                              .reflection = made<ReflectionModel>(object.reflection)};
+        const auto shape = made<Shape>(object.shape);
         Mesh mesh = mesh_of(object, *shape, surface);
         if (!mesh.closed) {
-            diagnostics.warning(object.place,
-                                fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
-                                            object.label, mesh.open_edges, mesh.open_edges == 1 ? "" : "s"));
+            diagnostics_.warning(object.place,
+                                 fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
+                                             object.label, mesh.open_edges, mesh.open_edges == 1 ? "" : "s"));
         }
-        compiled.objects.push_back({object.label, std::move(mesh), std::move(surface)});
+        compiled_.objects.push_back({object.label, std::move(mesh), std::move(surface)});
     }
-    return compiled;
+
+    ColorEncoding encoding_;
+    Registry& registry_;
+    Diagnostics& diagnostics_;
+    CompiledScene compiled_;
+    bool failed_ = false;
+};
+
+}  // namespace
+
+std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics) {
+    return Compiler(scene, registry, diagnostics).take();
 }
 
 }  // namespace candela

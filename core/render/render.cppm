@@ -5,6 +5,7 @@ module;
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,9 @@ struct CompiledScene {
     std::vector<SolidObject> objects;
 };
 
-/// Loads what the scene names, and nothing else. Reports meshes that are not closed. Throws Error, also for what a plugin
-/// throws.
-CANDELA_API CompiledScene compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics);
+/// Loads what the scene names, and nothing else. Reports what fails, with the light or object that wanted it, and returns
+/// nothing then; reports meshes that are not closed.
+CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics);
 
 struct RenderOptions {
     int threads = 0;    // 0: all

@@ -271,7 +271,7 @@ class Reader {
     std::string label_of(const std::string& kind, const TableNode& table, std::size_t index) {
         const TableNode::Entry* const entry = table.find("name");
         const auto* const name = entry != nullptr ? std::get_if<std::string>(&entry->node.value) : nullptr;
-        if (name == nullptr || name->empty()) return fmt::format("{} {}", kind, index);
+        if (name == nullptr || name->empty()) return fmt::format("number {}", index);
         const auto [before, is_new] = names_.try_emplace(kind + ' ' + *name, entry->node.place);
         if (!is_new) {
             diagnostics_.error(entry->node.place, fmt::format("another {} is called '{}', at {}:{}:{}", kind, *name,

@@ -52,7 +52,7 @@ struct Model {
 };
 
 struct LightSource {
-    std::string label;  // how the scene's author calls it: its name, or "light 2"
+    std::string label;  // 'lamp', as the scene's author calls it, or number 2
     Model model;
     SourcePlace place;
 };

@@ -24,8 +24,9 @@ Rendered render_file(const std::filesystem::path& file) {
     INFO(diagnostics.text(false));
     REQUIRE(scene.has_value());
     const auto compiled = candela::compile(*scene, test_registry(), diagnostics);
+    REQUIRE(compiled.has_value());
     candela::Film film(scene->image.width, scene->image.height, candela::PixelType::real, candela::ColorEncoding::srgb);
-    const auto statistics = candela::render(compiled, film, {.threads = 2});
+    const auto statistics = candela::render(*compiled, film, {.threads = 2});
     Rendered result;
     result.shaded = statistics.pixels_shaded;
     for (const float x : film.view().reals) {

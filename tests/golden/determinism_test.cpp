@@ -1,6 +1,7 @@
 // The same scene is the same picture, however it is worked on.
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "support/command.h"
@@ -66,17 +67,18 @@ class Fixture {
         INFO(diagnostics.text(false));
         REQUIRE(scene.has_value());
         compiled_ = candela::compile(*scene, test_registry(), diagnostics);
+        REQUIRE(compiled_.has_value());
     }
 
     std::vector<float> picture(int threads, int tile_size) const {
-        candela::Film film(compiled_.image.width, compiled_.image.height, candela::PixelType::real, candela::ColorEncoding::srgb);
-        candela::render(compiled_, film, {.threads = threads, .tile_size = tile_size});
+        candela::Film film(compiled_->image.width, compiled_->image.height, candela::PixelType::real, candela::ColorEncoding::srgb);
+        candela::render(*compiled_, film, {.threads = threads, .tile_size = tile_size});
         const auto pixels = film.view().reals;
         return {pixels.begin(), pixels.end()};
     }
 
   private:
-    candela::CompiledScene compiled_;
+    std::optional<candela::CompiledScene> compiled_;
 };
 
 }  // namespace

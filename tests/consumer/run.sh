@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Builds a plugin in a CMake project of its own against an installed Candela, and uses it: list, describe, render, remove.
+#   run.sh BUILD_DIR SCRATCH_DIR CMAKE CXX
+set -euo pipefail
+build=$1 scratch=$2 cmake=$3 cxx=$4
+here=$(cd "$(dirname "$0")" && pwd)
+
+say() { printf '== %s\n' "$*"; }
+fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
+expect() { grep -qF -- "$2" "$1" || { cat "$1" >&2; fail "'$2' is not in the output of $3"; }; }
+
+rm -rf "$scratch"
+mkdir -p "$scratch"
+
+say "install, and move what was installed: it must not care where it is"
+"$cmake" --install "$build" --prefix "$scratch/first" >/dev/null
+mv "$scratch/first" "$scratch/prefix"
+candela=$scratch/prefix/bin/candela
+before=$(sha256sum "$scratch/prefix/lib/libcandela_core.so")
+
+say "build a plugin that only knows the installation"
+cp -r "$here/toon" "$scratch/toon"
+"$cmake" -G Ninja -S "$scratch/toon" -B "$scratch/toon/build" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 ||
+    { cat "$scratch/configure.log" >&2; fail "configuring the plugin"; }
+"$cmake" --build "$scratch/toon/build" >"$scratch/build.log" 2>&1 || { cat "$scratch/build.log" >&2; fail "building the plugin"; }
+plugin=$scratch/toon/build/reflection-toon
+[ -f "$plugin.so" ] && [ -f "$plugin.json" ] || fail "no plugin was built"
+exported=$(nm -D --defined-only "$plugin.so" | awk '{ print $NF }' | grep -v '^candela_' || true)
+[ -z "$exported" ] || fail "the plugin exports more than candela_*: $exported"
+
+say "it is listed, described and renders by name"
+mkdir "$scratch/plugins"
+cp "$plugin.so" "$plugin.json" "$scratch/plugins/"
+export CANDELA_PLUGIN_PATH=$scratch/plugins
+"$candela" list reflection >"$scratch/out"
+expect "$scratch/out" "Brightness in steps" "candela list"
+"$candela" describe reflection/toon >"$scratch/out"
+expect "$scratch/out" "steps of brightness" "candela describe"
+expect "$scratch/out" "version 1.2.3" "candela describe"
+"$candela" render --reflection toon --set object.cube.material.bands=2 -o "$scratch/toon.ppm" 2>"$scratch/out"
+"$candela" render -o "$scratch/phong.ppm" 2>"$scratch/out"
+cmp -s "$scratch/toon.ppm" "$scratch/phong.ppm" && fail "toon looks like Phong"
+# Two bands, no highlight, 1/r^2 from the lamp still: not a constant picture, not a black one.
+[ "$(tail -c +16 "$scratch/toon.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 20 ] || fail "the toon picture is empty"
+
+say "by directory flag, and wrong values are explained"
+unset CANDELA_PLUGIN_PATH
+"$candela" render --plugin-dir "$scratch/plugins" --reflection toon -o "$scratch/flag.ppm" 2>"$scratch/out"
+code=0
+"$candela" render --plugin-dir "$scratch/plugins" --reflection toon --set object.cube.material.bands=99 \
+    -o "$scratch/no.ppm" 2>"$scratch/out" || code=$?
+[ "$code" -eq 3 ] || fail "exit code $code for bands = 99"
+expect "$scratch/out" "1 to 16" "bands = 99"
+[ ! -e "$scratch/no.ppm" ] || fail "a picture was written in spite of the error"
+
+say "removed, its name is unknown"
+code=0
+"$candela" render --reflection toon -o "$scratch/no.ppm" 2>"$scratch/out" || code=$?
+[ "$code" -eq 3 ] || fail "exit code $code for an unknown model"
+expect "$scratch/out" "no reflection plugin is called 'toon'" "candela render"
+[ "$(sha256sum "$scratch/prefix/lib/libcandela_core.so")" = "$before" ] || fail "the core was touched"
+say "all well"

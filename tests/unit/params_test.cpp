@@ -1,0 +1,143 @@
+#include <candela/abi.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "support/samples.h"
+
+using candela::ParamSet;
+using candela::Parameter;
+using candela::ParamType;
+using candela::Value;
+using candela::Vec3;
+
+namespace {
+
+ParamSet set_of(Parameter parameter) { return ParamSet({std::move(parameter)}); }
+
+candela::Manifest sample_manifest() {
+    candela::Manifest m;
+    m.abi = candela::host_abi();
+    m.kind = candela::PluginKind::light;
+    m.name = "lamp";
+    m.version = "1.2.3";
+    m.title = "Lamp \"quoted\"";
+    m.formula = "a\nb";
+    m.parameters = {
+        {.name = "size", .type = ParamType::real, .unit = "m", .meaning = "x", .fallback = 0.1, .minimum = 0, .minimum_excluded = true},
+        {.name = "count", .type = ParamType::integer, .meaning = "x", .fallback = std::int64_t{3}, .minimum = 1, .maximum = 9},
+        {.name = "on", .type = ParamType::boolean, .meaning = "x", .fallback = true},
+        {.name = "law", .type = ParamType::choice, .meaning = "x", .fallback = std::string("b"), .choices = {"a", "b"}},
+        {.name = "at", .type = ParamType::point, .meaning = "x", .fallback = std::nullopt},
+        {.name = "tint", .type = ParamType::color, .meaning = "x", .fallback = Vec3{1, 2, 3}},
+        {.name = "kd", .type = ParamType::triple, .meaning = "x", .fallback = Vec3{0.1f, 0.2f, 0.3f}, .maximum = 1, .maximum_excluded = true}};
+    m.relations = {{candela::RelationType::less, "size", "count", true, "why"}};
+    m.properties = {{"closed", "true"}, {"euler", "2"}};
+    m.formats = {{"foo", "Foo", candela::PixelType::real}};
+    m.has_kernel = true;
+    return m;
+}
+
+}  // namespace
+
+TEST_CASE("a manifest written as JSON and read again is the same manifest") {
+    const candela::Manifest manifest = sample_manifest();
+    CHECK((candela::manifest_from_json(candela::to_json(manifest)) == manifest));
+}
+
+TEST_CASE("what is no manifest is refused with a reason") {
+    for (const char* const text : {"", "{", "[]", "3", "{}", R"({"candela_manifest": 7})",
+                                   R"({"candela_manifest": 1, "abi": "x", "kind": "toaster"})", R"({"candela_manifest": 1, "abi": 4})"}) {
+        INFO(text);
+        CHECK_THROWS_AS(candela::manifest_from_json(text), candela::Error);
+    }
+}
+
+TEST_CASE("parameters are delivered as plugins expect them") {
+    using candela::ColorEncoding;
+    ParamSet angle = set_of({.name = "a", .type = ParamType::real, .unit = "deg", .meaning = "", .fallback = 180.0});
+    CHECK(agree(angle.delivered(ColorEncoding::none)[0].number[0], 3.14159265, 1e-6));
+    ParamSet direction = set_of({.name = "d", .type = ParamType::direction, .meaning = "", .fallback = Vec3{0, 3, 4}});
+    CHECK(direction.delivered(ColorEncoding::none)[0].number[1] == 0.6f);
+    ParamSet color = set_of({.name = "c", .type = ParamType::color, .meaning = "", .fallback = Vec3{255, 51, 0}});
+    CHECK(agree(color.delivered(ColorEncoding::none)[0].number[1], 0.2, 1e-6));
+    CHECK(agree(color.delivered(ColorEncoding::srgb)[0].number[1], 0.033105, 1e-4));
+    ParamSet choice = set_of({.name = "w", .type = ParamType::choice, .meaning = "", .fallback = std::string("two"), .choices = {"one", "two"}});
+    CHECK(choice.delivered(ColorEncoding::none)[0].integer == 1);
+    ParamSet required = set_of({.name = "r", .type = ParamType::point, .meaning = "", .fallback = std::nullopt});
+    CHECK_THROWS_AS(required.delivered(ColorEncoding::none), std::invalid_argument);
+}
+
+TEST_CASE("a parameter set takes what fits and nothing else") {
+    ParamSet set = set_of({.name = "kd", .type = ParamType::triple, .meaning = "", .fallback = Vec3{}, .minimum = 0, .maximum = 1});
+    set.set("kd", 0.5);
+    CHECK(std::get<Vec3>(set.get("kd")) == Vec3{0.5f, 0.5f, 0.5f});
+    set.set("kd", std::int64_t{1});
+    CHECK(std::get<Vec3>(set.get("kd")) == Vec3{1, 1, 1});
+    CHECK_THROWS_AS(set.set("kd", 1.5), std::invalid_argument);
+    CHECK_THROWS_AS(set.set("kd", std::string("red")), std::invalid_argument);
+    CHECK_THROWS_AS(set.set("ks", 0.5), std::invalid_argument);
+    CHECK_THROWS_AS(set.get("ks"), std::invalid_argument);
+}
+
+TEST_CASE("the sRGB transfer functions are those of IEC 61966-2-1, and inverse to one another") {
+    CHECK(candela::srgb_to_linear(0) == 0);
+    CHECK(agree(candela::srgb_to_linear(1), 1, 1e-6));
+    CHECK(agree(candela::srgb_to_linear(0.5f), 0.21404, 1e-4));
+    CHECK(agree(candela::linear_to_srgb(0.18f), 0.46136, 1e-4));
+    for (int i = 0; i < 256; ++i) {
+        const auto encoded = static_cast<float>(i) / 255;
+        CHECK(std::lround(255 * candela::linear_to_srgb(candela::srgb_to_linear(encoded))) == i);
+    }
+}
+
+TEST_CASE("every 8-bit colour survives decoding and the film's encoding") {
+    for (const candela::ColorEncoding encoding : {candela::ColorEncoding::srgb, candela::ColorEncoding::none}) {
+        candela::Film film(256, 1, candela::PixelType::byte, encoding);
+        candela::Vec3Arrays row;
+        row.resize(256);
+        for (int i = 0; i < 256; ++i) {
+            const auto x = static_cast<float>(i);
+            const candela::Rgb rgb = candela::decoded({x, x, x}, encoding);
+            row.span().set(static_cast<std::size_t>(i), {rgb.r, rgb.g, rgb.b});
+        }
+        film.store(0, 0, 256, 1, row.span(), 256);
+        for (std::size_t i = 0; i < 256; ++i) CHECK(film.view().bytes[3 * i + 1] == i);
+    }
+}
+
+TEST_CASE("the film clamps what is too bright, too dark or no number") {
+    candela::Film film(5, 1, candela::PixelType::byte, candela::ColorEncoding::srgb);
+    candela::Vec3Arrays row;
+    row.resize(5);
+    const float values[] = {-1, 2, std::nanf(""), INFINITY, -INFINITY};
+    for (std::size_t i = 0; i < 5; ++i) row.span().set(i, {values[i], values[i], values[i]});
+    film.store(0, 0, 5, 1, row.span(), 5);
+    const std::uint8_t expected[] = {0, 255, 0, 255, 0};
+    for (std::size_t i = 0; i < 5; ++i) CHECK(film.view().bytes[3 * i] == expected[i]);
+}
+
+TEST_CASE("suggestions are near, and absent where nothing is") {
+    const std::vector<std::string> words = {"shininess", "kd", "ks", "position"};
+    CHECK(candela::closest("shinyness", words) == "shininess");
+    CHECK(candela::closest("KD", words) == "kd");
+    CHECK(candela::closest("postion", words) == "position");
+    CHECK(candela::closest("opsition", words) == "position");
+    CHECK_FALSE(candela::closest("wavelength", words));
+    CHECK_FALSE(candela::closest("x", std::vector<std::string>{}));
+}
+
+TEST_CASE("a diagnostic shows its line with a mark below the place") {
+    candela::Diagnostics diagnostics;
+    diagnostics.remember_source("a.toml", "one\n\tkey = 3\n");
+    diagnostics.error({"a.toml", 2, 2, 3}, "wrong", "try this");
+    CHECK(diagnostics.text(false) == "a.toml:2:2: error: wrong\n    2 | \tkey = 3\n      | \t^^^ try this\n");
+    CHECK(diagnostics.text(true).find("\x1b[1;31m") != std::string::npos);
+    candela::Diagnostics whole;
+    whole.warning({"b.toml", 0, 0, 0}, "odd");
+    CHECK(whole.text(false) == "b.toml: warning: odd\n");
+}

@@ -1,0 +1,225 @@
+#include <catch2/catch_test_macros.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "support/command.h"
+#include "support/plugins.h"
+
+namespace fs = std::filesystem;
+using candela::PluginKind;
+using candela::Registry;
+
+namespace {
+
+const fs::path k_libraries = CANDELA_TEST_LIBRARIES;
+const fs::path k_shipped = CANDELA_TEST_PLUGINS;
+
+/// What an action's Error says.
+std::string message_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const candela::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// A directory with `library` as reflection-NAME.so, and the manifest of Phong with that name.
+fs::path directory_with(const fs::path& library, const std::string& name) {
+    const fs::path directory = scratch_directory();
+    fs::copy_file(library, directory / ("reflection-" + name + ".so"));
+    candela::Manifest manifest = test_registry().require(PluginKind::reflection, "phong").manifest;
+    manifest.name = name;
+    write_file(directory / ("reflection-" + name + ".json"), candela::to_json(manifest));
+    return directory;
+}
+
+/// The sentence with which the model is refused, when an instance is wanted; the rest must work all the same.
+std::string refusal(const fs::path& directory, const std::string& name) {
+    Registry registry({directory, k_shipped});
+    const std::string sentence = message_of([&] {
+        registry.create<candela::ReflectionModel>(name, registry.parameters(PluginKind::reflection, name),
+                                                  candela::ColorEncoding::none);
+    });
+    CHECK(registry.find(PluginKind::reflection, "phong") != nullptr);
+    CHECK(sentence.find('\n') == std::string::npos);
+    return sentence;
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("the shipped plugins are all listed, with their manifests and without refusals") {
+    Registry registry({k_shipped});
+    std::vector<std::string> ids;
+    for (const candela::PluginFile* file : registry.list()) {
+        ids.push_back(file->manifest.id());
+        CHECK_FALSE(file->manifest.title.empty());
+        CHECK_FALSE(file->manifest.summary.empty());
+        CHECK(file->manifest.abi == candela::host_abi());
+        for (const candela::Parameter& p : file->manifest.parameters) CHECK_FALSE(p.meaning.empty());
+    }
+    CHECK(ids == std::vector<std::string>{"light/ambient", "light/directional", "light/point", "light/spot",
+                                          "reflection/blinn-phong", "reflection/half-lambert", "reflection/lambert",
+                                          "reflection/phong", "shading/flat", "shading/gouraud", "shading/phong", "shape/cube",
+                                          "shape/mesh", "shape/sphere", "shape/teapot", "shape/torus", "image/openimageio",
+                                          "image/png", "image/pnm"});
+    CHECK(registry.refusals().empty());
+}
+
+TEST_CASE("every shipped plugin agrees with its manifest, and every default fits its range") {
+    Registry registry({k_shipped});
+    for (const candela::PluginFile* file : registry.list()) {
+        INFO(file->manifest.id());
+        CHECK_NOTHROW(candela::load_plugin(file->library, &file->manifest));
+        for (const candela::Parameter& p : file->manifest.parameters) {
+            if (p.fallback) CHECK_FALSE(candela::complaint(p, *p.fallback));
+        }
+        const candela::ParamSet defaults(file->manifest.parameters);
+        for (const candela::Relation& r : file->manifest.relations) CHECK_FALSE(candela::complaint(r, defaults));
+    }
+}
+
+TEST_CASE("the first directory of the search path wins") {
+    const fs::path first = directory_with(k_shipped / "reflection-phong.so", "phong");
+    Registry registry({first, k_shipped});
+    CHECK(registry.require(PluginKind::reflection, "phong").library.parent_path() == first);
+    CHECK(registry.require(PluginKind::reflection, "lambert").library.parent_path() == k_shipped);
+}
+
+TEST_CASE("the search path is --plugin-dir, CANDELA_PLUGIN_PATH, the user's data, the install") {
+    ::setenv("CANDELA_PLUGIN_PATH", "/a::/b", 1);
+    ::setenv("XDG_DATA_HOME", "/data", 1);
+    const std::vector<fs::path> first = {"/first"};
+    const auto path = candela::plugin_search_path(first);
+    ::unsetenv("CANDELA_PLUGIN_PATH");
+    ::unsetenv("XDG_DATA_HOME");
+    REQUIRE(path.size() == 5);
+    CHECK(path[0] == "/first");
+    CHECK(path[1] == "/a");
+    CHECK(path[2] == "/b");
+    CHECK(path[3] == "/data/candela/plugins");
+    CHECK(fs::weakly_canonical(path[4]) == fs::weakly_canonical(k_shipped));
+}
+
+TEST_CASE("an unknown name says what is installed and suggests the nearest") {
+    Registry registry({k_shipped});
+    const std::string sentence = message_of([&] { registry.require(PluginKind::reflection, "blin-phong"); });
+    CHECK(holds(sentence, "no reflection plugin is called 'blin-phong'"));
+    CHECK(holds(sentence, "did you mean 'blinn-phong'?"));
+    CHECK(holds(sentence, "half-lambert"));
+    CHECK(registry.find(PluginKind::reflection, "../shape/cube") == nullptr);
+}
+
+TEST_CASE("a library with a wrong fingerprint is refused before anything of it is called") {
+    CHECK(holds(refusal(directory_with(k_libraries / "old_abi.so", "old"), "old"), "it was built for 'candela interface 0;"));
+}
+
+TEST_CASE("a manifest with a wrong fingerprint is refused before the library is loaded") {
+    const fs::path directory = scratch_directory();
+    candela::Manifest manifest = test_registry().require(PluginKind::reflection, "phong").manifest;
+    manifest.name = "newer";
+    manifest.abi = "candela interface 99; c++ abi 1002; libstdc++ cxx11";
+    write_file(directory / "reflection-newer.json", candela::to_json(manifest));
+    write_file(directory / "reflection-newer.so", "never opened");
+    const std::string sentence = refusal(directory, "newer");
+    CHECK(holds(sentence, "it was built for 'candela interface 99;"));
+    CHECK(holds(sentence, "build it again with this Candela's SDK"));
+}
+
+TEST_CASE("a library without an entry point is refused") {
+    CHECK(holds(refusal(directory_with(k_libraries / "no_entry.so", "none"), "none"), "does not export candela_plugin_abi"));
+}
+
+TEST_CASE("a library that needs a symbol that nobody has is refused by the symbol's name") {
+    CHECK(holds(refusal(directory_with(k_libraries / "missing_symbol.so", "needy"), "needy"), "candela_test_nobody_has_this"));
+}
+
+TEST_CASE("a text file called .so is refused") {
+    const fs::path text = write_file(scratch_directory().parent_path() / "text.so", "I am a text.\n");
+    CHECK(holds(refusal(directory_with(text, "text"), "text"), "cannot be loaded"));
+}
+
+TEST_CASE("a manifest that disagrees with its library is refused, with the parts that differ") {
+    const fs::path directory = directory_with(k_shipped / "reflection-phong.so", "phong");
+    candela::Manifest manifest = test_registry().require(PluginKind::reflection, "phong").manifest;
+    manifest.parameters[3].fallback = 33.0;
+    manifest.title = "Fong";
+    write_file(directory / "reflection-phong.json", candela::to_json(manifest));
+    CHECK(holds(refusal(directory, "phong"), "its manifest disagrees with it about its title, parameters"));
+}
+
+TEST_CASE("a plugin's manifest must be beside it, must be one, and must be its own") {
+    const fs::path directory = scratch_directory();
+    fs::copy_file(k_shipped / "reflection-phong.so", directory / "reflection-alone.so");
+    fs::copy_file(k_shipped / "reflection-phong.so", directory / "reflection-junk.so");
+    write_file(directory / "reflection-junk.json", "{]");
+    fs::copy_file(k_shipped / "reflection-phong.so", directory / "reflection-other.so");
+    fs::copy_file(k_shipped / "reflection-phong.json", directory / "reflection-other.json");
+    fs::copy_file(k_shipped / "reflection-phong.json", directory / "reflection-bare.json");
+    CHECK(holds(refusal(directory, "alone"), "reflection-alone.json is not beside it"));
+    CHECK(holds(refusal(directory, "junk"), "it is no manifest"));
+    CHECK(holds(refusal(directory, "other"), "its manifest is that of reflection/phong"));
+    CHECK(holds(refusal(directory, "bare"), "its manifest is there, the library is not"));
+    Registry registry({directory, k_shipped});
+    CHECK(registry.list().size() == 19);
+    CHECK(registry.refusals().size() == 4);
+}
+
+TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
+    Registry registry({k_libraries, k_shipped});
+    candela::ParamSet values = registry.parameters(PluginKind::reflection, "throwing");
+    values.set("kd", 0.0);
+    CHECK(message_of([&] { registry.create<candela::ReflectionModel>("throwing", values, candela::ColorEncoding::none); }) ==
+          "plugin reflection/throwing: no model without light");
+
+    for (const char* const light : {"point", "ambient"}) {
+        candela::SceneRequest request;
+        request.reflection = "throwing";
+        request.settings = {{"--set", "light.0.type", light}};
+        candela::Diagnostics diagnostics;
+        // The default scene's point light has parameters that an ambient light does not.
+        const bool is_point = std::string(light) == "point";
+        if (!is_point) {
+            request.settings.clear();
+            request.files = {write_file(scratch_directory() / "scene.toml",
+                                        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\n"
+                                        "model = \"phong\"\n[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n")};
+        }
+        const auto scene = candela::read_scene(request, registry, diagnostics);
+        INFO(diagnostics.text(false));
+        REQUIRE(scene);
+        const auto compiled = candela::compile(*scene, registry, diagnostics);
+        REQUIRE(compiled);
+        candela::Film film(64, 64, candela::PixelType::byte, candela::ColorEncoding::srgb);
+        for (const int threads : {1, 4}) {
+            const std::string sentence = message_of([&] { candela::render(*compiled, film, {.threads = threads}); });
+            CHECK(sentence == (is_point ? "plugin reflection/throwing: out of photons"
+                                        : "plugin reflection/throwing threw something that is no std::exception"));
+        }
+    }
+}
+
+TEST_CASE("nothing but what a scene names is loaded") {
+    const CommandResult traced = run_candela({"render", "-o", (scratch_directory() / "a.png").string()},
+                                             {.input = "", .environment = {{"LD_DEBUG", "files"}}, .directory = {}});
+    REQUIRE(traced.exit_code == 0);
+    for (const char* const unused : {"OpenImageIO", "assimp", "half-lambert", "gouraud", "teapot", "spot"}) {
+        CHECK_FALSE(holds(traced.err, unused));
+    }
+    CHECK(holds(traced.err, "reflection-phong.so"));
+}
+
+TEST_CASE("a format goes to the plugin made for it, before one for everything") {
+    Registry registry({k_shipped});
+    CHECK(registry.find_format("png")->manifest.name == "png");
+    CHECK(registry.find_format("ppm")->manifest.name == "pnm");
+    CHECK(registry.find_format("pfm")->manifest.name == "pnm");
+    CHECK(registry.find_format("exr")->manifest.name == "openimageio");
+    CHECK(registry.find_format("doc") == nullptr);
+}
