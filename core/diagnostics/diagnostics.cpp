@@ -143,7 +143,7 @@ std::optional<std::string> closest(std::string_view name, std::span<const std::s
     }
     if (best == nullptr) return std::nullopt;
     const std::size_t longest = std::max(name.size(), best->size());
-    const std::size_t allowed = std::max<std::size_t>(1, longest / 3);
+    const std::size_t allowed = std::max<std::size_t>(1, (longest + 1) / 3);
     return best_distance <= allowed ? std::optional(*best) : std::nullopt;
 }
 

@@ -24,6 +24,10 @@ CommandResult run_candela(const std::vector<std::string>& arguments, const Comma
 /// Runs any program, found as a shell finds it.
 CommandResult run_program(const std::vector<std::string>& words, const CommandSetup& setup = {});
 
+/// Runs `candela arguments…` on a terminal of its own, types `typed`, and returns what the terminal showed (as `out`).
+CommandResult run_candela_on_terminal(const std::vector<std::string>& arguments, const std::string& typed,
+                                      const CommandSetup& setup = {});
+
 /// A new, empty directory of the running test; it stays for inspection until the same test runs again.
 std::filesystem::path scratch_directory();
 

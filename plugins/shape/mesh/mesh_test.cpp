@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <fstream>
+
+#include "support/command.h"
+#include "support/plugins.h"
+#include "support/samples.h"
+
+using candela::Mesh;
+using candela::Shape;
+using candela::Vec3;
+
+namespace {
+
+Mesh mesh_of(const std::filesystem::path& file, const char* shading = "phong") {
+    return candela::build_mesh(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {}, *instance<candela::ShadingModel>(shading));
+}
+
+/// A sphere as careless exporters write it: every triangle with three vertices of its own, and no normals.
+std::string soup_of_a_sphere() {
+    const auto sphere = instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{48}}});
+    const Mesh mesh = candela::build_mesh(*sphere, {}, {}, *instance<candela::ShadingModel>("phong"));
+    std::string text;
+    for (const std::uint32_t corner : mesh.corners) {
+        const Vec3 p = mesh.position.span()[corner];
+        text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+    }
+    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
+    return text;
+}
+
+constexpr const char* k_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+}  // namespace
+
+TEST_CASE("shape/mesh: duplicated vertices without normals come out smooth, and closed") {
+    const Mesh mesh = mesh_of(write_file(scratch_directory() / "soup.obj", soup_of_a_sphere()));
+    CHECK(mesh.closed);
+    double worst = 1;
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        worst = std::min(worst, dot(exact(mesh.vertex_normal.span()[i]), unit(exact(mesh.position.span()[i]))));
+    }
+    // A facet's own normal is off by up to 1 - cos(3.75 degrees * sqrt 2) = 0.004 at its corners.
+    CHECK(worst > 0.9995);
+}
+
+TEST_CASE("shape/mesh: normals from the file go before those of the shading model") {
+    const Mesh mesh = mesh_of(write_file(scratch_directory() / "n.obj", std::string(k_triangle) +
+                                                                            "vn 1 0 0\nvn 0 1 0\nvn 0 0 2\nf 1//1 2//2 3//3\n"));
+    CHECK(mesh.triangle_count() == 1);
+    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[0]], Vec3{1, 0, 0}, 1e-6));
+    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[1]], Vec3{0, 1, 0}, 1e-6));
+    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[2]], Vec3{0, 0, 1}, 1e-6));
+    CHECK(mesh.face_normal.span()[0] == Vec3{0, 0, 1});
+}
+
+TEST_CASE("shape/mesh: polygons are cut into triangles") {
+    const Mesh mesh = mesh_of(write_file(scratch_directory() / "quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));
+    CHECK(mesh.triangle_count() == 2);
+}
+
+TEST_CASE("shape/mesh reads PLY, STL and glTF") {
+    const auto directory = scratch_directory();
+    const auto ply = write_file(directory / "a.ply",
+                                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                                "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    const auto stl = write_file(directory / "a.stl",
+                                "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+                                "facet normal 1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid a\n");
+    // Three float positions, three 16-bit indices; a node that moves them by (0, 0, 5).
+    const auto gltf = write_file(
+        directory / "a.gltf",
+        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0, "translation": [0, 0, 5]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                          {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+            "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+            "buffers": [{"byteLength": 42, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]})");
+    CHECK(mesh_of(ply).triangle_count() == 1);
+    CHECK(mesh_of(gltf).triangle_count() == 1);
+    CHECK(mesh_of(gltf).position.span()[0].z == 5);
+    // Facet normals are no vertex normals: where facets touch, the surface is smooth.
+    const Mesh facets = mesh_of(stl);
+    CHECK(facets.triangle_count() == 2);
+    const float half = 1 / std::sqrt(2.0f);
+    CHECK(agree(facets.vertex_normal.span()[facets.corners[0]], Vec3{half, 0, half}, 1e-6));
+}
+
+TEST_CASE("a teapot that lost its normals and its shared vertices looks like the teapot") {
+    const auto phong = instance<candela::ShadingModel>("phong");
+    const Mesh original = candela::build_mesh(*instance<Shape>("teapot"), {}, {}, *phong);
+    std::string text;
+    for (const std::uint32_t corner : original.corners) {
+        const Vec3 p = original.position.span()[corner];
+        text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+    }
+    for (std::size_t i = 0; i < original.corners.size(); i += 3) text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
+    const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", text));
+    REQUIRE(read.triangle_count() == original.triangle_count());
+    for (std::size_t corner = 0; corner < read.corners.size(); ++corner) {
+        REQUIRE(agree(read.vertex_normal.span()[read.corners[corner]], original.vertex_normal.span()[original.corners[corner]], 1e-4, 1e-4));
+    }
+}

@@ -1,0 +1,246 @@
+// The command, as a person at a shell meets it.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string scene_without_models() {
+    return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight = 16\n"
+           "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"box\"\ntype = \"cube\"\n";
+}
+
+std::string scene() {
+    return scene_without_models() + "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
+}
+
+constexpr const char* k_png_signature = "\x89PNG\r\n\x1a\n";
+
+}  // namespace
+
+TEST_CASE("no verb, or an unknown one, is a usage error with help") {
+    const CommandResult none = run_candela({});
+    CHECK(none.exit_code == 2);
+    CHECK(none.out.empty());
+    CHECK(holds(none.err, "Verbs"));
+    const CommandResult wrong = run_candela({"redner"});
+    CHECK(wrong.exit_code == 2);
+    CHECK(holds(wrong.err, "did you mean 'render'?"));
+}
+
+TEST_CASE("help and version go to standard output") {
+    for (const auto& arguments : {std::vector<std::string>{"--help"}, {"help"}, {"-h"}}) {
+        const CommandResult help = run_candela(arguments);
+        CHECK(help.exit_code == 0);
+        CHECK(holds(help.out, "Usage: candela VERB"));
+        CHECK(help.err.empty());
+    }
+    for (const char* const verb : {"render", "check", "list", "describe"}) {
+        INFO(verb);
+        const CommandResult help = run_candela({verb, "--help"});
+        CHECK(help.exit_code == 0);
+        CHECK(holds(help.out, std::string("Usage: candela ") + verb));
+        CHECK(run_candela({"help", verb}).out == help.out);
+    }
+    CHECK(holds(run_candela({"--version"}).out, "candela "));
+}
+
+TEST_CASE("unknown options and wrong values are usage errors with suggestions") {
+    const CommandResult option = run_candela({"render", "--relfection", "phong"});
+    CHECK(option.exit_code == 2);
+    CHECK(holds(option.err, "did you mean '--reflection'?"));
+    CHECK(run_candela({"render", "--thr", "2"}).exit_code == 2);
+    CHECK(run_candela({"render", "--threads", "0"}).exit_code == 2);
+    CHECK(run_candela({"render", "--threads", "many"}).exit_code == 2);
+    CHECK(run_candela({"render", "--set", "image.width"}).exit_code == 2);
+    CHECK(run_candela({"list", "lightz"}).exit_code == 2);
+    CHECK(holds(run_candela({"list", "lightz"}).err, "did you mean 'light'?"));
+    CHECK(run_candela({"describe"}).exit_code == 2);
+    CHECK(run_candela({"check"}).exit_code == 2);
+    const CommandResult set = run_candela({"list"}, {.input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "mmx"}}, .directory = {}});
+    CHECK(set.exit_code == 2);
+    CHECK(holds(set.err, "baseline, avx2 or avx512"));
+}
+
+TEST_CASE("without arguments, render makes candela.png of the default scene") {
+    const fs::path directory = scratch_directory();
+    const CommandResult result = run_candela({"render"}, {.input = "", .environment = {}, .directory = directory});
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(result.out.empty());
+    CHECK(holds(result.err, "candela.png: 512 x 512, 12 triangles"));
+    CHECK(read_file(directory / "candela.png").starts_with(k_png_signature));
+    CHECK(std::distance(fs::directory_iterator(directory), {}) == 1);
+}
+
+TEST_CASE("with -o -, render writes a PNG to standard output, and nothing else") {
+    const CommandResult result = run_candela({"render", "-o", "-"});
+    CHECK(result.exit_code == 0);
+    CHECK(result.out.starts_with(k_png_signature));
+    CHECK(holds(result.err, "picture: 512 x 512"));
+    const fs::path file = scratch_directory() / "a.png";
+    run_candela({"render", "-o", file.string()});
+    CHECK((read_file(file) == result.out));
+}
+
+TEST_CASE("on a terminal, -o - is refused") {
+    CHECK(run_candela_on_terminal({"render", "-o", "-"}, "").exit_code == 2);
+}
+
+TEST_CASE("flags go before the scene") {
+    const fs::path directory = scratch_directory();
+    const std::string file = write_file(directory / "scene.toml", scene()).string();
+    const CommandResult result = run_candela({"render", file, "-o", (directory / "a.ppm").string(), "--width", "33", "--height", "7",
+                                              "--samples", "4", "--threads", "2", "--verbose", "--shading", "flat"});
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.err, "33 x 7"));
+    CHECK(holds(result.err, "tiles"));
+    CHECK(read_file(directory / "a.ppm").starts_with("P6\n33 7\n255\n"));
+}
+
+TEST_CASE("an invalid scene has exit code 3, and no picture is written") {
+    const fs::path directory = scratch_directory();
+    const std::string file = write_file(directory / "scene.toml", scene() + "[image2]\n").string();
+    const CommandResult result = run_candela({"render", file, "-o", (directory / "a.png").string()});
+    CHECK(result.exit_code == 3);
+    CHECK(result.out.empty());
+    CHECK(holds(result.err, file + ":18:2: error: unknown key 'image2' in the scene"));
+    CHECK_FALSE(fs::exists(directory / "a.png"));
+    CHECK(run_candela({"check", file}).exit_code == 3);
+    CHECK(run_candela({"render", (directory / "none.toml").string()}).exit_code == 3);
+}
+
+TEST_CASE("check says that a valid scene is valid, on standard output") {
+    const std::string file = write_file(scratch_directory() / "scene.toml", scene()).string();
+    const CommandResult result = run_candela({"check", file});
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.out, "1 light, 1 object, 16 x 16 pixels"));
+    CHECK(result.err.empty());
+}
+
+TEST_CASE("a picture that cannot be is an error before anything is rendered, and after") {
+    const fs::path directory = scratch_directory();
+    const CommandResult format = run_candela({"render", "-o", (directory / "a.pgn").string()});
+    CHECK(format.exit_code == 2);
+    CHECK(holds(format.err, "did you mean '.png'?"));
+    CHECK(run_candela({"render", "-o", (directory / "noextension").string()}).exit_code == 2);
+    const CommandResult gone = run_candela({"render", "-o", (directory / "gone" / "a.png").string()});
+    CHECK(gone.exit_code == 1);
+    CHECK(holds(gone.err, "No such file or directory"));
+    fs::create_directory(directory / "dir.png");
+    CHECK(holds(run_candela({"render", "-o", (directory / "dir.png").string()}).err, "is a directory"));
+}
+
+TEST_CASE("a full disk is an error, and leaves no half file") {
+    const CommandResult result = run_candela({"render", "-o", "/dev/full"});
+    CHECK(result.exit_code == 2);  // no extension
+    const fs::path directory = scratch_directory();
+    fs::create_symlink("/dev/full", directory / "full.png");
+    const CommandResult full = run_candela({"render", "-o", (directory / "full.png").string()});
+    CHECK(full.exit_code == 1);
+    CHECK(holds(full.err, "No space left on device"));
+    CHECK(run_program({"sh", "-c", std::string(CANDELA_TEST_COMMAND) + " list > /dev/full"}).exit_code == 1);
+}
+
+TEST_CASE("the old picture keeps its place and its rights until the new one is whole; links stay links") {
+    const fs::path directory = scratch_directory();
+    const fs::path file = write_file(directory / "a.png", "old");
+    fs::permissions(file, fs::perms::owner_all);
+    fs::create_symlink("a.png", directory / "link.png");
+    CHECK(run_candela({"render", "-o", (directory / "link.png").string()}).exit_code == 0);
+    CHECK(fs::is_symlink(directory / "link.png"));
+    CHECK(read_file(file).starts_with(k_png_signature));
+    CHECK(fs::status(file).permissions() == fs::perms::owner_all);
+    CHECK(std::distance(fs::directory_iterator(directory), {}) == 2);
+}
+
+TEST_CASE("R13: nobody to ask is an error that names --defaults; a terminal is asked") {
+    const fs::path directory = scratch_directory();
+    const std::string file = write_file(directory / "scene.toml", scene_without_models()).string();
+    const std::string picture = (directory / "a.png").string();
+    const CommandResult nobody = run_candela({"render", file, "-o", picture}, {.input = "y\n", .environment = {}, .directory = {}});
+    CHECK(nobody.exit_code == 3);
+    CHECK(holds(nobody.err, "--defaults"));
+    CHECK(run_candela({"render", file, "-o", picture, "--defaults"}).exit_code == 0);
+
+    const CommandResult yes = run_candela_on_terminal({"render", file, "-o", picture}, "\n");
+    CHECK(holds(yes.out, "Use phong shading and phong reflection? [Y/n]"));
+    CHECK(yes.exit_code == 0);
+    CHECK(run_candela_on_terminal({"render", file, "-o", picture}, "what\nn\n").exit_code == 3);
+    CHECK(run_candela_on_terminal({"render", file, "-o", picture}, "\x04").exit_code == 3);
+}
+
+TEST_CASE("colour is for terminals, unless NO_COLOR says otherwise") {
+    CHECK_FALSE(holds(run_candela({"redner"}).err, "\x1b["));
+    const CommandSetup colored{.input = "", .environment = {{"TERM", "xterm"}}, .directory = {}};
+    CHECK(holds(run_candela_on_terminal({"redner"}, "", colored).out, "\x1b["));
+    const CommandSetup plain{.input = "", .environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, .directory = {}};
+    CHECK_FALSE(holds(run_candela_on_terminal({"redner"}, "", plain).out, "\x1b["));
+}
+
+TEST_CASE("list and describe tell what manifests tell") {
+    const CommandResult all = run_candela({"list"});
+    CHECK(all.exit_code == 0);
+    for (const char* const name : {"half-lambert", "gouraud", "teapot", "spot", "openimageio"}) CHECK(holds(all.out, name));
+    const CommandResult lights = run_candela({"list", "lights"});
+    CHECK(holds(lights.out, "spot"));
+    CHECK_FALSE(holds(lights.out, "teapot"));
+    const CommandResult json = run_candela({"list", "shape", "--json"});
+    CHECK(json.out.starts_with("[\n"));
+    CHECK(holds(json.out, "\"name\": \"teapot\""));
+
+    const CommandResult phong = run_candela({"describe", "reflection/phong"});
+    CHECK(phong.exit_code == 0);
+    for (const char* const part : {"ks I_L max(R.V, 0)^shininess", "Phong (1975)", "shininess", "at least 0", "default 32"}) {
+        CHECK(holds(phong.out, part));
+    }
+    CHECK(holds(run_candela({"describe", "teapot"}).out, "Newell (1975)"));
+    CHECK(run_candela({"describe", "phong"}).exit_code == 2);
+    const CommandResult unknown = run_candela({"describe", "reflection/fong"});
+    CHECK(unknown.exit_code == 1);
+    CHECK(holds(unknown.err, "did you mean 'phong'?"));
+}
+
+TEST_CASE("refused plugins are warnings on standard error, and the rest still works") {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "reflection-text.so", "no library");
+    const CommandResult list = run_candela({"list", "--plugin-dir", directory.string()});
+    CHECK(list.exit_code == 0);
+    CHECK(holds(list.err, "reflection-text.so' is refused: its manifest"));
+    CHECK(holds(list.out, "blinn-phong"));
+    CHECK(run_candela({"list", "--plugin-dir", (directory / "none").string()}).exit_code == 1);
+}
+
+TEST_CASE("a broken mesh file is an error with the object's place, exit code 1") {
+    const fs::path directory = scratch_directory();
+    const auto message = [&](const std::string& name, const std::string& content) {
+        write_file(directory / name, content);
+        const std::string file =
+            write_file(directory / "scene.toml", scene() + "[[object]]\nname = \"thing\"\ntype = \"mesh\"\nfile = \"" + name + "\"\n").string();
+        const CommandResult result = run_candela({"render", file, "-o", (directory / "a.png").string()});
+        CHECK(result.exit_code == 1);
+        CHECK(holds(result.err, "scene.toml:18:1: error: object 'thing': plugin shape/mesh:"));
+        CHECK_FALSE(fs::exists(directory / "a.png"));
+        return result.err;
+    };
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    CHECK(holds(message("beyond.obj", vertices + "f 1 2 9\n"), "out of range"));
+    CHECK(holds(message("negative.obj", vertices + "f 1 2 -9\n"), "out of range"));
+    CHECK(holds(message("zero.obj", vertices + "f 1 2 0\n"), "index"));
+    CHECK(holds(message("nofaces.obj", vertices), "no faces"));
+    CHECK(holds(message("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "not a finite number"));
+    message("junk.obj", "this is no mesh\n");
+    message("empty.obj", "");
+    message("junk.glb", "glTF but not quite");
+    CHECK(holds(message("beyond.ply",
+                        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
+                "out of range"));
+}
