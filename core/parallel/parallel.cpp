@@ -8,24 +8,64 @@ module;
 #include <algorithm>
 #include <cstddef>
 
+#if defined(CANDELA_THREAD_SANITIZER)
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
 module candela.parallel;
 
 namespace candela {
+
+namespace {
+
+/// What happens before work starts happens before the work, and the work happens before what follows it. oneTBB sees to that;
+/// but the library is built without the thread sanitizer, which therefore has to be told. (This file is built without it too.)
+class Handover {
+  public:
+    void give() {
+#if defined(CANDELA_THREAD_SANITIZER)
+        __tsan_release(this);
+#endif
+    }
+    void take() {
+#if defined(CANDELA_THREAD_SANITIZER)
+        __tsan_acquire(this);
+#endif
+    }
+};
+
+/// Work handed to other threads and back; `run` is to call its argument in each of them.
+template <class Run>
+void hand_over(Run run) {
+    Handover to_workers, from_workers;
+    to_workers.give();
+    run([&](auto&& work) {
+        to_workers.take();
+        work();
+        from_workers.give();
+    });
+    from_workers.take();
+}
+
+}  // namespace
 
 int available_threads() noexcept { return std::max(tbb::info::default_concurrency(), 1); }
 
 void with_threads(int threads, FunctionRef<> work) {
     tbb::task_arena arena(threads > 0 ? threads : available_threads());
-    arena.execute([&] { work(); });
+    hand_over([&](auto in_worker) { arena.execute([&] { in_worker([&] { work(); }); }); });
 }
 
 void parallel_for(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> body) {
     if (count == 0) return;
     if (count <= grain || tbb::this_task_arena::max_concurrency() == 1) return body(0, count);
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, grain),
-        [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); },
-        tbb::simple_partitioner{});
+    hand_over([&](auto in_worker) {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, count, grain),
+            [&](const tbb::blocked_range<std::size_t>& range) { in_worker([&] { body(range.begin(), range.end()); }); },
+            tbb::simple_partitioner{});
+    });
 }
 
 }  // namespace candela

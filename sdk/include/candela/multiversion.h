@@ -27,14 +27,15 @@ namespace candela {
 /// candela::instruction_set() as a number, for headers, which cannot import: 0 baseline, 1 AVX2, 2 AVX-512.
 CANDELA_API int instruction_set_level() noexcept;
 
+/// The versions of one loop; not inlined, so that each can be found by its name in a profile and in the compiler's records.
 template <class Loop, class... Arguments>
 struct Multiversion {
-    static void baseline(const Arguments&... arguments) { Loop::run(arguments...); }
+    [[gnu::noinline]] static void baseline(const Arguments&... arguments) { Loop::run(arguments...); }
 #if defined(__x86_64__)
-    __attribute__((target("arch=x86-64-v3"))) static void avx2(const Arguments&... arguments) {
+    [[gnu::noinline, gnu::target("arch=x86-64-v3")]] static void avx2(const Arguments&... arguments) {
         Loop::run(arguments...);
     }
-    __attribute__((target("arch=x86-64-v4"))) static void avx512(const Arguments&... arguments) {
+    [[gnu::noinline, gnu::target("arch=x86-64-v4")]] static void avx512(const Arguments&... arguments) {
         Loop::run(arguments...);
     }
 #endif

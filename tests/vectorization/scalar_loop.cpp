@@ -1,0 +1,16 @@
+// A batch loop that cannot be vectorised: each step needs the one before. The check must notice.
+#include "candela/multiversion.h"
+
+#include <cstddef>
+
+namespace {
+
+struct ChainLoop {
+    CANDELA_BATCH_LOOP static void run(std::size_t count, float* x) {
+        for (std::size_t i = 1; i < count; ++i) x[i] = x[i] / (x[i - 1] + 1.0f);
+    }
+};
+
+}  // namespace
+
+void chain(std::size_t count, float* x) { candela::multiversion<ChainLoop>(count, x); }
