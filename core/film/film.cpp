@@ -3,6 +3,7 @@ module;
 #include "candela/kernel.h"
 #include "candela/multiversion.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,13 +42,34 @@ Film::Film(int width, int height, PixelType pixels, ColorEncoding encoding)
     }
 }
 
+std::size_t Film::index_of(int x, int y) const noexcept {
+    return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+}
+
+void Film::fill(int x, int y, int width, int height, Rgb intensity) {
+    const float channels[3] = {intensity.r, intensity.g, intensity.b};
+    std::uint8_t encoded[3];
+    multiversion<EncodeLoop>(std::size_t{3}, &channels[0], encoding_ == ColorEncoding::srgb, &encoded[0]);
+    const auto fill_rows = [&](auto& all, const auto& pixel) {
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(index_of(x, y));
+        for (int i = 0; i < width; ++i) std::copy_n(pixel, 3, first + 3 * i);
+        for (int row = 1; row < height; ++row) {
+            std::copy_n(first, 3 * width, all.begin() + static_cast<std::ptrdiff_t>(index_of(x, y + row)));
+        }
+    };
+    if (pixels_ == PixelType::byte) {
+        fill_rows(bytes_, encoded);
+    } else {
+        fill_rows(reals_, channels);
+    }
+}
+
 void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, int stride) {
     const auto count = static_cast<std::size_t>(width);
     std::vector<std::uint8_t> encoded(pixels_ == PixelType::byte ? 3 * count : 0);
     for (int row = 0; row < height; ++row) {
         const ConstVec3Span from = intensity.from(static_cast<std::size_t>(row) * static_cast<std::size_t>(stride));
-        const std::size_t to =
-            3 * (static_cast<std::size_t>(y + row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+        const std::size_t to = index_of(x, y + row);
         if (pixels_ == PixelType::byte) {
             const bool srgb = encoding_ == ColorEncoding::srgb;
             const float* const channels[3] = {from.x, from.y, from.z};

@@ -3,6 +3,7 @@ module;
 
 #include "candela/api.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -29,9 +30,14 @@ class CANDELA_API Film {
     /// Stores a rectangle of intensities, rows `stride` apart. Different threads may store different pixels at once.
     void store(int x, int y, int width, int height, ConstVec3Span intensity, int stride);
 
+    /// Stores a rectangle of one intensity.
+    void fill(int x, int y, int width, int height, Rgb intensity);
+
     PictureView view() const noexcept;
 
   private:
+    std::size_t index_of(int x, int y) const noexcept;
+
     int width_;
     int height_;
     PixelType pixels_;

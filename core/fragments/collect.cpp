@@ -29,6 +29,20 @@ void FragmentList::add(std::uint32_t triangle_index, float at_x, float at_y, std
     weight.push_back(share);
 }
 
+void FragmentList::add_run(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, std::size_t count) {
+    const std::size_t first = size();
+    const std::size_t all = first + count;
+    triangle.resize(all, triangle_index);
+    y.resize(all, at_y);
+    weight.resize(all, 1.0f);
+    x.resize(all);
+    pixel.resize(all);
+    for (std::size_t i = 0; i < count; ++i) {
+        x[first + i] = at_x + static_cast<float>(i);
+        pixel[first + i] = at_pixel + static_cast<std::uint32_t>(i);
+    }
+}
+
 FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t triangle) {
     const auto& first = scene.first_triangle;
     const auto holds = [&](std::size_t object) { return first[object] <= triangle && triangle < first[object + 1]; };
@@ -48,6 +62,43 @@ void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& v
     used_ = 0;
     last_ = 0;
     background_weight.assign(visibility.plane(), 0.0f);
+    if (visibility.samples == 1) {
+        collect_pixels(scene, visibility, background_weight);
+    } else {
+        collect_samples(scene, visibility, background_weight);
+    }
+    std::sort(lists_.begin(), lists_.begin() + static_cast<std::ptrdiff_t>(used_),
+              [](const FragmentList& a, const FragmentList& b) { return a.object < b.object; });
+}
+
+/// One sample a pixel: runs of pixels that see the same triangle.
+void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility,
+                                   std::vector<float>& background_weight) {
+    for (int row = 0; row < visibility.height; ++row) {
+        const std::size_t row_begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(visibility.stride);
+        const std::uint32_t* const seen = visibility.triangle.data() + row_begin;
+        const float y = static_cast<float>(visibility.y0 + row) + 0.5f;
+        for (int begin = 0; begin < visibility.width;) {
+            const std::uint32_t triangle = seen[begin];
+            int end = begin + 1;
+            while (end < visibility.width && seen[end] == triangle) ++end;
+            const auto first = static_cast<std::uint32_t>(row_begin) + static_cast<std::uint32_t>(begin);
+            const auto count = static_cast<std::size_t>(end - begin);
+            if (triangle == k_no_triangle) {
+                std::fill_n(background_weight.begin() + first, count, 1.0f);
+            } else {
+                FragmentList& list = list_of(scene, triangle);
+                list.add_run(triangle - scene.first_triangle[list.object], static_cast<float>(visibility.x0 + begin) + 0.5f, y,
+                             first, count);
+            }
+            begin = end;
+        }
+    }
+}
+
+/// Several samples a pixel: what each of the triangles that a pixel's samples see contributes to it.
+void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisibility& visibility,
+                                    std::vector<float>& background_weight) {
     const int samples = visibility.samples;
     const float share = 1 / static_cast<float>(samples);
     const std::span<const SamplePosition> pattern = sample_pattern(samples);
@@ -91,8 +142,6 @@ void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& v
             }
         }
     }
-    std::sort(lists_.begin(), lists_.begin() + static_cast<std::ptrdiff_t>(used_),
-              [](const FragmentList& a, const FragmentList& b) { return a.object < b.object; });
 }
 
 }  // namespace candela

@@ -50,6 +50,8 @@ struct FragmentList {
     inline std::size_t size() const { return triangle.size(); }
     void clear();
     void add(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, float share);
+    /// Adds `count` whole pixels of a row, from the one at `at_pixel` whose middle is at (at_x, at_y).
+    void add_run(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, std::size_t count);
 };
 
 /// All fragments of a tile, one list an object, in the scene's order. Reused from tile to tile.
@@ -62,6 +64,8 @@ class CANDELA_API TileFragments {
 
   private:
     FragmentList& list_of(const ProjectedScene& scene, std::uint32_t triangle);
+    void collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility, std::vector<float>& background_weight);
+    void collect_samples(const ProjectedScene& scene, const TileVisibility& visibility, std::vector<float>& background_weight);
 
     std::vector<FragmentList> lists_;
     std::size_t used_ = 0;

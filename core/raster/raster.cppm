@@ -94,7 +94,8 @@ struct TileVisibility {
 };
 
 /// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle of each sample, of equally near ones the
-/// first; a sample on a shared edge belongs to one triangle only (top-left rule). Any thread.
-CANDELA_API void rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibility& visibility);
+/// first; a sample on a shared edge belongs to one triangle only (top-left rule). Returns false where no triangle comes near
+/// the tile: `visibility` then holds its place only. Any thread.
+CANDELA_API bool rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibility& visibility);
 
 }  // namespace candela

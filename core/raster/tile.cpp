@@ -131,9 +131,15 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
     return true;
 }
 
+void clear(TileVisibility& visibility) {
+    const std::size_t size = visibility.plane() * static_cast<std::size_t>(visibility.samples);
+    visibility.triangle.assign(size, k_no_triangle);
+    visibility.closeness.assign(size, -std::numeric_limits<float>::infinity());
+}
+
 }  // namespace
 
-void rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibility& visibility) {
+bool rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibility& visibility) {
     const int column = tile % scene.tile_columns;
     const int row = tile / scene.tile_columns;
     visibility.x0 = column * scene.tile_size;
@@ -142,18 +148,18 @@ void rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibilit
     visibility.height = std::min(scene.tile_size, scene.camera.height - visibility.y0);
     visibility.stride = scene.tile_size;
     visibility.samples = samples;
-    const std::size_t size = visibility.plane() * static_cast<std::size_t>(samples);
-    visibility.triangle.assign(size, k_no_triangle);
-    visibility.closeness.assign(size, -std::numeric_limits<float>::infinity());
 
     const std::span<const SamplePosition> pattern = sample_pattern(samples);
     const int sixteenth = 1 << (scene.subpixel_bits - 4);
+    bool is_cleared = false;
     for (const TriangleBin& bin : scene.bins) {
         const int bin_column = column - bin.first_column;
         const int bin_row = row - bin.first_row;
         if (bin_column < 0 || bin_column >= bin.columns || bin_row < 0 || bin_row >= bin.rows) continue;
         const auto list = static_cast<std::size_t>(bin_row * bin.columns + bin_column);
         for (std::uint32_t entry = bin.start[list]; entry < bin.start[list + 1]; ++entry) {
+            if (!is_cleared) clear(visibility);
+            is_cleared = true;
             const RasterTriangle& triangle = bin.triangles[bin.entries[entry]];
             for (int s = 0; s < samples; ++s) {
                 const auto [sx, sy] = pattern[static_cast<std::size_t>(s)];
@@ -170,6 +176,7 @@ void rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibilit
             }
         }
     }
+    return is_cleared;
 }
 
 }  // namespace candela

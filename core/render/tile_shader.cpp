@@ -48,12 +48,14 @@ TileShader::TileShader(const CompiledScene& scene, const ProjectedScene& project
 }
 
 void TileShader::run(int tile, Film& film) {
-    rasterize(projected_, tile, scene_.image.samples, visibility_);
+    const Rgb background = decoded(scene_.image.background, scene_.image.color_management);
+    if (!rasterize(projected_, tile, scene_.image.samples, visibility_)) {
+        return film.fill(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height, background);
+    }
     fragments_.collect(projected_, visibility_, background_weight_);
 
     const std::size_t plane = visibility_.plane();
     pixels_.resize(plane);
-    const Rgb background = decoded(scene_.image.background, scene_.image.color_management);
     for (std::size_t i = 0; i < plane; ++i) {
         const Rgb rgb = background_weight_[i] * background;
         pixels_.span().set(i, {rgb.r, rgb.g, rgb.b});

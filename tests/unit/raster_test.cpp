@@ -31,7 +31,7 @@ std::vector<std::uint32_t> visible(const std::vector<const Mesh*>& meshes, const
     std::vector<std::uint32_t> ids(static_cast<std::size_t>(camera.width * camera.height * samples), candela::k_no_triangle);
     candela::TileVisibility tile;
     for (int t = 0; t < scene.tile_count(); ++t) {
-        candela::rasterize(scene, t, samples, tile);
+        if (!candela::rasterize(scene, t, samples, tile)) continue;
         for (int y = 0; y < tile.height; ++y) {
             for (int x = 0; x < tile.width; ++x) {
                 for (int s = 0; s < samples; ++s) {
@@ -255,7 +255,7 @@ TEST_CASE("a large picture and a small tile see the same as a small picture woul
     candela::TileVisibility tile;
     std::size_t seen = 0;
     for (int t = 0; t < scene.tile_count(); ++t) {
-        candela::rasterize(scene, t, 1, tile);
+        if (!candela::rasterize(scene, t, 1, tile)) continue;
         for (int y = 0; y < tile.height; ++y) {
             for (int x = 0; x < tile.width; ++x) seen += tile.at(0, x, y) == 0 ? 1u : 0u;
         }
