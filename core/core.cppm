@@ -1,4 +1,5 @@
-// All of Candela's core, for programs that use it as a library. Plugins import the interface of their kind instead.
+// All of Candela's core, for programs that use it as a library. Plugins import the interface of their kind
+// instead.
 export module candela.core;
 
 export import candela.diagnostics;

@@ -8,19 +8,24 @@
 #include "verbs.h"
 
 int run_check(const std::vector<std::string>& arguments) {
-    CommandLine line("candela check SCENE... [options]",
-                     "Reads a scene, or several files that together are one, and says all that is wrong with it.");
+    CommandLine line(
+        "candela check SCENE... [options]",
+        "Reads a scene, or several files that together are one, and says all that is wrong with it.");
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
-    if (!line.has("scene")) throw candela::Error(candela::ExitCode::usage, "candela check needs a scene file");
+    if (!line.has("scene"))
+        throw candela::Error(candela::ExitCode::usage, "candela check needs a scene file");
 
     candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
     const auto scene = candela::read_scene(scene_request_from(line), registry, diagnostics);
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!scene) return static_cast<int>(candela::ExitCode::invalid_scene);
-    const auto count = [](std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-    std::cout << fmt::format("The scene is valid: {}, {}, {} x {} pixels.\n", count(scene->lights.size(), "light"),
-                             count(scene->objects.size(), "object"), scene->image.width, scene->image.height);
+    const auto count = [](std::size_t n, const char* what) {
+        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
+    std::cout << fmt::format("The scene is valid: {}, {}, {} x {} pixels.\n",
+                             count(scene->lights.size(), "light"), count(scene->objects.size(), "object"),
+                             scene->image.width, scene->image.height);
     return 0;
 }

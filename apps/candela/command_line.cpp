@@ -28,14 +28,16 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
     try {
         // Abbreviations would change their meaning with every new option.
         const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-        po::store(po::command_line_parser(arguments).options(all).positional(positional_).style(style).run(), values_);
+        po::store(po::command_line_parser(arguments).options(all).positional(positional_).style(style).run(),
+                  values_);
         po::notify(values_);
     } catch (const po::unknown_option& problem) {
         std::vector<std::string> known;
         for (const auto& option : visible_.options()) known.push_back("--" + option->long_name());
         const auto near = candela::closest(problem.get_option_name(), known);
-        throw Error(ExitCode::usage, fmt::format("unknown option '{}'; {}", problem.get_option_name(),
-                                                 near ? fmt::format("did you mean '{}'?", *near) : "--help shows all"));
+        throw Error(ExitCode::usage,
+                    fmt::format("unknown option '{}'; {}", problem.get_option_name(),
+                                near ? fmt::format("did you mean '{}'?", *near) : "--help shows all"));
     } catch (const po::too_many_positional_options_error&) {
         throw Error(ExitCode::usage, fmt::format("too many arguments; usage: {}", usage_));
     } catch (const po::error& problem) {
@@ -92,7 +94,8 @@ candela::SceneRequest scene_request_from(const CommandLine& line) {
     for (const std::string& setting : line.all("set")) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) {
-            throw Error(ExitCode::usage, fmt::format("--set '{}' has no '='; write --set image.width=640", setting));
+            throw Error(ExitCode::usage,
+                        fmt::format("--set '{}' has no '='; write --set image.width=640", setting));
         }
         const std::string path = setting.substr(0, equals);
         request.settings.push_back({fmt::format("--set {}", path), path, setting.substr(equals + 1)});

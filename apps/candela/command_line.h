@@ -7,8 +7,8 @@
 
 import candela.core;
 
-/// A verb's options, its positional arguments and its help. Throws candela::Error (usage) with a suggestion for what it does
-/// not know.
+/// A verb's options, its positional arguments and its help. Throws candela::Error (usage) with a suggestion
+/// for what it does not know.
 class CommandLine {
   public:
     /// `usage`: "candela render [SCENE...] [options]".

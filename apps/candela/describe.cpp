@@ -18,7 +18,8 @@ namespace {
 const candela::PluginFile& plugin_called(const std::string& id, candela::Registry& registry) {
     const auto slash = id.find('/');
     if (slash != std::string::npos) {
-        if (const auto kind = candela::plugin_kind_named(id.substr(0, slash))) return registry.require(*kind, id.substr(slash + 1));
+        if (const auto kind = candela::plugin_kind_named(id.substr(0, slash)))
+            return registry.require(*kind, id.substr(slash + 1));
     }
     std::vector<std::string> ids;
     std::vector<const candela::PluginFile*> of_that_name;
@@ -33,8 +34,9 @@ const candela::PluginFile& plugin_called(const std::string& id, candela::Registr
         throw Error(ExitCode::usage, fmt::format("'{}' may be {}", id, fmt::join(possible, " or ")));
     }
     const auto near = candela::closest(id, ids);
-    throw Error(ExitCode::usage, fmt::format("no plugin is called '{}'; {}", id,
-                                             near ? fmt::format("did you mean '{}'?", *near) : "candela list shows all"));
+    throw Error(ExitCode::usage,
+                fmt::format("no plugin is called '{}'; {}", id,
+                            near ? fmt::format("did you mean '{}'?", *near) : "candela list shows all"));
 }
 
 std::string indented(const std::string& text) {
@@ -53,7 +55,8 @@ void print(const candela::PluginFile& file) {
     if (!m.reference.empty()) std::cout << "\nReference\n" << indented(m.reference) << '\n';
     if (!m.parameters.empty()) std::cout << "\nParameters\n";
     for (const candela::Parameter& p : m.parameters) {
-        const std::string fallback = p.fallback ? "default " + candela::text_of(*p.fallback) : std::string("required");
+        const std::string fallback =
+            p.fallback ? "default " + candela::text_of(*p.fallback) : std::string("required");
         std::cout << fmt::format("  {:<20} {}; {}{}{}\n", p.name, candela::expectation(p), fallback,
                                  p.unit.empty() ? "" : " " + p.unit, "");
         std::cout << fmt::format("  {:<20} {}\n", "", p.meaning);
@@ -68,7 +71,8 @@ void print(const candela::PluginFile& file) {
                           : fmt::format("  {} {} {}: {}\n", r.left, must, r.right, r.meaning));
     }
     if (!m.formats.empty()) std::cout << "\nFormats\n";
-    for (const candela::ManifestFormat& f : m.formats) std::cout << fmt::format("  .{:<6} {}\n", f.extension, f.title);
+    for (const candela::ManifestFormat& f : m.formats)
+        std::cout << fmt::format("  .{:<6} {}\n", f.extension, f.title);
     if (!m.properties.empty()) std::cout << "\nProperties\n";
     for (const auto& [name, value] : m.properties) {
         std::cout << (value == "true" ? fmt::format("  {}\n", name) : fmt::format("  {}: {}\n", name, value));
@@ -79,12 +83,14 @@ void print(const candela::PluginFile& file) {
 }  // namespace
 
 int run_describe(const std::vector<std::string>& arguments) {
-    CommandLine line("candela describe KIND/NAME [options]", "Explains a plugin: its formula, its paper, its parameters.");
+    CommandLine line("candela describe KIND/NAME [options]",
+                     "Explains a plugin: its formula, its paper, its parameters.");
     line.positional("plugin", 1);
     line.options()("json", "as JSON");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
-    if (!line.has("plugin")) throw Error(ExitCode::usage, "candela describe needs a plugin, such as reflection/phong");
+    if (!line.has("plugin"))
+        throw Error(ExitCode::usage, "candela describe needs a plugin, such as reflection/phong");
     candela::Registry registry = registry_from(line);
     const candela::PluginFile& file = plugin_called(line.all("plugin").front(), registry);
     if (line.has("json")) {

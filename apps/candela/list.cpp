@@ -23,15 +23,17 @@ candela::PluginKind kind_from(std::string name) {
         names.push_back(singular);
     }
     const auto near = candela::closest(name, names);
-    throw Error(ExitCode::usage, fmt::format("'{}' is no kind of plugin; {}(kinds: {})", name,
-                                             near ? fmt::format("did you mean '{}'? ", *near) : "", fmt::join(names, ", ")));
+    throw Error(ExitCode::usage,
+                fmt::format("'{}' is no kind of plugin; {}(kinds: {})", name,
+                            near ? fmt::format("did you mean '{}'? ", *near) : "", fmt::join(names, ", ")));
 }
 
 }  // namespace
 
 int run_list(const std::vector<std::string>& arguments) {
     CommandLine line("candela list [KIND] [options]",
-                     "Lists the installed plugins; of one kind (light, reflection, shading, shape, image) if it is named.");
+                     "Lists the installed plugins; of one kind (light, reflection, shading, shape, image) if "
+                     "it is named.");
     line.positional("kind", 1);
     line.options()("json", "all that the plugins say about themselves, as JSON");
     add_plugin_options(line);
@@ -53,7 +55,8 @@ int run_list(const std::vector<std::string>& arguments) {
     }
     std::optional<candela::PluginKind> heading;
     for (const candela::Manifest& manifest : manifests) {
-        if (heading != manifest.kind) std::cout << fmt::format("{}{}\n", heading ? "\n" : "", candela::name_of(manifest.kind));
+        if (heading != manifest.kind)
+            std::cout << fmt::format("{}{}\n", heading ? "\n" : "", candela::name_of(manifest.kind));
         heading = manifest.kind;
         std::cout << fmt::format("  {:<14} {}\n", manifest.name, manifest.summary);
     }

@@ -48,7 +48,8 @@ void choose_instruction_set() {
                     fmt::format("CANDELA_INSTRUCTION_SET is '{}'; it can be baseline, avx2 or avx512", name));
     }
     if (!candela::use_instruction_set(*set)) {
-        throw Error(ExitCode::usage, fmt::format("CANDELA_INSTRUCTION_SET is '{}', which this processor does not have", name));
+        throw Error(ExitCode::usage,
+                    fmt::format("CANDELA_INSTRUCTION_SET is '{}', which this processor does not have", name));
     }
 }
 
@@ -75,12 +76,14 @@ int run(const std::vector<std::string>& arguments) {
         names.emplace_back(verb.name);
     }
     const auto near = candela::closest(name, names);
-    throw Error(ExitCode::usage, fmt::format("unknown verb '{}'; {}", name,
-                                             near ? fmt::format("did you mean '{}'?", *near) : "candela --help shows all"));
+    throw Error(ExitCode::usage,
+                fmt::format("unknown verb '{}'; {}", name,
+                            near ? fmt::format("did you mean '{}'?", *near) : "candela --help shows all"));
 }
 
 int fail(ExitCode code, const std::string& message) {
-    std::cerr << (stderr_takes_color() ? "\x1b[1;31mcandela: error:\x1b[0m " : "candela: error: ") << message << '\n';
+    std::cerr << (stderr_takes_color() ? "\x1b[1;31mcandela: error:\x1b[0m " : "candela: error: ") << message
+              << '\n';
     return static_cast<int>(code);
 }
 

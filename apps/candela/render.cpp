@@ -35,9 +35,11 @@ int threads_from(const CommandLine& line) {
 }  // namespace
 
 int run_render(const std::vector<std::string>& arguments) {
-    CommandLine line("candela render [SCENE...] [options]",
-                     "Renders a scene, or several files that together are one, to a picture. Without a scene: the default\n"
-                     "scene, one cube and one point light. The format follows the extension of the picture's name.");
+    CommandLine line(
+        "candela render [SCENE...] [options]",
+        "Renders a scene, or several files that together are one, to a picture. Without a scene: the "
+        "default\n"
+        "scene, one cube and one point light. The format follows the extension of the picture's name.");
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("candela.png"),
                    "the picture; - writes a PNG to standard output");
     add_scene_options(line);
@@ -46,7 +48,7 @@ int run_render(const std::vector<std::string>& arguments) {
     if (!line.parse(arguments)) return 0;
 
     const auto begin = Clock::now();
-    const std::string output = line.get<std::string>("output");
+    const auto output = line.get<std::string>("output");
     if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
         throw Error(ExitCode::usage, "-o - would print a PNG on this terminal; send it to a file or a pipe");
     }
@@ -69,7 +71,8 @@ int run_render(const std::vector<std::string>& arguments) {
     {
         ProgressBar bar("rendering");
         const candela::RenderOptions options{
-            .threads = threads, .progress = [&](std::size_t done, std::size_t all) { bar.update(done, all); }};
+            .threads = threads,
+            .progress = [&](std::size_t done, std::size_t all) { bar.update(done, all); }};
         statistics = candela::render(*compiled, film, options);
     }
     const auto write_begin = Clock::now();
@@ -78,13 +81,15 @@ int run_render(const std::vector<std::string>& arguments) {
 
     if (line.has("verbose")) {
         std::cerr << fmt::format(
-            "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      {:8.2f} ms  ({} points lit, {})\n"
+            "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      {:8.2f} "
+            "ms  ({} points lit, {})\n"
             "  writing    {:8.2f} ms\n",
-            read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles, statistics.points_lit,
-            candela::name_of(candela::instruction_set()), write_ms);
+            read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles,
+            statistics.points_lit, candela::name_of(candela::instruction_set()), write_ms);
     }
-    std::cerr << fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {:.3g} ms\n", output == "-" ? "picture" : output,
-                             film.width(), film.height(), statistics.triangles, statistics.triangles == 1 ? "" : "s",
+    std::cerr << fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {:.3g} ms\n",
+                             output == "-" ? "picture" : output, film.width(), film.height(),
+                             statistics.triangles, statistics.triangles == 1 ? "" : "s",
                              statistics.pixels_shaded, milliseconds_since(begin));
     return 0;
 }

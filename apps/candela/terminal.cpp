@@ -20,7 +20,7 @@ bool stderr_takes_color() {
     const char* const no_color = std::getenv("NO_COLOR");
     const char* const term = std::getenv("TERM");
     return is_terminal(STDERR_FILENO) && (no_color == nullptr || *no_color == '\0') &&
-           !(term != nullptr && std::string(term) == "dumb");
+           (term == nullptr || std::string(term) != "dumb");
 }
 
 bool can_ask() { return is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO); }

@@ -9,8 +9,8 @@ module candela.descriptor;
 namespace candela {
 
 namespace {
-constexpr std::array<std::string_view, k_plugin_kinds.size()> k_names = {"light", "reflection", "shading", "shape",
-                                                                         "image"};
+constexpr std::array<std::string_view, k_plugin_kinds.size()> k_names = {"light", "reflection", "shading",
+                                                                         "shape", "image"};
 }
 
 Instance::~Instance() = default;

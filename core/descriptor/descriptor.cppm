@@ -22,8 +22,9 @@ inline constexpr std::array k_plugin_kinds = {PluginKind::light, PluginKind::ref
 CANDELA_API std::string_view name_of(PluginKind kind) noexcept;
 CANDELA_API std::optional<PluginKind> plugin_kind_named(std::string_view name) noexcept;
 
-/// One set of parameter values of a plugin: a light, a material, a shape. Made by the plugin, owned by the host, which
-/// deletes it. Immutable from then on: every member function of the kinds is const and is called by many threads at once.
+/// One set of parameter values of a plugin: a light, a material, a shape. Made by the plugin, owned by the
+/// host, which deletes it. Immutable from then on: every member function of the kinds is const and is called
+/// by many threads at once.
 class CANDELA_API Instance {
   public:
     Instance() = default;
@@ -66,8 +67,8 @@ struct PluginDescriptor {
     std::span<const FileFormat> formats{};  // image plugins only
     const char* kernel = nullptr;           // the text of its .kernel file, or null
 
-    /// Makes an instance; `values` are in the order of `parameters`. May throw std::exception: bad files, bad values.
-    /// The result is of the kind's interface class. Any thread.
+    /// Makes an instance; `values` are in the order of `parameters`. May throw std::exception: bad files, bad
+    /// values. The result is of the kind's interface class. Any thread.
     Instance* (*create)(std::span<const ParamValue> values) = nullptr;
 };
 

@@ -77,18 +77,19 @@ void Diagnostics::remember_source(const std::string& file, std::string text) {
 }
 
 bool Diagnostics::has_errors() const noexcept {
-    return std::any_of(all_.begin(), all_.end(), [](const Diagnostic& d) { return d.severity == Severity::error; });
+    return std::ranges::any_of(all_, [](const Diagnostic& d) { return d.severity == Severity::error; });
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {
-    using Rank = std::tuple<std::ptrdiff_t, int, int, std::size_t>;  // last, the order in which they were found
+    using Rank =
+        std::tuple<std::ptrdiff_t, int, int, std::size_t>;  // last, the order in which they were found
     std::vector<Rank> ranks;
     for (std::size_t i = 0; i < all_.size(); ++i) {
         const SourcePlace& place = all_[i].place;
-        const auto file = std::find(files_.begin(), files_.end(), place.file) - files_.begin();
+        const auto file = std::ranges::find(files_, place.file) - files_.begin();
         ranks.emplace_back(file, place.line, place.column, i);
     }
-    std::sort(ranks.begin(), ranks.end());
+    std::ranges::sort(ranks);
     std::vector<Diagnostic> result;
     for (const Rank& rank : ranks) result.push_back(all_[std::get<3>(rank)]);
     return result;
@@ -116,8 +117,8 @@ std::string Diagnostics::text(bool in_color) const {
     for (const Diagnostic& d : sorted()) {
         const bool is_error = d.severity == Severity::error;
         const std::string kind = paint(is_error ? "1;31" : "1;35", is_error ? "error:" : "warning:");
-        result += fmt::format("{}{} {} {}\n", paint("1", location(d.place)), d.place.file.empty() ? "" : ":", kind,
-                              paint("1", d.message));
+        result += fmt::format("{}{} {} {}\n", paint("1", location(d.place)), d.place.file.empty() ? "" : ":",
+                              kind, paint("1", d.message));
         const auto line = source_line(d.place);
         if (line) {
             const std::string number = fmt::format("{:5}", d.place.line);

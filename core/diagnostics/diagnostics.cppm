@@ -72,8 +72,9 @@ class CANDELA_API Diagnostics {
     std::map<std::string, std::string, std::less<>> sources_;
 };
 
-/// The candidate that `name` was most likely meant to be, if one is near enough: at most a third of its letters wrong,
-/// a swap of neighbours counting once (Damerau 1964).
-CANDELA_API std::optional<std::string> closest(std::string_view name, std::span<const std::string> candidates);
+/// The candidate that `name` was most likely meant to be, if one is near enough: at most a third of its
+/// letters wrong, a swap of neighbours counting once (Damerau 1964).
+CANDELA_API std::optional<std::string> closest(std::string_view name,
+                                               std::span<const std::string> candidates);
 
 }  // namespace candela

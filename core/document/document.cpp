@@ -2,6 +2,7 @@ module;
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -12,7 +13,6 @@ module;
 #include <optional>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -46,8 +46,9 @@ TableNode plain_table(const toml::table& table, const std::string& file) {
         result.entries.push_back({std::string(key.str()), place_of(key.source(), file), plain(value, file)});
     }
     // toml++ sorts by key; people read from top to bottom.
-    std::sort(result.entries.begin(), result.entries.end(), [](const auto& a, const auto& b) {
-        return std::pair(a.key_place.line, a.key_place.column) < std::pair(b.key_place.line, b.key_place.column);
+    std::ranges::sort(result.entries, [](const auto& a, const auto& b) {
+        return std::pair(a.key_place.line, a.key_place.column) <
+               std::pair(b.key_place.line, b.key_place.column);
     });
     return result;
 }
@@ -85,7 +86,8 @@ std::string shortened(std::string text) {
 }
 
 /// Says why a file cannot be read, or returns its text.
-std::optional<std::string> text_of_file(const fs::path& file, const std::string& shown_name, Diagnostics& diagnostics) {
+std::optional<std::string> text_of_file(const fs::path& file, const std::string& shown_name,
+                                        Diagnostics& diagnostics) {
     const SourcePlace place{shown_name, 0, 0, 0};
     const auto fail = [&](const std::string& message, const std::string& hint = {}) {
         diagnostics.error(place, message, hint);
@@ -94,12 +96,15 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     std::error_code problem;
     const fs::file_status status = fs::status(file, problem);
     if (status.type() == fs::file_type::not_found) return fail("there is no such file");
-    if (status.type() == fs::file_type::none) return fail(fmt::format("it cannot be looked at: {}", problem.message()));
+    if (status.type() == fs::file_type::none)
+        return fail(fmt::format("it cannot be looked at: {}", problem.message()));
     if (status.type() == fs::file_type::directory) return fail("this is a directory; a scene is a file");
-    if (status.type() != fs::file_type::regular) return fail("this is no ordinary file (a pipe or a device?)");
+    if (status.type() != fs::file_type::regular)
+        return fail("this is no ordinary file (a pipe or a device?)");
     const std::uintmax_t size = fs::file_size(file, problem);
     if (!problem && size > k_largest_file) {
-        return fail(fmt::format("the file is too large: {} bytes, where a scene may have {}", size, k_largest_file));
+        return fail(
+            fmt::format("the file is too large: {} bytes, where a scene may have {}", size, k_largest_file));
     }
     std::ifstream in(file, std::ios::binary);
     if (!in) return fail(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
@@ -128,7 +133,9 @@ std::string description(const Node& node) {
         std::string operator()(bool b) const { return b ? "true" : "false"; }
         std::string operator()(std::int64_t i) const { return fmt::format("the whole number {}", i); }
         std::string operator()(double d) const { return fmt::format("the number {}", d); }
-        std::string operator()(const std::string& s) const { return fmt::format("a string, \"{}\"", shortened(s)); }
+        std::string operator()(const std::string& s) const {
+            return fmt::format("a string, \"{}\"", shortened(s));
+        }
         std::string operator()(const DateNode&) const { return "a date or time"; }
         std::string operator()(const ArrayNode& a) const {
             return a.size() == 1 ? "a list of 1 value" : fmt::format("a list of {} values", a.size());
@@ -138,7 +145,8 @@ std::string description(const Node& node) {
     return std::visit(Describer{}, node.value);
 }
 
-std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name, Diagnostics& diagnostics) {
+std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
+                                        Diagnostics& diagnostics) {
     diagnostics.remember_source(shown_name, std::string(text));
     try {
         return plain_table(toml::parse(text, shown_name), shown_name);
@@ -148,7 +156,8 @@ std::optional<TableNode> parse_document(std::string_view text, const std::string
     }
 }
 
-std::optional<TableNode> read_document(const fs::path& file, const std::string& shown_name, Diagnostics& diagnostics) {
+std::optional<TableNode> read_document(const fs::path& file, const std::string& shown_name,
+                                       Diagnostics& diagnostics) {
     const auto text = text_of_file(file, shown_name, diagnostics);
     if (!text) return std::nullopt;
     return parse_document(*text, shown_name, diagnostics);
@@ -157,10 +166,14 @@ std::optional<TableNode> read_document(const fs::path& file, const std::string& 
 std::optional<Node> parse_value(std::string_view text, const SourcePlace& place, Diagnostics& diagnostics) {
     Node result;
     result.place = place;
-    const bool is_bare_word = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-        return std::isalnum(c) || c == '-' || c == '_' || c == '.' || c == '/' || c >= 0x80;
-    }) && !std::isdigit(static_cast<unsigned char>(text[0])) && text[0] != '-' && text != "true" && text != "false" &&
-                              text != "nan" && text != "inf";
+    const bool is_bare_word = !text.empty() &&
+                              std::ranges::all_of(text,
+                                                  [](unsigned char c) {
+                                                      return std::isalnum(c) || c == '-' || c == '_' ||
+                                                             c == '.' || c == '/' || c >= 0x80;
+                                                  }) &&
+                              !std::isdigit(static_cast<unsigned char>(text[0])) && text[0] != '-' &&
+                              text != "true" && text != "false" && text != "nan" && text != "inf";
     if (is_bare_word) {
         result.value = std::string(text);
         return result;
@@ -176,8 +189,9 @@ std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
         result.place = place;
         return result;
     } catch (const toml::parse_error& problem) {
-        diagnostics.error(place, fmt::format("'{}' is no value: {}", shortened(std::string(text)), problem.description()),
-                          "write a number, [three, of, them], true, false or a text");
+        diagnostics.error(
+            place, fmt::format("'{}' is no value: {}", shortened(std::string(text)), problem.description()),
+            "write a number, [three, of, them], true, false or a text");
         return std::nullopt;
     }
 }

@@ -53,16 +53,17 @@ struct TableNode::Entry {
 /// What a value is, to a person: `a string, "red"`, "the number 0.5", "a table".
 CANDELA_API std::string description(const Node& node);
 
-/// Reads and parses a file. Reports what is wrong (R11: each way of not being readable has its own message) and returns
-/// nothing then. `shown_name` is how the file is called in diagnostics.
-CANDELA_API std::optional<TableNode> read_document(const std::filesystem::path& file, const std::string& shown_name,
-                                                   Diagnostics& diagnostics);
+/// Reads and parses a file. Reports what is wrong (R11: each way of not being readable has its own message)
+/// and returns nothing then. `shown_name` is how the file is called in diagnostics.
+CANDELA_API std::optional<TableNode> read_document(const std::filesystem::path& file,
+                                                   const std::string& shown_name, Diagnostics& diagnostics);
 
 /// Parses a text.
 CANDELA_API std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
                                                     Diagnostics& diagnostics);
 
 /// A value as it stands after a `=`; bare words are strings. Reports what is wrong, at `place`.
-CANDELA_API std::optional<Node> parse_value(std::string_view text, const SourcePlace& place, Diagnostics& diagnostics);
+CANDELA_API std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
+                                            Diagnostics& diagnostics);
 
 }  // namespace candela

@@ -18,7 +18,8 @@ namespace {
 
 /// One row of one channel to 8 bits: clamped, encoded, rounded. NaN counts as black.
 struct EncodeLoop {
-    CANDELA_BATCH_LOOP static void run(std::size_t count, const float* intensity, bool srgb, std::uint8_t* bytes) {
+    CANDELA_BATCH_LOOP static void run(std::size_t count, const float* intensity, bool srgb,
+                                       std::uint8_t* bytes) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const float x = intensity[i] > 0.0f ? (intensity[i] < 1.0f ? intensity[i] : 1.0f) : 0.0f;
@@ -68,7 +69,8 @@ void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, i
     const auto count = static_cast<std::size_t>(width);
     std::vector<std::uint8_t> encoded(pixels_ == PixelType::byte ? 3 * count : 0);
     for (int row = 0; row < height; ++row) {
-        const ConstVec3Span from = intensity.from(static_cast<std::size_t>(row) * static_cast<std::size_t>(stride));
+        const ConstVec3Span from =
+            intensity.from(static_cast<std::size_t>(row) * static_cast<std::size_t>(stride));
         const std::size_t to = index_of(x, y + row);
         if (pixels_ == PixelType::byte) {
             const bool srgb = encoding_ == ColorEncoding::srgb;
@@ -90,7 +92,12 @@ void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, i
 }
 
 PictureView Film::view() const noexcept {
-    return {.width = width_, .height = height_, .pixels = pixels_, .encoding = encoding_, .bytes = bytes_, .reals = reals_};
+    return {.width = width_,
+            .height = height_,
+            .pixels = pixels_,
+            .encoding = encoding_,
+            .bytes = bytes_,
+            .reals = reals_};
 }
 
 }  // namespace candela

@@ -27,7 +27,8 @@ class CANDELA_API Film {
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
 
-    /// Stores a rectangle of intensities, rows `stride` apart. Different threads may store different pixels at once.
+    /// Stores a rectangle of intensities, rows `stride` apart. Different threads may store different pixels
+    /// at once.
     void store(int x, int y, int width, int height, ConstVec3Span intensity, int stride);
 
     /// Stores a rectangle of one intensity.
@@ -53,12 +54,13 @@ struct PictureFormat {
     PixelType pixels = PixelType::byte;
 };
 
-/// The format of a path, by its extension; "-", standard output, is PNG. Throws Error for an extension that nobody writes.
+/// The format of a path, by its extension; "-", standard output, is PNG. Throws Error for an extension that
+/// nobody writes.
 CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
-/// Writes the picture beside its place and renames it, so that nobody ever finds half a file; "-" and what is no ordinary
-/// file is written to directly. Throws Error.
-CANDELA_API void write_picture(const Film& film, const PictureFormat& format, const std::filesystem::path& path,
-                               Registry& registry);
+/// Writes the picture beside its place and renames it, so that nobody ever finds half a file; "-" and what is
+/// no ordinary file is written to directly. Throws Error.
+CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
+                               const std::filesystem::path& path, Registry& registry);
 
 }  // namespace candela

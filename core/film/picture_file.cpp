@@ -56,7 +56,7 @@ class DescriptorSink final : public ByteSink {
 class FileBeside {
   public:
     explicit FileBeside(fs::path target) : target_(std::move(target)) {
-        fs::path pattern = target_.parent_path() / ("." + target_.filename().string() + ".XXXXXX");
+        fs::path const pattern = target_.parent_path() / ("." + target_.filename().string() + ".XXXXXX");
         std::string name = pattern.string();
         descriptor_ = ::mkstemp(name.data());
         if (descriptor_ < 0) fail(target_, "cannot be created");
@@ -72,8 +72,9 @@ class FileBeside {
     int descriptor() const { return descriptor_; }
 
     void take_place() {
-        // mkstemp makes files for their owner only; a picture has the rights that any new file, or the old picture, has.
-        struct stat before {};
+        // mkstemp makes files for their owner only; a picture has the rights that any new file, or the old
+        // picture, has.
+        struct stat before{};
         mode_t mode = 0;
         if (::stat(target_.c_str(), &before) == 0) {
             mode = before.st_mode & 07777;
@@ -107,28 +108,29 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
     if (path == "-") return {.plugin = "png", .extension = "png", .pixels = PixelType::byte};
     std::string extension = path.extension().string();
     if (!extension.empty()) extension.erase(0, 1);
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const PluginFile* const plugin = extension.empty() ? nullptr : registry.find_format(extension);
     if (plugin == nullptr) {
         const std::vector<std::string> all = registry.extensions();
         const auto near = closest(extension, all);
-        throw Error(ExitCode::usage,
-                    fmt::format("'{}' {}{} (possible: {})", path.string(),
-                                extension.empty() ? "has no extension that names a picture format"
-                                                  : fmt::format("is of no format that an image plugin writes"),
-                                near && !extension.empty() ? fmt::format("; did you mean '.{}'?", *near) : "",
-                                fmt::join(all, ", ")));
+        throw Error(
+            ExitCode::usage,
+            fmt::format("'{}' {}{} (possible: {})", path.string(),
+                        extension.empty() ? "has no extension that names a picture format"
+                                          : fmt::format("is of no format that an image plugin writes"),
+                        near && !extension.empty() ? fmt::format("; did you mean '.{}'?", *near) : "",
+                        fmt::join(all, ", ")));
     }
     const auto& formats = plugin->manifest.formats;
-    const auto format = std::find_if(formats.begin(), formats.end(),
-                                     [&](const ManifestFormat& f) { return f.extension == extension; });
+    const auto format =
+        std::ranges::find_if(formats, [&](const ManifestFormat& f) { return f.extension == extension; });
     return {.plugin = plugin->manifest.name, .extension = extension, .pixels = format->pixels};
 }
 
 void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry) {
-    const auto writer = registry.create<ImageFormat>(format.plugin, registry.parameters(PluginKind::image, format.plugin),
-                                                     film.view().encoding);
+    const auto writer = registry.create<ImageFormat>(
+        format.plugin, registry.parameters(PluginKind::image, format.plugin), film.view().encoding);
     const auto write_to = [&](int descriptor) {
         DescriptorSink sink(descriptor, path);
         try {
@@ -140,12 +142,14 @@ void write_picture(const Film& film, const PictureFormat& format, const fs::path
     if (path == "-") return write_to(STDOUT_FILENO);
     std::error_code problem;
     if (fs::is_directory(path, problem)) {
-        throw Error(ExitCode::failure, fmt::format("'{}' is a directory; a picture is a file", path.string()));
+        throw Error(ExitCode::failure,
+                    fmt::format("'{}' is a directory; a picture is a file", path.string()));
     }
     if (!is_replaceable(path)) {
         const int descriptor = ::open(path.c_str(), O_WRONLY);
         if (descriptor < 0) fail(path, "cannot be opened");
-        const std::unique_ptr<const int, void (*)(const int*)> closer(&descriptor, [](const int* d) { ::close(*d); });
+        const std::unique_ptr<const int, void (*)(const int*)> closer(&descriptor,
+                                                                      [](const int* d) { ::close(*d); });
         return write_to(descriptor);
     }
     // Through a link, what it leads to is replaced, not the link.

@@ -21,7 +21,8 @@ void FragmentList::clear() {
     weight.clear();
 }
 
-void FragmentList::add(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, float share) {
+void FragmentList::add(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel,
+                       float share) {
     triangle.push_back(triangle_index);
     x.push_back(at_x);
     y.push_back(at_y);
@@ -29,7 +30,8 @@ void FragmentList::add(std::uint32_t triangle_index, float at_x, float at_y, std
     weight.push_back(share);
 }
 
-void FragmentList::add_run(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, std::size_t count) {
+void FragmentList::add_run(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel,
+                           std::size_t count) {
     const std::size_t first = size();
     const std::size_t all = first + count;
     triangle.resize(all, triangle_index);
@@ -45,7 +47,9 @@ void FragmentList::add_run(std::uint32_t triangle_index, float at_x, float at_y,
 
 FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t triangle) {
     const auto& first = scene.first_triangle;
-    const auto holds = [&](std::size_t object) { return first[object] <= triangle && triangle < first[object + 1]; };
+    const auto holds = [&](std::size_t object) {
+        return first[object] <= triangle && triangle < first[object + 1];
+    };
     if (last_ < used_ && holds(lists_[last_].object)) return lists_[last_];
     for (last_ = 0; last_ < used_; ++last_) {
         if (holds(lists_[last_].object)) return lists_[last_];
@@ -53,7 +57,7 @@ FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t 
     if (used_ == lists_.size()) lists_.emplace_back();
     FragmentList& list = lists_[used_++];
     list.clear();
-    list.object = static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), triangle) - first.begin() - 1);
+    list.object = static_cast<std::uint32_t>(std::ranges::upper_bound(first, triangle) - first.begin() - 1);
     return list;
 }
 
@@ -75,7 +79,8 @@ void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& v
 void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility,
                                    std::vector<float>& background_weight) {
     for (int row = 0; row < visibility.height; ++row) {
-        const std::size_t row_begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(visibility.stride);
+        const std::size_t row_begin =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(visibility.stride);
         const std::uint32_t* const seen = visibility.triangle.data() + row_begin;
         const float y = static_cast<float>(visibility.y0 + row) + 0.5f;
         for (int begin = 0; begin < visibility.width;) {
@@ -88,8 +93,8 @@ void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibi
                 std::fill_n(background_weight.begin() + first, count, 1.0f);
             } else {
                 FragmentList& list = list_of(scene, triangle);
-                list.add_run(triangle - scene.first_triangle[list.object], static_cast<float>(visibility.x0 + begin) + 0.5f, y,
-                             first, count);
+                list.add_run(triangle - scene.first_triangle[list.object],
+                             static_cast<float>(visibility.x0 + begin) + 0.5f, y, first, count);
             }
             begin = end;
         }
@@ -106,8 +111,8 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
     for (int row = 0; row < visibility.height; ++row) {
         for (int column = 0; column < visibility.width; ++column) {
             const auto pixel = static_cast<std::uint32_t>(row * visibility.stride + column);
-            const float left = static_cast<float>(visibility.x0 + column);
-            const float top = static_cast<float>(visibility.y0 + row);
+            const auto left = static_cast<float>(visibility.x0 + column);
+            const auto top = static_cast<float>(visibility.y0 + row);
             // The triangles that the pixel's samples see, in the order of the samples.
             struct Seen {
                 std::uint32_t triangle;
@@ -132,7 +137,8 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
                     background_weight[pixel] = weight;
                     continue;
                 }
-                // In the pixel's middle; where the triangle covers only part of the pixel, in the middle of that part.
+                // In the pixel's middle; where the triangle covers only part of the pixel, in the middle of
+                // that part.
                 const bool is_whole = s.count == samples;
                 const float sixteenths = 16 * static_cast<float>(s.count);
                 const float x = is_whole ? 0.5f : static_cast<float>(s.x) / sixteenths;

@@ -16,10 +16,12 @@ import candela.raster;
 
 export namespace candela {
 
-/// How many points are shaded at once: enough to hide a virtual call, few enough to stay in the first-level cache.
+/// How many points are shaded at once: enough to hide a virtual call, few enough to stay in the first-level
+/// cache.
 inline constexpr std::size_t k_batch_size = 256;
 
-/// Points of one object's surface, structure of arrays with room for k_batch_size. Reused from batch to batch.
+/// Points of one object's surface, structure of arrays with room for k_batch_size. Reused from batch to
+/// batch.
 struct CANDELA_API SurfacePoints {
     SurfacePoints();
 
@@ -39,7 +41,8 @@ struct PointNeeds {
     bool derivatives = false;
 };
 
-/// The fragments of one object in one tile, in the order of their pixels: each is what one triangle contributes to one pixel.
+/// The fragments of one object in one tile, in the order of their pixels: each is what one triangle
+/// contributes to one pixel.
 struct FragmentList {
     std::uint32_t object = 0;
     std::vector<std::uint32_t> triangle;  // of the object's mesh
@@ -51,21 +54,26 @@ struct FragmentList {
     void clear();
     void add(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, float share);
     /// Adds `count` whole pixels of a row, from the one at `at_pixel` whose middle is at (at_x, at_y).
-    void add_run(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, std::size_t count);
+    void add_run(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel,
+                 std::size_t count);
 };
 
 /// All fragments of a tile, one list an object, in the scene's order. Reused from tile to tile.
 class CANDELA_API TileFragments {
   public:
-    /// Sorts what `visibility` holds. `background_weight` receives, per pixel of the tile, the share that sees no object.
-    void collect(const ProjectedScene& scene, const TileVisibility& visibility, std::vector<float>& background_weight);
+    /// Sorts what `visibility` holds. `background_weight` receives, per pixel of the tile, the share that
+    /// sees no object.
+    void collect(const ProjectedScene& scene, const TileVisibility& visibility,
+                 std::vector<float>& background_weight);
 
     std::span<const FragmentList> lists() const { return {lists_.data(), used_}; }
 
   private:
     FragmentList& list_of(const ProjectedScene& scene, std::uint32_t triangle);
-    void collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility, std::vector<float>& background_weight);
-    void collect_samples(const ProjectedScene& scene, const TileVisibility& visibility, std::vector<float>& background_weight);
+    void collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility,
+                        std::vector<float>& background_weight);
+    void collect_samples(const ProjectedScene& scene, const TileVisibility& visibility,
+                         std::vector<float>& background_weight);
 
     std::vector<FragmentList> lists_;
     std::size_t used_ = 0;
@@ -82,14 +90,14 @@ struct ProjectedMesh {
     bool is_back(std::uint32_t triangle) const;
 };
 
-/// Fills `points` with the fragments [first, first + count), count <= k_batch_size: barycentric coordinates on the triangle
-/// itself (Blinn 1992, "Hyperbolic interpolation"), and what follows from them.
+/// Fills `points` with the fragments [first, first + count), count <= k_batch_size: barycentric coordinates
+/// on the triangle itself (Blinn 1992, "Hyperbolic interpolation"), and what follows from them.
 CANDELA_API void gather_fragments(const ProjectedMesh& mesh, const FragmentList& fragments, std::size_t first,
                                   std::size_t count, PointNeeds needs, SurfacePoints& points);
 
 /// Fills `points` with the centroids of triangles.
-CANDELA_API void gather_faces(const ProjectedMesh& mesh, std::span<const std::uint32_t> triangles, PointNeeds needs,
-                              SurfacePoints& points);
+CANDELA_API void gather_faces(const ProjectedMesh& mesh, std::span<const std::uint32_t> triangles,
+                              PointNeeds needs, SurfacePoints& points);
 
 /// A vertex, seen from the front or from behind.
 struct VertexSide {
@@ -100,7 +108,7 @@ struct VertexSide {
 };
 
 /// Fills `points` with vertices. A vertex has no face of its own: its face normal is its vertex normal.
-CANDELA_API void gather_vertices(const ProjectedMesh& mesh, std::span<const VertexSide> vertices, PointNeeds needs,
-                                 SurfacePoints& points);
+CANDELA_API void gather_vertices(const ProjectedMesh& mesh, std::span<const VertexSide> vertices,
+                                 PointNeeds needs, SurfacePoints& points);
 
 }  // namespace candela

@@ -33,16 +33,19 @@ struct PointSpans {
 };
 
 [[gnu::always_inline]] inline Vec3 blend(const Corners& c, float b0, float b1, float b2) {
-    return {b0 * c.at[0].x + b1 * c.at[1].x + b2 * c.at[2].x, b0 * c.at[0].y + b1 * c.at[1].y + b2 * c.at[2].y,
+    return {b0 * c.at[0].x + b1 * c.at[1].x + b2 * c.at[2].x,
+            b0 * c.at[0].y + b1 * c.at[1].y + b2 * c.at[2].y,
             b0 * c.at[0].z + b1 * c.at[1].z + b2 * c.at[2].z};
 }
 
 /// A run of fragments of one triangle.
 struct RunLoop {
-    CANDELA_BATCH_LOOP static void run(TriangleAttributes t, std::size_t count, const float* px, const float* py, PointSpans out) {
+    CANDELA_BATCH_LOOP static void run(TriangleAttributes t, std::size_t count, const float* px,
+                                       const float* py, PointSpans out) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            // Corners relative to the fragment; areas of the three part triangles, perspective already undone by w.
+            // Corners relative to the fragment; areas of the three part triangles, perspective already undone
+            // by w.
             const float x0 = t.x[0] - px[i] * t.w[0], y0 = t.y[0] - py[i] * t.w[0];
             const float x1 = t.x[1] - px[i] * t.w[1], y1 = t.y[1] - py[i] * t.w[1];
             const float x2 = t.x[2] - px[i] * t.w[2], y2 = t.y[2] - py[i] * t.w[2];
@@ -87,14 +90,16 @@ Corners corners(const Vec3Arrays& arrays, const Indices& vertices) {
 }
 
 /// uv and derivatives of points whose barycentric coordinates are known.
-void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first, std::size_t count,
-                      SurfacePoints& points) {
+void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
+                      std::size_t count, SurfacePoints& points) {
     const ConstVec3Span weight = std::as_const(points.barycentric).span();
     if (needs.uv) {
         const bool has_uv = !mesh.u.empty();
         for (std::size_t i = first; i < first + count; ++i) {
             const auto mix = [&](const std::vector<float>& a) {
-                return has_uv ? weight.x[i] * a[vertices[0]] + weight.y[i] * a[vertices[1]] + weight.z[i] * a[vertices[2]] : 0.0f;
+                return has_uv ? weight.x[i] * a[vertices[0]] + weight.y[i] * a[vertices[1]] +
+                                    weight.z[i] * a[vertices[2]]
+                              : 0.0f;
             };
             points.u[i] = mix(mesh.u);
             points.v[i] = mix(mesh.v);
@@ -141,11 +146,13 @@ bool ProjectedMesh::is_back(std::uint32_t triangle) const {
         w[k] = perspective ? scene.distance[v] : 1.0f;
     }
     // Twice the signed area, y down: the front is counter-clockwise with y up.
-    return x[0] * (y[1] * w[2] - y[2] * w[1]) - y[0] * (x[1] * w[2] - x[2] * w[1]) + w[0] * (x[1] * y[2] - x[2] * y[1]) > 0;
+    return x[0] * (y[1] * w[2] - y[2] * w[1]) - y[0] * (x[1] * w[2] - x[2] * w[1]) +
+               w[0] * (x[1] * y[2] - x[2] * y[1]) >
+           0;
 }
 
-void gather_fragments(const ProjectedMesh& source, const FragmentList& fragments, std::size_t first, std::size_t count,
-                      PointNeeds needs, SurfacePoints& points) {
+void gather_fragments(const ProjectedMesh& source, const FragmentList& fragments, std::size_t first,
+                      std::size_t count, PointNeeds needs, SurfacePoints& points) {
     const Mesh& mesh = source.mesh;
     const bool perspective = source.scene.camera.projection == Projection::perspective;
     points.count = count;
@@ -164,16 +171,18 @@ void gather_fragments(const ProjectedMesh& source, const FragmentList& fragments
         }
         t.position = corners(mesh.position, vertices);
         t.normal = corners(mesh.vertex_normal, vertices);
-        multiversion<RunLoop>(t, end - begin, &fragments.x[first + begin], &fragments.y[first + begin],
-                              PointSpans{points.barycentric.span().from(begin), points.position.span().from(begin),
-                                         points.vertex_normal.span().from(begin)});
+        multiversion<RunLoop>(
+            t, end - begin, &fragments.x[first + begin], &fragments.y[first + begin],
+            PointSpans{points.barycentric.span().from(begin), points.position.span().from(begin),
+                       points.vertex_normal.span().from(begin)});
         const Vec3 face_normal = mesh.face_normal.span()[triangle];
         const float facing = source.is_back(triangle) ? -1.0f : 1.0f;
         for (std::size_t i = begin; i < end; ++i) {
             points.face_normal.span().set(i, face_normal);
             points.facing[i] = facing;
         }
-        if (needs.uv || needs.derivatives) blend_attributes(mesh, vertices, needs, begin, end - begin, points);
+        if (needs.uv || needs.derivatives)
+            blend_attributes(mesh, vertices, needs, begin, end - begin, points);
         begin = end;
     }
 }
@@ -187,7 +196,8 @@ void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> tr
         const Indices vertices = corners_of(mesh, triangles[i]);
         points.position.span().set(i, blend(corners(mesh.position, vertices), k_third, k_third, k_third));
         points.face_normal.span().set(i, mesh.face_normal.span()[triangles[i]]);
-        points.vertex_normal.span().set(i, blend(corners(mesh.vertex_normal, vertices), k_third, k_third, k_third));
+        points.vertex_normal.span().set(
+            i, blend(corners(mesh.vertex_normal, vertices), k_third, k_third, k_third));
         points.barycentric.span().set(i, {k_third, k_third, k_third});
         points.facing[i] = source.is_back(triangles[i]) ? -1.0f : 1.0f;
         if (needs.uv || needs.derivatives) blend_attributes(mesh, vertices, needs, i, 1, points);

@@ -24,8 +24,8 @@ struct PictureView {
     std::span<const float> reals{};
 };
 
-/// Where an image plugin puts the file's bytes, in order. Owned by the host, which sees to it that nobody ever finds half
-/// a file.
+/// Where an image plugin puts the file's bytes, in order. Owned by the host, which sees to it that nobody
+/// ever finds half a file.
 class CANDELA_API ByteSink {
   public:
     virtual ~ByteSink();

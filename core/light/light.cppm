@@ -26,14 +26,15 @@ struct IncidentBatch {
     Vec3Span specular;  // likewise, for highlights
 };
 
-/// A light. Any thread, any batch size from 1; arrays need no alignment and do not overlap. All intensities are >= 0
-/// and finite, also where a receiver coincides with the light.
+/// A light. Any thread, any batch size from 1; arrays need no alignment and do not overlap. All intensities
+/// are >= 0 and finite, also where a receiver coincides with the light.
 class CANDELA_API Light : public Instance {
   public:
     ~Light() override;
 
-    /// How many directions the light comes from at a point: 0 for ambient light, 1 for a point, more for a source that is
-    /// modelled by several (RE: "we model a distributed source by using a number of point light sources").
+    /// How many directions the light comes from at a point: 0 for ambient light, 1 for a point, more for a
+    /// source that is modelled by several (RE: "we model a distributed source by using a number of point
+    /// light sources").
     virtual int sample_count() const noexcept = 0;
 
     /// Writes what sample `sample`, 0 <= sample < sample_count(), sends. The samples of a light add up.

@@ -20,7 +20,8 @@ using kernel::vec3;
 
 /// V: towards the eye, or against the view in an orthographic picture.
 struct ToObserverLoop {
-    CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count, Vec3Span to_observer) {
+    CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count,
+                                       Vec3Span to_observer) {
         const bool perspective = camera.projection == Projection::perspective;
         const Vec3 against = -camera.forward;
         CANDELA_VECTORIZE
@@ -47,7 +48,8 @@ struct FlipLoop {
 
 /// dp/du without its part along N (Gram-Schmidt).
 struct TangentLoop {
-    CANDELA_BATCH_LOOP static void run(ConstVec3Span dpdu, ConstVec3Span normal, std::size_t count, Vec3Span tangent) {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span dpdu, ConstVec3Span normal, std::size_t count,
+                                       Vec3Span tangent) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const vec3 n(normal.x[i], normal.y[i], normal.z[i]);
@@ -61,7 +63,8 @@ struct TangentLoop {
 };
 
 struct SumLoop {
-    CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span d, ConstVec3Span s, std::size_t count, Vec3Span sum) {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span d, ConstVec3Span s, std::size_t count,
+                                       Vec3Span sum) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             sum.x[i] = a.x[i] + d.x[i] + s.x[i];
@@ -92,23 +95,26 @@ PointNeeds SurfaceModels::needs() const {
     return {.uv = needs.uv, .derivatives = needs.derivatives || reflection->needs_tangent()};
 }
 
-Lighting::Lighting(std::span<const LitSource> lights, const Camera& camera) : lights_(lights), camera_(camera) {
-    for (Vec3Arrays* const arrays : {&normal_, &to_observer_, &tangent_, &to_light_, &light_diffuse_, &light_specular_,
-                                     &ambient_, &diffuse_, &specular_}) {
+Lighting::Lighting(std::span<const LitSource> lights, const Camera& camera)
+    : lights_(lights), camera_(camera) {
+    for (Vec3Arrays* const arrays : {&normal_, &to_observer_, &tangent_, &to_light_, &light_diffuse_,
+                                     &light_specular_, &ambient_, &diffuse_, &specular_}) {
         arrays->resize(k_batch_size);
     }
 }
 
 void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
     const ShadingNeeds needs = surface.shading->needs();
-    const ShadingPointBatch batch{.count = points.count,
-                                  .face_normal = points.face_normal.span(),
-                                  .vertex_normal = points.vertex_normal.span(),
-                                  .barycentric = points.barycentric.span(),
-                                  .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
-                                  .dpdu = needs.derivatives ? points.dpdu.span() : ConstVec3Span{},
-                                  .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{}};
-    guarded(PluginKind::shading, surface.shading_plugin, [&] { surface.shading->normals(batch, normal_.span()); });
+    const ShadingPointBatch batch{
+        .count = points.count,
+        .face_normal = points.face_normal.span(),
+        .vertex_normal = points.vertex_normal.span(),
+        .barycentric = points.barycentric.span(),
+        .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
+        .dpdu = needs.derivatives ? points.dpdu.span() : ConstVec3Span{},
+        .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{}};
+    guarded(PluginKind::shading, surface.shading_plugin,
+            [&] { surface.shading->normals(batch, normal_.span()); });
     multiversion<FlipLoop>(points.facing.data(), points.count, normal_.span());
 }
 
@@ -132,10 +138,12 @@ void Lighting::light(const SurfaceModels& surface, const SurfacePoints& points, 
     for (const LitSource& source : lights_) {
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
             guarded(PluginKind::light, source.plugin, [&] {
-                source.light->illuminate(sample, receivers, {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
+                source.light->illuminate(sample, receivers,
+                                         {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
             });
             guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
-                surface.reflection->reflect(batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
+                surface.reflection->reflect(
+                    batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
             });
         }
         if (source.light->has_ambient()) {
@@ -145,8 +153,8 @@ void Lighting::light(const SurfaceModels& surface, const SurfacePoints& points, 
                     [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
         }
     }
-    multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(), std::as_const(specular_).span(), count,
-                          intensity);
+    multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
+                          std::as_const(specular_).span(), count, intensity);
 }
 
 }  // namespace candela

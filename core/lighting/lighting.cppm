@@ -1,5 +1,5 @@
-// Light on points of a surface: normals from the shading plugin, light from the light plugins, colour from the reflection
-// plugin.
+// Light on points of a surface: normals from the shading plugin, light from the light plugins, colour from
+// the reflection plugin.
 module;
 
 #include "candela/api.h"
@@ -43,8 +43,8 @@ class CANDELA_API Lighting {
   public:
     Lighting(std::span<const LitSource> lights, const Camera& camera);
 
-    /// Writes the intensity that `points` send to the observer: I_a + sum of I_d + I_s over the lights (CA DD6). Throws
-    /// Error where a plugin throws.
+    /// Writes the intensity that `points` send to the observer: I_a + sum of I_d + I_s over the lights (CA
+    /// DD6). Throws Error where a plugin throws.
     void light(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& intensity);
 
   private:

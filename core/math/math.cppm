@@ -46,8 +46,8 @@ struct Rgb {
 constexpr Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 constexpr Rgb operator*(float s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
 
-/// Where an object stands: scaled (by more than zero), then rotated about x, then y, then z (fixed axes, degrees), then
-/// moved.
+/// Where an object stands: scaled (by more than zero), then rotated about x, then y, then z (fixed axes,
+/// degrees), then moved.
 struct Placement {
     Vec3 position{};
     Vec3 rotation{};

@@ -27,7 +27,8 @@ class Collector final : public MeshSink {
         allocated_ = true;
         constexpr std::size_t k_most = 0xffff'fff0u;
         if (layout.vertices > k_most || layout.triangles > k_most / 3) {
-            throw std::invalid_argument(fmt::format("{} triangles are more than can be numbered", layout.triangles));
+            throw std::invalid_argument(
+                fmt::format("{} triangles are more than can be numbered", layout.triangles));
         }
         closedness = layout.closedness;
         mesh.position.resize(layout.vertices);
@@ -97,8 +98,9 @@ void check(const Collector& collected) {
     if (mesh.corners.empty()) throw std::invalid_argument("the mesh has no triangles");
     for (const std::uint32_t corner : mesh.corners) {
         if (corner >= mesh.vertex_count()) {
-            throw std::invalid_argument(fmt::format("a triangle's corner is vertex {}, but there are only {} vertices", corner,
-                                                    mesh.vertex_count()));
+            throw std::invalid_argument(
+                fmt::format("a triangle's corner is vertex {}, but there are only {} vertices", corner,
+                            mesh.vertex_count()));
         }
     }
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -109,7 +111,8 @@ void check(const Collector& collected) {
     }
     for (const std::uint32_t group : collected.smooth_group) {
         if (group >= mesh.vertex_count()) {
-            throw std::invalid_argument(fmt::format("smooth group {} is beyond the {} vertices", group, mesh.vertex_count()));
+            throw std::invalid_argument(
+                fmt::format("smooth group {} is beyond the {} vertices", group, mesh.vertex_count()));
         }
     }
 }
@@ -131,15 +134,14 @@ void make_face_normals(Mesh& mesh) {
     }
 }
 
-/// How many edges do not lie between two triangles that agree on what is outside. Vertices at one place count as one.
+/// How many edges do not lie between two triangles that agree on what is outside. Vertices at one place count
+/// as one.
 std::size_t count_open_edges(const Mesh& mesh) {
     std::vector<std::uint32_t> order(mesh.vertex_count());
     std::iota(order.begin(), order.end(), 0u);
     const ConstVec3Span position = mesh.position.span();
-    const auto key = [&](std::uint32_t i) {
-        return std::array{position.x[i], position.y[i], position.z[i]};
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    const auto key = [&](std::uint32_t i) { return std::array{position.x[i], position.y[i], position.z[i]}; };
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     std::vector<std::uint32_t> place(mesh.vertex_count());
     for (std::size_t i = 0; i < order.size(); ++i) {
         place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
@@ -153,7 +155,7 @@ std::size_t count_open_edges(const Mesh& mesh) {
         const std::uint64_t b = place[mesh.corners[next]];
         if (a != b) edges.emplace_back(std::min(a, b) << 32 | std::max(a, b), a < b ? 1 : -1);
     }
-    std::sort(edges.begin(), edges.end());
+    std::ranges::sort(edges);
     std::size_t open = 0;
     for (std::size_t i = 0; i < edges.size();) {
         int balance = 0;
@@ -178,8 +180,9 @@ void make_vertex_normals(Mesh& mesh, const Collector& collected, const ShadingMo
                         .smooth_group = group,
                         .vertex_count = mesh.vertex_count(),
                         .group_count = mesh.vertex_count(),
-                        .authored_normal = collected.authored_normal.empty() ? ConstVec3Span{}
-                                                                             : collected.authored_normal.span()};
+                        .authored_normal = collected.authored_normal.empty()
+                                               ? ConstVec3Span{}
+                                               : collected.authored_normal.span()};
     shading.vertex_normals(view, normal.span());
     mesh.vertex_normal.resize(mesh.vertex_count());
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -189,7 +192,8 @@ void make_vertex_normals(Mesh& mesh, const Collector& collected, const ShadingMo
 
 }  // namespace
 
-Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Placement& placement, const ShadingModel& shading) {
+Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Placement& placement,
+                const ShadingModel& shading) {
     Collector collected;
     shape.tessellate(request, collected);
     check(collected);

@@ -32,7 +32,8 @@ struct Vec3Arrays {
     inline ConstVec3Span span() const { return {x.data(), y.data(), z.data()}; }
 };
 
-/// Triangles in world space. Vertices are shared; corners of a triangle run counter-clockwise seen from outside.
+/// Triangles in world space. Vertices are shared; corners of a triangle run counter-clockwise seen from
+/// outside.
 struct Mesh {
     Vec3Arrays position;
     std::vector<std::uint32_t> corners;
@@ -48,8 +49,8 @@ struct Mesh {
 };
 
 /// Tessellates `shape`, places it, and gives it the vertex normals of `shading`.
-/// Throws std::exception: what the shape throws; std::invalid_argument for a mesh without triangles, with a corner that is
-/// no vertex, or with a position that is no finite number.
+/// Throws std::exception: what the shape throws; std::invalid_argument for a mesh without triangles, with a
+/// corner that is no vertex, or with a position that is no finite number.
 CANDELA_API Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Placement& placement,
                             const ShadingModel& shading);
 

@@ -19,8 +19,9 @@ namespace candela {
 
 namespace {
 
-/// What happens before work starts happens before the work, and the work happens before what follows it. oneTBB sees to that;
-/// but the library is built without the thread sanitizer, which therefore has to be told. (This file is built without it too.)
+/// What happens before work starts happens before the work, and the work happens before what follows it.
+/// oneTBB sees to that; but the library is built without the thread sanitizer, which therefore has to be
+/// told. (This file is built without it too.)
 class Handover {
   public:
     void give() {
@@ -63,7 +64,9 @@ void parallel_for(std::size_t count, std::size_t grain, FunctionRef<std::size_t,
     hand_over([&](auto in_worker) {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, count, grain),
-            [&](const tbb::blocked_range<std::size_t>& range) { in_worker([&] { body(range.begin(), range.end()); }); },
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                in_worker([&] { body(range.begin(), range.end()); });
+            },
             tbb::simple_partitioner{});
     });
 }

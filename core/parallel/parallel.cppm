@@ -20,7 +20,8 @@ class FunctionRef {
     template <class Function>
         requires(!std::is_same_v<std::remove_cvref_t<Function>, FunctionRef>)
     FunctionRef(Function&& function)
-        : object_(const_cast<void*>(static_cast<const void*>(&function))), call_([](void* object, Arguments... arguments) {
+        : object_(const_cast<void*>(static_cast<const void*>(&function))),
+          call_([](void* object, Arguments... arguments) {
               (*static_cast<std::remove_reference_t<Function>*>(object))(arguments...);
           }) {}
     void operator()(Arguments... arguments) const { call_(object_, arguments...); }
@@ -30,11 +31,14 @@ class FunctionRef {
     void (*call_)(void*, Arguments...);
 };
 
-/// Runs `work` with `threads` threads at the disposal of every parallel_for() within; 0: all that are available.
+/// Runs `work` with `threads` threads at the disposal of every parallel_for() within; 0: all that are
+/// available.
 CANDELA_API void with_threads(int threads, FunctionRef<> work);
 
-/// Calls `body(begin, end)` for ranges that together are [0, count), each of at least `grain` unless it is the last.
-/// Exceptions end the work and come out here. Work of one grain, or with one thread, starts no other thread.
-CANDELA_API void parallel_for(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> body);
+/// Calls `body(begin, end)` for ranges that together are [0, count), each of at least `grain` unless it is
+/// the last. Exceptions end the work and come out here. Work of one grain, or with one thread, starts no
+/// other thread.
+CANDELA_API void parallel_for(std::size_t count, std::size_t grain,
+                              FunctionRef<std::size_t, std::size_t> body);
 
 }  // namespace candela

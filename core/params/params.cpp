@@ -23,8 +23,9 @@ namespace candela {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> k_type_names = {
-    "real", "integer", "boolean", "choice", "text", "file", "vector", "point", "direction", "color", "triple"};
+constexpr std::array<std::string_view, 11> k_type_names = {"real",      "integer", "boolean", "choice",
+                                                           "text",      "file",    "vector",  "point",
+                                                           "direction", "color",   "triple"};
 constexpr std::array<std::string_view, 3> k_relation_names = {"less", "less-or-equal", "sum-at-most-one"};
 
 template <class Enum, std::size_t count>
@@ -37,30 +38,43 @@ std::optional<Enum> enum_named(const std::array<std::string_view, count>& names,
 Vec3 vec3_of(const ParamValue& value) { return {value.number[0], value.number[1], value.number[2]}; }
 
 /// A float in as few digits as name it exactly: 0.1, not 0.10000000149011612.
-double shortest(float x) { return std::isfinite(x) ? std::stod(fmt::format("{}", x)) : static_cast<double>(x); }
+double shortest(float x) {
+    return std::isfinite(x) ? std::stod(fmt::format("{}", x)) : static_cast<double>(x);
+}
 
 Value fallback_of(const ParamSpec& spec) {
     const ParamValue& value = spec.fallback;
     switch (spec.type) {
-        case ParamType::real: return shortest(value.number[0]);
-        case ParamType::integer: return std::int64_t{value.integer};
-        case ParamType::boolean: return value.integer != 0;
-        case ParamType::choice: return std::string(spec.choices[static_cast<std::size_t>(value.integer)]);
+        case ParamType::real:
+            return shortest(value.number[0]);
+        case ParamType::integer:
+            return std::int64_t{value.integer};
+        case ParamType::boolean:
+            return value.integer != 0;
+        case ParamType::choice:
+            return std::string(spec.choices[static_cast<std::size_t>(value.integer)]);
         case ParamType::text:
-        case ParamType::file: return std::string(value.text != nullptr ? value.text : "");
-        default: return vec3_of(value);
+        case ParamType::file:
+            return std::string(value.text != nullptr ? value.text : "");
+        default:
+            return vec3_of(value);
     }
 }
 
 bool holds(const Value& value, ParamType type) {
     switch (type) {
-        case ParamType::real: return std::holds_alternative<double>(value);
-        case ParamType::integer: return std::holds_alternative<std::int64_t>(value);
-        case ParamType::boolean: return std::holds_alternative<bool>(value);
+        case ParamType::real:
+            return std::holds_alternative<double>(value);
+        case ParamType::integer:
+            return std::holds_alternative<std::int64_t>(value);
+        case ParamType::boolean:
+            return std::holds_alternative<bool>(value);
         case ParamType::choice:
         case ParamType::text:
-        case ParamType::file: return std::holds_alternative<std::string>(value);
-        default: return std::holds_alternative<Vec3>(value);
+        case ParamType::file:
+            return std::holds_alternative<std::string>(value);
+        default:
+            return std::holds_alternative<Vec3>(value);
     }
 }
 
@@ -85,7 +99,9 @@ std::string_view name_of(ParamType type) noexcept { return k_type_names[static_c
 std::optional<ParamType> param_type_named(std::string_view name) noexcept {
     return enum_named<ParamType>(k_type_names, name);
 }
-std::string_view name_of(RelationType type) noexcept { return k_relation_names[static_cast<std::size_t>(type)]; }
+std::string_view name_of(RelationType type) noexcept {
+    return k_relation_names[static_cast<std::size_t>(type)];
+}
 std::optional<RelationType> relation_type_named(std::string_view name) noexcept {
     return enum_named<RelationType>(k_relation_names, name);
 }
@@ -137,19 +153,29 @@ std::string expectation(const Parameter& p) {
     const std::string range = range_text(p);
     const std::string tail = range.empty() ? "" : ", " + range;
     switch (p.type) {
-        case ParamType::real: return "a number" + tail;
+        case ParamType::real:
+            return "a number" + tail;
         case ParamType::integer:
             if (!p.choices.empty()) return fmt::format("one of {}", fmt::join(p.choices, ", "));
             return "a whole number" + tail;
-        case ParamType::boolean: return "true or false";
-        case ParamType::choice: return fmt::format("one of '{}'", fmt::join(p.choices, "', '"));
-        case ParamType::text: return "a text in quotes";
-        case ParamType::file: return "a path in quotes";
-        case ParamType::vector: return "three numbers" + (range.empty() ? "" : ", each " + range);
-        case ParamType::point: return "three numbers, a place in metres";
-        case ParamType::direction: return "three numbers, not all zero";
-        case ParamType::color: return "three whole numbers 0-255";
-        case ParamType::triple: return "a number, or three of them" + tail;
+        case ParamType::boolean:
+            return "true or false";
+        case ParamType::choice:
+            return fmt::format("one of '{}'", fmt::join(p.choices, "', '"));
+        case ParamType::text:
+            return "a text in quotes";
+        case ParamType::file:
+            return "a path in quotes";
+        case ParamType::vector:
+            return "three numbers" + (range.empty() ? "" : ", each " + range);
+        case ParamType::point:
+            return "three numbers, a place in metres";
+        case ParamType::direction:
+            return "three numbers, not all zero";
+        case ParamType::color:
+            return "three whole numbers 0-255";
+        case ParamType::triple:
+            return "a number, or three of them" + tail;
     }
     return "a value";
 }
@@ -157,13 +183,13 @@ std::string expectation(const Parameter& p) {
 std::optional<std::string> complaint(const Parameter& p, const Value& value) {
     if (p.type == ParamType::choice) {
         const auto* word = std::get_if<std::string>(&value);
-        if (word == nullptr || std::find(p.choices.begin(), p.choices.end(), *word) == p.choices.end()) {
+        if (word == nullptr || std::ranges::find(p.choices, *word) == p.choices.end()) {
             return fmt::format("{} is not {}", text_of(value), expectation(p));
         }
         return std::nullopt;
     }
     if (p.type == ParamType::integer && !p.choices.empty() &&
-        std::find(p.choices.begin(), p.choices.end(), text_of(value)) == p.choices.end()) {
+        std::ranges::find(p.choices, text_of(value)) == p.choices.end()) {
         return fmt::format("{} is not one of {}", text_of(value), fmt::join(p.choices, ", "));
     }
     for (const double x : numbers_of(value)) {
@@ -207,7 +233,7 @@ ParamSet::ParamSet(std::vector<Parameter> schema) : schema_(std::move(schema)) {
 }
 
 std::size_t ParamSet::index_of(std::string_view name) const noexcept {
-    const auto found = std::find_if(schema_.begin(), schema_.end(), [&](const Parameter& p) { return p.name == name; });
+    const auto found = std::ranges::find_if(schema_, [&](const Parameter& p) { return p.name == name; });
     return static_cast<std::size_t>(found - schema_.begin());
 }
 
@@ -235,7 +261,8 @@ void ParamSet::set(std::string_view name, Value value) {
 
 const Value& ParamSet::get(std::string_view name) const {
     const std::size_t index = index_of(name);
-    if (index == schema_.size() || !values_[index]) throw std::invalid_argument(fmt::format("'{}' has no value", name));
+    if (index == schema_.size() || !values_[index])
+        throw std::invalid_argument(fmt::format("'{}' has no value", name));
     return *values_[index];
 }
 
@@ -256,22 +283,32 @@ std::vector<ParamValue> ParamSet::delivered(ColorEncoding encoding) const {
                 result[i].number[0] = p.unit == "deg" ? x * 0.0174532925f : x;
                 break;
             }
-            case ParamType::integer: result[i].integer = static_cast<std::int32_t>(std::get<std::int64_t>(value)); break;
-            case ParamType::boolean: result[i].integer = std::get<bool>(value) ? 1 : 0; break;
+            case ParamType::integer:
+                result[i].integer = static_cast<std::int32_t>(std::get<std::int64_t>(value));
+                break;
+            case ParamType::boolean:
+                result[i].integer = std::get<bool>(value) ? 1 : 0;
+                break;
             case ParamType::choice: {
-                const auto found = std::find(p.choices.begin(), p.choices.end(), std::get<std::string>(value));
+                const auto found = std::ranges::find(p.choices, std::get<std::string>(value));
                 result[i].integer = static_cast<std::int32_t>(found - p.choices.begin());
                 break;
             }
             case ParamType::text:
-            case ParamType::file: result[i].text = std::get<std::string>(value).c_str(); break;
+            case ParamType::file:
+                result[i].text = std::get<std::string>(value).c_str();
+                break;
             case ParamType::color: {
                 const Rgb rgb = decoded(std::get<Vec3>(value), encoding);
                 put({rgb.r, rgb.g, rgb.b});
                 break;
             }
-            case ParamType::direction: put(normalized(std::get<Vec3>(value))); break;
-            default: put(std::get<Vec3>(value)); break;
+            case ParamType::direction:
+                put(normalized(std::get<Vec3>(value)));
+                break;
+            default:
+                put(std::get<Vec3>(value));
+                break;
         }
     }
     return result;
@@ -286,8 +323,8 @@ std::optional<std::string> complaint(const Relation& relation, const ParamSet& s
     const std::vector<double> right = numbers_of(*set.get(right_index));
     for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
         const auto sentence = [&](std::string_view must) {
-            return fmt::format("{} ({}) must {} {} ({}): {}", relation.left, left[i], must, relation.right, right[i],
-                               relation.meaning);
+            return fmt::format("{} ({}) must {} {} ({}): {}", relation.left, left[i], must, relation.right,
+                               right[i], relation.meaning);
         };
         switch (relation.type) {
             case RelationType::less:

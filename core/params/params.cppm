@@ -1,8 +1,9 @@
-// Parameter schemas: what a plugin or a table of the scene file may be told. Typed once; manifests, validation, listings
-// and documentation all come from here.
+// Parameter schemas: what a plugin or a table of the scene file may be told. Typed once; manifests,
+// validation, listings and documentation all come from here.
 //
-// `ParamSpec` is the plain form that a plugin hands over; `Parameter` is the same with its own memory, as read from a
-// manifest. `ParamValue` is one value as a plugin receives it; `Value` is one value as a person wrote it.
+// `ParamSpec` is the plain form that a plugin hands over; `Parameter` is the same with its own memory, as
+// read from a manifest. `ParamValue` is one value as a plugin receives it; `Value` is one value as a person
+// wrote it.
 module;
 
 #include "candela/api.h"
@@ -36,11 +37,12 @@ enum class ParamType : int {
     triple,     // a number, or one per channel
 };
 
-/// A value as a plugin receives it; which member counts follows from the type. Angles (unit "deg") arrive in radians.
+/// A value as a plugin receives it; which member counts follows from the type. Angles (unit "deg") arrive in
+/// radians.
 struct ParamValue {
     float number[3] = {0, 0, 0};  // real (the first), vector, point, direction, color, triple
     std::int32_t integer = 0;     // integer, boolean, the index of a choice
-    const char* text = nullptr;   // text, file (an absolute path); lives as long as the instance is being made
+    const char* text = nullptr;  // text, file (an absolute path); lives as long as the instance is being made
 };
 
 inline constexpr float k_no_minimum = -std::numeric_limits<float>::infinity();

@@ -39,10 +39,12 @@ std::map<fs::path, Loaded>& loaded_libraries() {
     throw Error(ExitCode::failure, fmt::format("plugin '{}' is refused: {}", library.string(), reason));
 }
 
-/// What the loader said, without the path that it repeats: "libfoo.so.1: cannot open shared object file: No such file …".
+/// What the loader said, without the path that it repeats: "libfoo.so.1: cannot open shared object file: No
+/// such file …".
 std::string loader_message(const boost::dll::fs::system_error& problem, const fs::path& library) {
     std::string text = problem.what();
-    for (const std::string& prefix : {library.string() + ": ", std::string("boost::dll::shared_library::load() failed: ")}) {
+    for (const std::string& prefix :
+         {library.string() + ": ", std::string("boost::dll::shared_library::load() failed: ")}) {
         if (const auto at = text.find(prefix); at != std::string::npos) text.erase(0, at + prefix.size());
     }
     if (const auto end = text.find(" [system:"); end != std::string::npos) text.erase(end);
@@ -51,9 +53,11 @@ std::string loader_message(const boost::dll::fs::system_error& problem, const fs
 
 boost::dll::shared_library open_library(const fs::path& library) {
     try {
-        return boost::dll::shared_library(library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+        return boost::dll::shared_library(
+            library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const boost::dll::fs::system_error& problem) {
-        refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it", loader_message(problem, library)));
+        refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it",
+                                    loader_message(problem, library)));
     }
 }
 
@@ -88,8 +92,9 @@ const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manife
     const fs::path library = fs::absolute(path).lexically_normal();
 
     if (manifest != nullptr && manifest->abi != host_abi()) {
-        refuse(library, fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
-                                    manifest->abi, host_abi()));
+        refuse(library,
+               fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                           manifest->abi, host_abi()));
     }
     Loaded& entry = loaded_libraries()[library];
     if (!entry.library.is_loaded()) entry.library = open_library(library);
@@ -101,20 +106,23 @@ const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manife
         }
         const std::string_view abi = entry.library.get<const char*()>("candela_plugin_abi")();
         if (abi != host_abi()) {
-            refuse(library, fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK", abi,
-                                        host_abi()));
+            refuse(library,
+                   fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                               abi, host_abi()));
         }
         const PluginDescriptor* descriptor =
             entry.library.get<const PluginDescriptor*()>("candela_plugin_descriptor")();
-        if (descriptor == nullptr || descriptor->create == nullptr) refuse(library, "its descriptor is empty");
+        if (descriptor == nullptr || descriptor->create == nullptr)
+            refuse(library, "its descriptor is empty");
         entry.descriptor = descriptor;
     }
     if (manifest != nullptr) {
         const Manifest actual = manifest_of(*entry.descriptor, host_abi());
         if (const std::string parts = differences(*manifest, actual); !parts.empty()) {
-            refuse(library, fmt::format("its manifest disagrees with it about its {}; build it again, so that "
-                                        "both are of one build",
-                                        parts));
+            refuse(library,
+                   fmt::format("its manifest disagrees with it about its {}; build it again, so that "
+                               "both are of one build",
+                               parts));
         }
     }
     return *entry.descriptor;
@@ -126,10 +134,11 @@ void rethrow_as_plugin_error(PluginKind kind, std::string_view name) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& problem) {
-        throw Error(ExitCode::failure, fmt::format("plugin {}/{}: {}", candela::name_of(kind), name, problem.what()));
-    } catch (...) {
         throw Error(ExitCode::failure,
-                    fmt::format("plugin {}/{} threw something that is no std::exception", candela::name_of(kind), name));
+                    fmt::format("plugin {}/{}: {}", candela::name_of(kind), name, problem.what()));
+    } catch (...) {
+        throw Error(ExitCode::failure, fmt::format("plugin {}/{} threw something that is no std::exception",
+                                                   candela::name_of(kind), name));
     }
 }
 

@@ -34,7 +34,9 @@ Json json_of(const Value& value) {
         Json operator()(std::int64_t i) const { return i; }
         Json operator()(double d) const { return d; }
         Json operator()(const std::string& s) const { return s; }
-        Json operator()(const Vec3& v) const { return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)}); }
+        Json operator()(const Vec3& v) const {
+            return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
+        }
     };
     return std::visit(Writer{}, value);
 }
@@ -97,13 +99,18 @@ auto named(const Json& json, std::string_view what, Named named_function) {
 
 Value value_from(const Json& json, ParamType type) {
     switch (type) {
-        case ParamType::real: return json.get<double>();
-        case ParamType::integer: return json.get<std::int64_t>();
-        case ParamType::boolean: return json.get<bool>();
+        case ParamType::real:
+            return json.get<double>();
+        case ParamType::integer:
+            return json.get<std::int64_t>();
+        case ParamType::boolean:
+            return json.get<bool>();
         case ParamType::choice:
         case ParamType::text:
-        case ParamType::file: return json.get<std::string>();
-        default: return Vec3{json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
+        case ParamType::file:
+            return json.get<std::string>();
+        default:
+            return Vec3{json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
     }
 }
 
@@ -146,8 +153,10 @@ Manifest manifest_from(const Json& json) {
     }
     if (json.contains("formats")) {
         for (const Json& f : json["formats"]) {
-            const auto pixels = f.at("pixels").get<std::string>() == "byte" ? PixelType::byte : PixelType::real;
-            m.formats.push_back({f.at("extension").get<std::string>(), f.at("title").get<std::string>(), pixels});
+            const auto pixels =
+                f.at("pixels").get<std::string>() == "byte" ? PixelType::byte : PixelType::real;
+            m.formats.push_back(
+                {f.at("extension").get<std::string>(), f.at("title").get<std::string>(), pixels});
         }
     }
     m.has_kernel = json.at("kernel").get<bool>();

@@ -34,8 +34,8 @@ struct ManifestFormat {
     friend bool operator==(const ManifestFormat&, const ManifestFormat&) = default;
 };
 
-/// What a plugin says about itself, as it stands in the file beside its library: enough to list it, to describe it and to
-/// check a scene without loading it.
+/// What a plugin says about itself, as it stands in the file beside its library: enough to list it, to
+/// describe it and to check a scene without loading it.
 struct CANDELA_API Manifest {
     std::string abi;
     PluginKind kind = PluginKind::light;
@@ -81,11 +81,14 @@ struct Refusal {
 };
 
 /// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins beside the core.
-CANDELA_API std::vector<std::filesystem::path> plugin_search_path(std::span<const std::filesystem::path> first);
+CANDELA_API std::vector<std::filesystem::path> plugin_search_path(
+    std::span<const std::filesystem::path> first);
 
-/// Loads a library and checks it against `manifest` (null: only the fingerprint), the handshake before anything else of it
-/// is called. Throws Error with a plain sentence. The library stays loaded until the process ends. Any thread.
-CANDELA_API const PluginDescriptor& load_plugin(const std::filesystem::path& library, const Manifest* manifest);
+/// Loads a library and checks it against `manifest` (null: only the fingerprint), the handshake before
+/// anything else of it is called. Throws Error with a plain sentence. The library stays loaded until the
+/// process ends. Any thread.
+CANDELA_API const PluginDescriptor& load_plugin(const std::filesystem::path& library,
+                                                const Manifest* manifest);
 
 template <class Interface>
 inline constexpr PluginKind k_kind_of = [] {
@@ -103,8 +106,8 @@ inline constexpr PluginKind k_kind_of<Shape> = PluginKind::shape;
 template <>
 inline constexpr PluginKind k_kind_of<ImageFormat> = PluginKind::image;
 
-/// The plugins of a search path. Reads a manifest when it is asked for, loads a library when an instance is wanted.
-/// Any thread; returned pointers live as long as the registry.
+/// The plugins of a search path. Reads a manifest when it is asked for, loads a library when an instance is
+/// wanted. Any thread; returned pointers live as long as the registry.
 class CANDELA_API Registry {
   public:
     explicit Registry(std::vector<std::filesystem::path> search_path);
@@ -113,7 +116,8 @@ class CANDELA_API Registry {
 
     /// The first usable plugin of that name on the search path, or null.
     const PluginFile* find(PluginKind kind, std::string_view name);
-    /// Likewise; throws Error where there is none: what is not known, why a candidate was refused, and a suggestion.
+    /// Likewise; throws Error where there is none: what is not known, why a candidate was refused, and a
+    /// suggestion.
     const PluginFile& require(PluginKind kind, std::string_view name);
 
     /// All usable plugins, by kind and name.
@@ -122,7 +126,8 @@ class CANDELA_API Registry {
     /// The candidates that list() and find() have passed over.
     std::vector<Refusal> refusals() const;
 
-    /// The image plugin that writes `.extension`, or null. One with the property "fallback" yields to one without.
+    /// The image plugin that writes `.extension`, or null. One with the property "fallback" yields to one
+    /// without.
     const PluginFile* find_format(std::string_view extension);
     /// All extensions that an image plugin writes, sorted.
     std::vector<std::string> extensions();
@@ -136,7 +141,7 @@ class CANDELA_API Registry {
         std::unique_ptr<Instance> made = create_instance(k_kind_of<Interface>, name, values, encoding);
         auto* const typed = dynamic_cast<Interface*>(made.get());
         if (typed == nullptr) throw_wrong_interface(k_kind_of<Interface>, name);
-        made.release();
+        static_cast<void>(made.release());
         return std::unique_ptr<Interface>(typed);
     }
 
@@ -151,7 +156,8 @@ class CANDELA_API Registry {
     std::vector<std::filesystem::path> search_path_;
     mutable std::recursive_mutex mutex_;
     bool scanned_ = false;
-    std::map<std::string, std::unique_ptr<PluginFile>, std::less<>> found_;  // by id; null: looked for in vain
+    std::map<std::string, std::unique_ptr<PluginFile>, std::less<>>
+        found_;  // by id; null: looked for in vain
     std::map<std::filesystem::path, std::string> refused_;
 };
 

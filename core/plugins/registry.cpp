@@ -30,7 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string id_of(PluginKind kind, std::string_view name) { return fmt::format("{}/{}", name_of(kind), name); }
+std::string id_of(PluginKind kind, std::string_view name) {
+    return fmt::format("{}/{}", name_of(kind), name);
+}
 
 std::optional<std::string> text_of_file(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -87,8 +89,10 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
     const bool has_library = is_regular(library);
     const auto text = text_of_file(manifest_path);
     if (!text) {
-        return has_library ? refuse(fmt::format("its manifest {}.json is not beside it; build it with candela_add_plugin()", stem))
-                           : nullptr;
+        return has_library
+                   ? refuse(fmt::format(
+                         "its manifest {}.json is not beside it; build it with candela_add_plugin()", stem))
+                   : nullptr;
     }
     if (!has_library) return refuse("its manifest is there, the library is not");
     auto file = std::make_unique<PluginFile>();
@@ -98,11 +102,13 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
         return refuse(fmt::format("its manifest {}.json cannot be used: {}", stem, problem.what()));
     }
     if (file->manifest.id() != id) {
-        return refuse(fmt::format("its manifest is that of {}; a plugin's file is called <kind>-<name>.so", file->manifest.id()));
+        return refuse(fmt::format("its manifest is that of {}; a plugin's file is called <kind>-<name>.so",
+                                  file->manifest.id()));
     }
     if (file->manifest.abi != host_abi()) {
-        return refuse(fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
-                                  file->manifest.abi, host_abi()));
+        return refuse(
+            fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                        file->manifest.abi, host_abi()));
     }
     file->library = library;
     return (found_[id] = std::move(file)).get();
@@ -148,7 +154,8 @@ void Registry::scan() {
         for (const std::string& stem : stems) {
             const auto hyphen = stem.find('-');
             if (hyphen == std::string::npos) continue;
-            if (const auto kind = plugin_kind_named(stem.substr(0, hyphen))) find(*kind, stem.substr(hyphen + 1));
+            if (const auto kind = plugin_kind_named(stem.substr(0, hyphen)))
+                find(*kind, stem.substr(hyphen + 1));
         }
     }
 }
@@ -160,7 +167,7 @@ std::vector<const PluginFile*> Registry::list() {
     for (const auto& [id, file] : found_) {
         if (file != nullptr) all.push_back(file.get());
     }
-    std::sort(all.begin(), all.end(), [](const PluginFile* a, const PluginFile* b) {
+    std::ranges::sort(all, [](const PluginFile* a, const PluginFile* b) {
         return std::pair(a->manifest.kind, a->manifest.name) < std::pair(b->manifest.kind, b->manifest.name);
     });
     return all;
@@ -185,11 +192,14 @@ const PluginFile* Registry::find_format(std::string_view extension) {
     // The plugin called after its format is looked at first: it spares reading all the others' manifests.
     const auto writes = [&](const PluginFile* file) {
         const auto& formats = file->manifest.formats;
-        return std::any_of(formats.begin(), formats.end(),
-                           [&](const ManifestFormat& format) { return format.extension == extension; });
+        return std::ranges::any_of(
+            formats, [&](const ManifestFormat& format) { return format.extension == extension; });
     };
-    const auto is_fallback = [](const PluginFile* file) { return file->manifest.property("fallback").has_value(); };
-    if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && writes(file)) return file;
+    const auto is_fallback = [](const PluginFile* file) {
+        return file->manifest.property("fallback").has_value();
+    };
+    if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && writes(file))
+        return file;
     const PluginFile* best = nullptr;
     for (const PluginFile* file : list()) {
         if (writes(file) && (best == nullptr || (is_fallback(best) && !is_fallback(file)))) best = file;
@@ -209,8 +219,8 @@ ParamSet Registry::parameters(PluginKind kind, std::string_view name) {
     return ParamSet(require(kind, name).manifest.parameters);
 }
 
-std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string_view name, const ParamSet& values,
-                                                    ColorEncoding encoding) {
+std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string_view name,
+                                                    const ParamSet& values, ColorEncoding encoding) {
     const PluginFile& file = require(kind, name);
     const PluginDescriptor& descriptor = load_plugin(file.library, &file.manifest);
     try {
@@ -223,8 +233,8 @@ std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string
 }
 
 void Registry::throw_wrong_interface(PluginKind kind, std::string_view name) {
-    throw Error(ExitCode::failure, fmt::format("plugin {}/{} made something that is no {}", candela::name_of(kind), name,
-                                               candela::name_of(kind)));
+    throw Error(ExitCode::failure, fmt::format("plugin {}/{} made something that is no {}",
+                                               candela::name_of(kind), name, candela::name_of(kind)));
 }
 
 }  // namespace candela

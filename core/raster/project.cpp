@@ -27,8 +27,8 @@ constexpr std::size_t k_triangles_per_bin = 4096;
 constexpr std::size_t k_vertices_per_task = 16384;
 
 struct ProjectLoop {
-    CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count, float* x, float* y,
-                                       float* distance) {
+    CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count, float* x,
+                                       float* y, float* distance) {
         const Vec3 eye = camera.eye;
         const float scale = camera.pixels_per_unit;
         const float cx = 0.5f * static_cast<float>(camera.width);
@@ -49,17 +49,19 @@ struct ProjectLoop {
 /// A vertex in homogeneous pixels: it is seen at (x / w, y / w).
 struct ClipVertex {
     float x, y, w;
-    float ahead;         // distance in front of the near plane
-    float closeness_w;   // closeness times w: 1 in perspective (1/w), minus the distance in an orthographic view
+    float ahead;  // distance in front of the near plane
+    float
+        closeness_w;  // closeness times w: 1 in perspective (1/w), minus the distance in an orthographic view
 };
 
 ClipVertex between(const ClipVertex& a, const ClipVertex& b, float t) {
     const auto mix = [t](float from, float to) { return from + t * (to - from); };
-    return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.ahead, b.ahead), mix(a.closeness_w, b.closeness_w)};
+    return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.ahead, b.ahead),
+            mix(a.closeness_w, b.closeness_w)};
 }
 
-/// Twice the signed area in homogeneous pixels, times the product of the w: its sign is the triangle's orientation on the
-/// screen, also where vertices lie behind the eye (Olano, Greer 1997).
+/// Twice the signed area in homogeneous pixels, times the product of the w: its sign is the triangle's
+/// orientation on the screen, also where vertices lie behind the eye (Olano, Greer 1997).
 double orientation(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c) {
     const double ax = a.x, ay = a.y, aw = a.w, bx = b.x, by = b.y, bw = b.w, cx = c.x, cy = c.y, cw = c.w;
     return ax * (by * cw - cy * bw) - ay * (bx * cw - cx * bw) + aw * (bx * cy - cx * by);
@@ -118,7 +120,8 @@ class Binner {
         bin_.columns = column1 - column0 + 1;
         bin_.rows = row1 - row0 + 1;
         // Counting sort, so that a tile's triangles stay in the scene's order.
-        bin_.start.assign(static_cast<std::size_t>(bin_.columns) * static_cast<std::size_t>(bin_.rows) + 1, 0);
+        bin_.start.assign(static_cast<std::size_t>(bin_.columns) * static_cast<std::size_t>(bin_.rows) + 1,
+                          0);
         const auto each_tile = [&](const Range& range, auto&& visit) {
             for (int row = range.row0; row <= range.row1; ++row) {
                 for (int column = range.column0; column <= range.column1; ++column) {
@@ -133,7 +136,8 @@ class Binner {
         bin_.entries.resize(bin_.start.back());
         std::vector<std::uint32_t> next(bin_.start.begin(), bin_.start.end() - 1);
         for (std::size_t i = 0; i < ranges.size(); ++i) {
-            each_tile(ranges[i], [&](std::size_t tile) { bin_.entries[next[tile]++] = static_cast<std::uint32_t>(i); });
+            each_tile(ranges[i],
+                      [&](std::size_t tile) { bin_.entries[next[tile]++] = static_cast<std::uint32_t>(i); });
         }
     }
 
@@ -146,20 +150,25 @@ class Binner {
 
     /// A bit for each plane of the picture's pyramid or box that the vertex lies beyond.
     unsigned outside_view(const ClipVertex& v) const {
-        return (v.ahead < 0 ? 1u : 0u) | (v.x < 0 ? 2u : 0u) | (v.x > width_ * v.w ? 4u : 0u) | (v.y < 0 ? 8u : 0u) |
-               (v.y > height_ * v.w ? 16u : 0u);
+        return (v.ahead < 0 ? 1u : 0u) | (v.x < 0 ? 2u : 0u) | (v.x > width_ * v.w ? 4u : 0u) |
+               (v.y < 0 ? 8u : 0u) | (v.y > height_ * v.w ? 16u : 0u);
     }
 
-    // Clipping against the picture itself would be needless work, as the rasteriser looks at the picture's pixels only; but
-    // fixed-point coordinates end somewhere: at half a picture beyond each edge.
+    // Clipping against the picture itself would be needless work, as the rasteriser looks at the picture's
+    // pixels only; but fixed-point coordinates end somewhere: at half a picture beyond each edge.
     static constexpr int k_guard_planes = 5;
     float beyond(const ClipVertex& v, int plane) const {
         switch (plane) {
-            case 0: return v.ahead;
-            case 1: return v.x + 0.5f * width_ * v.w;
-            case 2: return 1.5f * width_ * v.w - v.x;
-            case 3: return v.y + 0.5f * height_ * v.w;
-            default: return 1.5f * height_ * v.w - v.y;
+            case 0:
+                return v.ahead;
+            case 1:
+                return v.x + 0.5f * width_ * v.w;
+            case 2:
+                return 1.5f * width_ * v.w - v.x;
+            case 3:
+                return v.y + 0.5f * height_ * v.w;
+            default:
+                return 1.5f * height_ * v.w - v.y;
         }
     }
     unsigned outside_guard(const ClipVertex& v) const {
@@ -168,13 +177,13 @@ class Binner {
         return bits;
     }
 
-    /// Sutherland, Hodgman (1974). A cut point is always computed from the inner end of an edge to the outer, so that both
-    /// triangles at an edge are cut at the same point.
+    /// Sutherland, Hodgman (1974). A cut point is always computed from the inner end of an edge to the outer,
+    /// so that both triangles at an edge are cut at the same point.
     void clip_and_emit(const std::array<ClipVertex, 3>& triangle, std::uint32_t id, bool two_sided) {
         const bool is_front = orientation(triangle[0], triangle[1], triangle[2]) < 0;
         if (!is_front && !two_sided) return;
         std::array<ClipVertex, 3 + k_guard_planes> polygon{}, cut{};
-        std::copy(triangle.begin(), triangle.end(), polygon.begin());
+        std::ranges::copy(triangle, polygon.begin());
         std::size_t count = 3;
         for (int plane = 0; plane < k_guard_planes; ++plane) {
             std::size_t kept = 0;
@@ -195,7 +204,8 @@ class Binner {
     }
 
     /// Counter-clockwise in the world, y up, is clockwise on the screen, y down.
-    void emit(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c, std::uint32_t id, bool two_sided) {
+    void emit(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c, std::uint32_t id,
+              bool two_sided) {
         RasterTriangle t{.x = {}, .y = {}, .closeness = {}, .id = id};
         const ClipVertex* const corners[3] = {&a, &c, &b};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -203,7 +213,9 @@ class Binner {
             const float px = corners[k]->x * inverse;
             const float py = corners[k]->y * inverse;
             // Beyond the guard band by more than rounding: a number that was no number.
-            if (!(std::abs(px - 0.5f * width_) <= 1.01f * width_ && std::abs(py - 0.5f * height_) <= 1.01f * height_)) return;
+            if (!(std::abs(px - 0.5f * width_) <= 1.01f * width_ &&
+                  std::abs(py - 0.5f * height_) <= 1.01f * height_))
+                return;
             t.x[k] = static_cast<std::int32_t>(std::lrint(px * one_));
             t.y[k] = static_cast<std::int32_t>(std::lrint(py * one_));
             t.closeness[k] = corners[k]->closeness_w * inverse;
@@ -261,7 +273,8 @@ ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera
             throw std::length_error("the scene has more than 4294967294 triangles or vertices");
         }
         for (std::size_t first = 0; first < meshes[m]->triangle_count(); first += k_triangles_per_bin) {
-            stretches.push_back({m, first, std::min(k_triangles_per_bin, meshes[m]->triangle_count() - first)});
+            stretches.push_back(
+                {m, first, std::min(k_triangles_per_bin, meshes[m]->triangle_count() - first)});
         }
     }
     scene.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
@@ -272,8 +285,8 @@ ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         parallel_for(meshes[m]->vertex_count(), k_vertices_per_task, [&](std::size_t begin, std::size_t end) {
             const std::size_t at = scene.first_vertex[m] + begin;
-            multiversion<ProjectLoop>(camera, meshes[m]->position.span().from(begin), end - begin, &scene.x[at], &scene.y[at],
-                                      &scene.distance[at]);
+            multiversion<ProjectLoop>(camera, meshes[m]->position.span().from(begin), end - begin,
+                                      &scene.x[at], &scene.y[at], &scene.distance[at]);
         });
     }
 
@@ -283,7 +296,8 @@ ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera
             const auto [m, first, count] = stretches[s];
             Binner binner(scene, scene.bins[s]);
             for (std::size_t t = first; t < first + count; ++t) {
-                binner.add(*meshes[m], scene.first_vertex[m], t, scene.first_triangle[m] + static_cast<std::uint32_t>(t));
+                binner.add(*meshes[m], scene.first_vertex[m], t,
+                           scene.first_triangle[m] + static_cast<std::uint32_t>(t));
             }
             binner.sort_into_tiles();
         }

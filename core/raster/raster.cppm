@@ -1,7 +1,7 @@
 // Visibility: which triangle each sample of the picture sees.
 //
-// Triangles are projected once a frame, sorted into tiles of the picture, and rasterised tile by tile. The results depend on
-// neither the number of threads nor the size of the tiles.
+// Triangles are projected once a frame, sorted into tiles of the picture, and rasterised tile by tile. The
+// results depend on neither the number of threads nor the size of the tiles.
 module;
 
 #include "candela/api.h"
@@ -27,8 +27,10 @@ struct CANDELA_API Camera {
     int width = 1;
     int height = 1;
 
-    /// `size`: perspective, the full vertical angle in degrees; orthographic, metres that fit the picture's height.
-    static Camera looking(Vec3 eye, Vec3 look_at, Vec3 up, Projection projection, float size, int width, int height);
+    /// `size`: perspective, the full vertical angle in degrees; orthographic, metres that fit the picture's
+    /// height.
+    static Camera looking(Vec3 eye, Vec3 look_at, Vec3 up, Projection projection, float size, int width,
+                          int height);
 };
 
 inline constexpr std::uint32_t k_no_triangle = 0xffff'ffffu;
@@ -40,7 +42,8 @@ struct SamplePosition {
 /// For 1, 4, 8 or 16 samples a pixel: the centre, or the patterns of the D3D 11 specification.
 CANDELA_API std::span<const SamplePosition> sample_pattern(int samples) noexcept;
 
-/// A triangle, or a piece of a clipped one, in fixed-point pixels; wound so that its area is positive with y down.
+/// A triangle, or a piece of a clipped one, in fixed-point pixels; wound so that its area is positive with y
+/// down.
 struct RasterTriangle {
     std::int32_t x[3];
     std::int32_t y[3];
@@ -63,8 +66,8 @@ struct ProjectedScene {
     int subpixel_bits = 8;
     int tile_columns = 0, tile_rows = 0;
 
-    // Per vertex, all meshes in turn: its pixel position times w, and its distance along the view. In perspective w is that
-    // distance, in an orthographic view it is 1.
+    // Per vertex, all meshes in turn: its pixel position times w, and its distance along the view. In
+    // perspective w is that distance, in an orthographic view it is 1.
     std::vector<float> x, y, distance;
     std::vector<std::uint32_t> first_vertex;    // of each mesh
     std::vector<std::uint32_t> first_triangle;  // of each mesh, and the total
@@ -74,28 +77,31 @@ struct ProjectedScene {
     inline int tile_count() const { return tile_columns * tile_rows; }
 };
 
-/// Tiles are squares of `tile_size` pixels, a multiple of 16. Triangles are numbered through all meshes. Throws
-/// std::length_error where there are more than 2^32 - 2 triangles or vertices.
+/// Tiles are squares of `tile_size` pixels, a multiple of 16. Triangles are numbered through all meshes.
+/// Throws std::length_error where there are more than 2^32 - 2 triangles or vertices.
 CANDELA_API ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size);
 
 /// What one tile sees. Reused from tile to tile.
 struct TileVisibility {
-    int x0 = 0, y0 = 0;          // its top left pixel
-    int width = 0, height = 0;   // the pixels of it that lie in the picture
-    int stride = 0;              // of a row, a multiple of 16
+    int x0 = 0, y0 = 0;         // its top left pixel
+    int width = 0, height = 0;  // the pixels of it that lie in the picture
+    int stride = 0;             // of a row, a multiple of 16
     int samples = 1;
     std::vector<std::uint32_t> triangle;  // sample by sample, row by row; k_no_triangle: background
     std::vector<float> closeness;
 
-    inline std::size_t plane() const { return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride); }
+    inline std::size_t plane() const {
+        return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride);
+    }
     inline std::uint32_t at(int sample, int px, int py) const {
-        return triangle[static_cast<std::size_t>(sample) * plane() + static_cast<std::size_t>(py * stride + px)];
+        return triangle[static_cast<std::size_t>(sample) * plane() +
+                        static_cast<std::size_t>(py * stride + px)];
     }
 };
 
-/// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle of each sample, of equally near ones the
-/// first; a sample on a shared edge belongs to one triangle only (top-left rule). Returns false where no triangle comes near
-/// the tile: `visibility` then holds its place only. Any thread.
+/// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle of each sample, of equally
+/// near ones the first; a sample on a shared edge belongs to one triangle only (top-left rule). Returns false
+/// where no triangle comes near the tile: `visibility` then holds its place only. Any thread.
 CANDELA_API bool rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibility& visibility);
 
 }  // namespace candela

@@ -27,10 +27,10 @@ struct SamplePlane {
 
 /// A triangle relative to the tile's first sample; pixels as steps.
 struct TileTriangle {
-    std::int32_t e[3];   // edge functions, >= 0 inside
-    std::int32_t ex[3];  // their steps to the right
-    std::int32_t ey[3];  // and down
-    float z, zx, zy;     // closeness at the anchor, and its steps
+    std::int32_t e[3];       // edge functions, >= 0 inside
+    std::int32_t ex[3];      // their steps to the right
+    std::int32_t ey[3];      // and down
+    float z, zx, zy;         // closeness at the anchor, and its steps
     int anchor_x, anchor_y;  // a pixel at the triangle, whatever the tile: rounding must not depend on tiles
     std::uint32_t id;
     int x0, x1, y0, y1;  // pixels that its box covers; x0 and x1 multiples of k_block
@@ -43,12 +43,14 @@ struct TriangleLoop {
             const std::int32_t row1 = t.e[1] + y * t.ey[1];
             const std::int32_t row2 = t.e[2] + y * t.ey[2];
             const float row_z = t.z + static_cast<float>(y - t.anchor_y) * t.zy;
-            float* const closeness = plane.closeness + y * plane.stride;
-            std::uint32_t* const triangle = plane.triangle + y * plane.stride;
+            const std::ptrdiff_t row = std::ptrdiff_t{y} * plane.stride;
+            float* const closeness = plane.closeness + row;
+            std::uint32_t* const triangle = plane.triangle + row;
             for (int block = t.x0; block < t.x1; block += k_block) {
                 CANDELA_VECTORIZE
                 for (int x = block; x < block + k_block; ++x) {
-                    const std::int32_t outside = (row0 + x * t.ex[0]) | (row1 + x * t.ex[1]) | (row2 + x * t.ex[2]);
+                    const std::int32_t outside =
+                        (row0 + x * t.ex[0]) | (row1 + x * t.ex[1]) | (row2 + x * t.ex[2]);
                     const float z = row_z + static_cast<float>(x - t.anchor_x) * t.zx;
                     const float old_z = closeness[x];
                     const std::uint32_t old_id = triangle[x];
@@ -97,8 +99,10 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
         const std::int64_t e = at_first >> bits;
         const std::int64_t to_right = -dy;
         const std::int64_t down = dx;
-        const std::int64_t smallest = e + std::min(to_right * block0, to_right * block1) + std::min(down * y0, down * y1);
-        const std::int64_t largest = e + std::max(to_right * x0, to_right * x1) + std::max(down * y0, down * y1);
+        const std::int64_t smallest =
+            e + std::min(to_right * block0, to_right * block1) + std::min(down * y0, down * y1);
+        const std::int64_t largest =
+            e + std::max(to_right * x0, to_right * x1) + std::max(down * y0, down * y1);
         if (largest < 0) return false;
         const bool crosses = smallest < 0;
         result.e[k] = crosses ? static_cast<std::int32_t>(e) : 0;
@@ -113,19 +117,20 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
     const double area = x10 * y20 - x20 * y10;
     const double zx = (z10 * y20 - z20 * y10) / area;
     const double zy = (z20 * x10 - z10 * x20) / area;
-    const double one = static_cast<double>(std::int64_t{1} << bits);
+    const auto one = static_cast<double>(std::int64_t{1} << bits);
     // The sample next to the first corner.
     result.anchor_x = static_cast<int>((t.x[0] - grid.x) >> bits);
     result.anchor_y = static_cast<int>((t.y[0] - grid.y) >> bits);
     const std::int64_t to_anchor_x = grid.x + (std::int64_t{result.anchor_x} << bits) - t.x[0];
     const std::int64_t to_anchor_y = grid.y + (std::int64_t{result.anchor_y} << bits) - t.y[0];
-    result.z = static_cast<float>(static_cast<double>(t.closeness[0]) + zx * static_cast<double>(to_anchor_x) +
-                                  zy * static_cast<double>(to_anchor_y));
+    result.z =
+        static_cast<float>(static_cast<double>(t.closeness[0]) + zx * static_cast<double>(to_anchor_x) +
+                           zy * static_cast<double>(to_anchor_y));
     result.zx = static_cast<float>(zx * one);
     result.zy = static_cast<float>(zy * one);
     result.id = t.id;
     result.x0 = static_cast<int>(block0);
-    result.x1 = static_cast<int>(block1) + 1;
+    result.x1 = static_cast<int>(block1 + 1);
     result.y0 = static_cast<int>(y0);
     result.y1 = static_cast<int>(y1) + 1;
     return true;
@@ -150,29 +155,32 @@ bool rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibilit
     visibility.samples = samples;
 
     const std::span<const SamplePosition> pattern = sample_pattern(samples);
-    const int sixteenth = 1 << (scene.subpixel_bits - 4);
+    const std::int64_t sixteenth = std::int64_t{1} << (scene.subpixel_bits - 4);
     bool is_cleared = false;
     for (const TriangleBin& bin : scene.bins) {
         const int bin_column = column - bin.first_column;
         const int bin_row = row - bin.first_row;
         if (bin_column < 0 || bin_column >= bin.columns || bin_row < 0 || bin_row >= bin.rows) continue;
-        const auto list = static_cast<std::size_t>(bin_row * bin.columns + bin_column);
+        const std::size_t list = static_cast<std::size_t>(bin_row) * static_cast<std::size_t>(bin.columns) +
+                                 static_cast<std::size_t>(bin_column);
         for (std::uint32_t entry = bin.start[list]; entry < bin.start[list + 1]; ++entry) {
             if (!is_cleared) clear(visibility);
             is_cleared = true;
             const RasterTriangle& triangle = bin.triangles[bin.entries[entry]];
             for (int s = 0; s < samples; ++s) {
                 const auto [sx, sy] = pattern[static_cast<std::size_t>(s)];
-                const SampleGrid grid{.x = (std::int64_t{visibility.x0} << scene.subpixel_bits) + sx * sixteenth,
-                                      .y = (std::int64_t{visibility.y0} << scene.subpixel_bits) + sy * sixteenth,
-                                      .bits = scene.subpixel_bits,
-                                      .width = visibility.width,
-                                      .height = visibility.height};
+                const SampleGrid grid{
+                    .x = (std::int64_t{visibility.x0} << scene.subpixel_bits) + sx * sixteenth,
+                    .y = (std::int64_t{visibility.y0} << scene.subpixel_bits) + sy * sixteenth,
+                    .bits = scene.subpixel_bits,
+                    .width = visibility.width,
+                    .height = visibility.height};
                 TileTriangle set;
                 if (!set_up(triangle, grid, set)) continue;
                 const std::size_t plane = static_cast<std::size_t>(s) * visibility.plane();
-                multiversion<TriangleLoop>(set, SamplePlane{visibility.stride, visibility.closeness.data() + plane,
-                                                            visibility.triangle.data() + plane});
+                multiversion<TriangleLoop>(set,
+                                           SamplePlane{visibility.stride, visibility.closeness.data() + plane,
+                                                       visibility.triangle.data() + plane});
             }
         }
     }

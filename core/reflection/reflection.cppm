@@ -12,7 +12,8 @@ export import candela.math;
 
 export namespace candela {
 
-/// Points of one object's surface. World space; all vectors are unit vectors that point away from the surface.
+/// Points of one object's surface. World space; all vectors are unit vectors that point away from the
+/// surface.
 struct SurfaceBatch {
     std::size_t count = 0;
     ConstVec3Span normal;       // N
@@ -28,15 +29,16 @@ struct LightingBatch {
     ConstVec3Span specular;
 };
 
-/// Reflected intensity per channel, its parts apart (CA IM3, IM4; DD6 adds them up). A model adds to what is there.
+/// Reflected intensity per channel, its parts apart (CA IM3, IM4; DD6 adds them up). A model adds to what is
+/// there.
 struct ReflectedBatch {
     Vec3Span ambient;   // I_a
     Vec3Span diffuse;   // I_d
     Vec3Span specular;  // I_s
 };
 
-/// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays need no
-/// alignment and do not overlap. Results are finite and, unless the model says otherwise, not negative.
+/// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays need
+/// no alignment and do not overlap. Results are finite and, unless the model says otherwise, not negative.
 class CANDELA_API ReflectionModel : public Instance {
   public:
     ~ReflectionModel() override;

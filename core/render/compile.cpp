@@ -28,7 +28,8 @@ namespace {
 Mesh mesh_of(const Object& object, const Shape& shape, const SurfaceModels& surface) {
     const PointNeeds needs = surface.needs();
     try {
-        return build_mesh(shape, {.uv = needs.uv, .derivatives = needs.derivatives}, object.placement, *surface.shading);
+        return build_mesh(shape, {.uv = needs.uv, .derivatives = needs.derivatives}, object.placement,
+                          *surface.shading);
     } catch (const std::bad_alloc&) {
         throw Error(ExitCode::failure, "there is not enough memory for its triangles");
     } catch (...) {
@@ -71,7 +72,9 @@ class Compiler {
         return registry_.create<Interface>(model.name, model.parameters, encoding_);
     }
 
-    void add(const LightSource& light) { compiled_.lights.push_back({light.model.name, made<Light>(light.model)}); }
+    void add(const LightSource& light) {
+        compiled_.lights.push_back({light.model.name, made<Light>(light.model)});
+    }
 
     void add(const Object& object) {
         SurfaceModels surface{.color = decoded(object.color, encoding_),
@@ -82,9 +85,10 @@ class Compiler {
         const auto shape = made<Shape>(object.shape);
         Mesh mesh = mesh_of(object, *shape, surface);
         if (!mesh.closed) {
-            diagnostics_.warning(object.place,
-                                 fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
-                                             object.label, mesh.open_edges, mesh.open_edges == 1 ? "" : "s"));
+            diagnostics_.warning(
+                object.place,
+                fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
+                            object.label, mesh.open_edges, mesh.open_edges == 1 ? "" : "s"));
         }
         compiled_.objects.push_back({object.label, std::move(mesh), std::move(surface)});
     }

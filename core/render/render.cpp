@@ -23,7 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 Camera camera_of(const Observer& observer, int width, int height) {
     const bool perspective = observer.projection == Projection::perspective;
@@ -57,7 +59,8 @@ RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOpti
 
         const auto tiles_begin = Clock::now();
         const auto tiles = static_cast<std::size_t>(projected.tile_count());
-        // A few tiles at a time, so that a shader's arrays are made seldom and the threads still end together.
+        // A few tiles at a time, so that a shader's arrays are made seldom and the threads still end
+        // together.
         const std::size_t grain = std::clamp<std::size_t>(tiles / 64, 1, 16);
         parallel_for(tiles, grain, [&](std::size_t first, std::size_t last) {
             TileShader shader(scene, projected);

@@ -30,8 +30,8 @@ struct SolidObject {
     SurfaceModels surface;
 };
 
-/// A scene with its plugins loaded and its objects tessellated: what is the same for every picture of it. Not changed by
-/// rendering; between pictures its observer, lights, colours and models may be replaced at will.
+/// A scene with its plugins loaded and its objects tessellated: what is the same for every picture of it. Not
+/// changed by rendering; between pictures its observer, lights, colours and models may be replaced at will.
 struct CompiledScene {
     Observer observer;
     ImageSettings image;
@@ -39,14 +39,16 @@ struct CompiledScene {
     std::vector<SolidObject> objects;
 };
 
-/// Loads what the scene names, and nothing else. Reports what fails, with the light or object that wanted it, and returns
-/// nothing then; reports meshes that are not closed.
-CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics);
+/// Loads what the scene names, and nothing else. Reports what fails, with the light or object that wanted it,
+/// and returns nothing then; reports meshes that are not closed.
+CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
+                                                 Diagnostics& diagnostics);
 
 struct RenderOptions {
     int threads = 0;    // 0: all
     int tile_size = 0;  // pixels, a multiple of 16; 0: chosen. The picture is the same whatever it is.
-    std::function<void(std::size_t done, std::size_t all)> progress{};  // tiles; called by any thread, by several at once
+    std::function<void(std::size_t done, std::size_t all)>
+        progress{};  // tiles; called by any thread, by several at once
 };
 
 struct RenderStatistics {

@@ -63,21 +63,24 @@ void TileShader::run(int tile, Film& film) {
     for (const FragmentList& list : fragments_.lists()) shade(list);
 
     for (int row = 0; row < visibility_.height; ++row) {
-        const auto first = background_weight_.begin() + row * visibility_.stride;
+        const auto first = background_weight_.begin() + std::ptrdiff_t{row} * visibility_.stride;
         pixels_shaded_ += static_cast<std::size_t>(
             std::count_if(first, first + visibility_.width, [](float weight) { return weight < 1; }));
     }
-    film.store(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height, std::as_const(pixels_).span(),
-               visibility_.stride);
+    film.store(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height,
+               std::as_const(pixels_).span(), visibility_.stride);
 }
 
 void TileShader::shade(const FragmentList& fragments) {
     const SolidObject& object = scene_.objects[fragments.object];
     const ProjectedMesh mesh{projected_, object.mesh, projected_.first_vertex[fragments.object]};
     switch (object.surface.shading->lighting_rate()) {
-        case LightingRate::face: return shade_faces(mesh, fragments);
-        case LightingRate::vertex: return shade_vertices(mesh, fragments);
-        case LightingRate::fragment: return shade_fragments(mesh, fragments);
+        case LightingRate::face:
+            return shade_faces(mesh, fragments);
+        case LightingRate::vertex:
+            return shade_vertices(mesh, fragments);
+        case LightingRate::fragment:
+            return shade_fragments(mesh, fragments);
     }
 }
 
@@ -86,7 +89,8 @@ void TileShader::light(const SurfaceModels& surface, const Vec3Span& intensity) 
     points_lit_ += points_.count;
 }
 
-void TileShader::add(const FragmentList& fragments, std::size_t first, std::size_t count, ConstVec3Span intensity) {
+void TileShader::add(const FragmentList& fragments, std::size_t first, std::size_t count,
+                     ConstVec3Span intensity) {
     const Vec3Span pixels = pixels_.span();
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t pixel = fragments.pixel[first + i];
@@ -151,7 +155,8 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
             const std::uint32_t triangle = fragments.triangle[first + i];
             if (i == 0 || triangle != fragments.triangle[first + i - 1]) {
                 for (std::size_t k = 0; k < 3; ++k) {
-                    at_corner[k] = intensity[position_of(vertices_, corner(mesh, triangle, k, points_.facing[i] < 0))];
+                    at_corner[k] =
+                        intensity[position_of(vertices_, corner(mesh, triangle, k, points_.facing[i] < 0))];
                 }
             }
             const Vec3 b = points_.barycentric.span()[i];

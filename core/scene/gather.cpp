@@ -28,7 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string place_text(const SourcePlace& place) { return fmt::format("{}:{}:{}", place.file, place.line, place.column); }
+std::string place_text(const SourcePlace& place) {
+    return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
 
 class Gatherer {
   public:
@@ -40,8 +42,9 @@ class Gatherer {
         const fs::path canonical = fs::weakly_canonical(file, problem);
         if (const auto seen = files_.find(canonical); seen != files_.end()) {
             const SourcePlace place = included_at != nullptr ? *included_at : SourcePlace{shown, 0, 0, 0};
-            diagnostics_.error(place, seen->second ? fmt::format("'{}' includes itself, directly or through others", shown)
-                                                   : fmt::format("'{}' is read twice", shown));
+            diagnostics_.error(
+                place, seen->second ? fmt::format("'{}' includes itself, directly or through others", shown)
+                                    : fmt::format("'{}' is read twice", shown));
             return;
         }
         files_[canonical] = true;
@@ -70,14 +73,16 @@ class Gatherer {
     void follow(const Node& list, const fs::path& directory) {
         const ArrayNode* const files = list.array();
         if (files == nullptr) {
-            diagnostics_.error(list.place, fmt::format("'include' is {}; expected a list of paths", description(list)));
+            diagnostics_.error(list.place,
+                               fmt::format("'include' is {}; expected a list of paths", description(list)));
             return;
         }
         for (const Node& file : *files) {
             if (const auto* path = std::get_if<std::string>(&file.value)) {
                 add_file(directory / *path, &file.place);
             } else {
-                diagnostics_.error(file.place, fmt::format("'include' holds {}; expected a path in quotes", description(file)));
+                diagnostics_.error(file.place, fmt::format("'include' holds {}; expected a path in quotes",
+                                                           description(file)));
             }
         }
     }
@@ -92,8 +97,8 @@ class Gatherer {
         } else if (entry.key != "version" || before->node.value.index() != entry.node.value.index() ||
                    std::get_if<std::int64_t>(&before->node.value) == nullptr ||
                    std::get<std::int64_t>(before->node.value) != std::get<std::int64_t>(entry.node.value)) {
-            diagnostics_.error(entry.key_place,
-                               fmt::format("'{}' is given twice; first at {}", entry.key, place_text(before->key_place)));
+            diagnostics_.error(entry.key_place, fmt::format("'{}' is given twice; first at {}", entry.key,
+                                                            place_text(before->key_place)));
         }
     }
 
@@ -128,14 +133,15 @@ class Setter {
         auto value = parse_value(setting_.value, place_, diagnostics_);
         if (!value) return;
         const std::vector<std::string> parts = parts_of(setting_.path);
-        if (std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return part.empty(); })) {
+        if (std::ranges::any_of(parts, [](const std::string& part) { return part.empty(); })) {
             return fail("the path has an empty part");
         }
         if (parts.size() < 2) return fail("the path needs a table and a key, as in image.width");
         TableNode* table = nullptr;
         std::size_t next = 1;
         if (parts[0] == "light" || parts[0] == "object") {
-            if (parts.size() < 3) return fail(fmt::format("the path needs a key, as in {}.0.color", parts[0]));
+            if (parts.size() < 3)
+                return fail(fmt::format("the path needs a key, as in {}.0.color", parts[0]));
             table = element(parts[0], parts[1]);
             next = 2;
         } else {
@@ -152,7 +158,9 @@ class Setter {
     }
 
   private:
-    void fail(const std::string& message, const std::string& hint = {}) { diagnostics_.error(place_, message, hint); }
+    void fail(const std::string& message, const std::string& hint = {}) {
+        diagnostics_.error(place_, message, hint);
+    }
 
     TableNode* table_in(TableNode& parent, const std::string& key) {
         if (parent.find(key) == nullptr) parent.entries.push_back({key, place_, Node{place_, TableNode{}}});

@@ -34,19 +34,30 @@ constexpr std::string_view k_default_reflection = "phong";
 
 const TableSchema& schema_of(std::string_view table) {
     const auto all = scene_schema();
-    return *std::find_if(all.begin(), all.end(), [&](const TableSchema& s) { return s.name == table; });
+    return *std::ranges::find_if(all, [&](const TableSchema& s) { return s.name == table; });
 }
 
-float real(const ParamSet& set, std::string_view name) { return static_cast<float>(std::get<double>(set.get(name))); }
-int integer(const ParamSet& set, std::string_view name) { return static_cast<int>(std::get<std::int64_t>(set.get(name))); }
+float real(const ParamSet& set, std::string_view name) {
+    return static_cast<float>(std::get<double>(set.get(name)));
+}
+int integer(const ParamSet& set, std::string_view name) {
+    return static_cast<int>(std::get<std::int64_t>(set.get(name)));
+}
 Vec3 vector(const ParamSet& set, std::string_view name) { return std::get<Vec3>(set.get(name)); }
-const std::string& text(const ParamSet& set, std::string_view name) { return std::get<std::string>(set.get(name)); }
+const std::string& text(const ParamSet& set, std::string_view name) {
+    return std::get<std::string>(set.get(name));
+}
 bool has(const ParamSet& set, std::string_view name) { return set.get(set.index_of(name)).has_value(); }
 
 class Reader {
   public:
-    Reader(const SceneRequest& request, const MergedDocument& document, Registry& registry, Diagnostics& diagnostics)
-        : request_(request), root_(document.root), whole_(document.place), registry_(registry), diagnostics_(diagnostics) {}
+    Reader(const SceneRequest& request, const MergedDocument& document, Registry& registry,
+           Diagnostics& diagnostics)
+        : request_(request),
+          root_(document.root),
+          whole_(document.place),
+          registry_(registry),
+          diagnostics_(diagnostics) {}
 
     Scene read() {
         read_version();
@@ -55,8 +66,12 @@ class Reader {
         read_observer();
         read_image();
         choose_models();
-        each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) { read_light(table, place, i); });
-        each("object", [&](const TableNode& table, const SourcePlace& place, std::size_t i) { read_object(table, place, i); });
+        each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
+            read_light(table, place, i);
+        });
+        each("object", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
+            read_object(table, place, i);
+        });
         warn_if_empty();
         return std::move(scene_);
     }
@@ -68,7 +83,8 @@ class Reader {
         return keys;
     }
 
-    static std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys = {}) {
+    static std::vector<std::string> names_in(std::span<const Parameter> schema,
+                                             std::vector<std::string> keys = {}) {
         for (const Parameter& p : schema) keys.push_back(p.name);
         return keys;
     }
@@ -81,11 +97,14 @@ class Reader {
         }
         const auto* const number = std::get_if<std::int64_t>(&version->node.value);
         if (number == nullptr) {
-            diagnostics_.error(version->node.place,
-                               fmt::format("'version' is {}; expected the whole number 1", description(version->node)));
+            diagnostics_.error(
+                version->node.place,
+                fmt::format("'version' is {}; expected the whole number 1", description(version->node)));
         } else if (*number != 1) {
-            diagnostics_.error(version->node.place, fmt::format("version {} of the scene file is not known to this Candela", *number),
-                               "this one reads version 1");
+            diagnostics_.error(
+                version->node.place,
+                fmt::format("version {} of the scene file is not known to this Candela", *number),
+                "this one reads version 1");
         }
     }
 
@@ -96,7 +115,8 @@ class Reader {
         if (entry->node.table() == nullptr) {
             const std::string what =
                 entry->node.array() != nullptr ? "a list: there may be only one" : description(entry->node);
-            diagnostics_.error(entry->key_place, fmt::format("'{}' is {}; expected the table {}", name, what, schema_of(name).title));
+            diagnostics_.error(entry->key_place, fmt::format("'{}' is {}; expected the table {}", name, what,
+                                                             schema_of(name).title));
         }
         return entry->node.table();
     }
@@ -123,7 +143,8 @@ class Reader {
 
     void read_observer() {
         if (root_.find("observer") == nullptr) {
-            diagnostics_.error(whole_, "the scene has no [observer]", "write: [observer] with position and look_at");
+            diagnostics_.error(whole_, "the scene has no [observer]",
+                               "write: [observer] with position and look_at");
             return;
         }
         const ParamSet values = read_plain("observer");
@@ -141,17 +162,20 @@ class Reader {
         const SourcePlace& look_at = table->find("look_at")->node.place;
         const Vec3 view = normalized(observer.look_at - observer.position);
         if (view == Vec3{}) {
-            diagnostics_.error(look_at, "the observer looks at the point where it is", "position and look_at must differ");
+            diagnostics_.error(look_at, "the observer looks at the point where it is",
+                               "position and look_at must differ");
         } else if (length(cross(view, observer.up)) < 1e-6f) {
             const TableNode::Entry* const up = table->find("up");
-            diagnostics_.error(up != nullptr ? up->node.place : look_at,
-                               "'up' points the way the observer looks, so that no direction is up in the picture",
-                               "choose another 'up', such as [0, 0, -1] when looking straight down");
+            diagnostics_.error(
+                up != nullptr ? up->node.place : look_at,
+                "'up' points the way the observer looks, so that no direction is up in the picture",
+                "choose another 'up', such as [0, 0, -1] when looking straight down");
         }
         const bool perspective = observer.projection == Projection::perspective;
         if (const TableNode::Entry* const unused = table->find(perspective ? "height" : "fov")) {
-            diagnostics_.warning(unused->key_place, fmt::format("'{}' has no effect in a{} view", unused->key,
-                                                               perspective ? " perspective" : "n orthographic"));
+            diagnostics_.warning(unused->key_place,
+                                 fmt::format("'{}' has no effect in a{} view", unused->key,
+                                             perspective ? " perspective" : "n orthographic"));
         }
     }
 
@@ -161,8 +185,8 @@ class Reader {
                         .height = integer(values, "height"),
                         .samples = integer(values, "samples"),
                         .background = vector(values, "background"),
-                        .color_management =
-                            text(values, "color_management") == "none" ? ColorEncoding::none : ColorEncoding::srgb};
+                        .color_management = text(values, "color_management") == "none" ? ColorEncoding::none
+                                                                                       : ColorEncoding::srgb};
     }
 
     /// The name in `model`, from the command line or from the table; empty where there is none.
@@ -170,7 +194,8 @@ class Reader {
         if (override_name) return *override_name;
         const TableNode* const table = single(table_name);
         if (table == nullptr) return {};
-        const ParamSet values = read_parameters(*table, schema_of(table_name).parameters, context_of(table_name), diagnostics_);
+        const ParamSet values =
+            read_parameters(*table, schema_of(table_name).parameters, context_of(table_name), diagnostics_);
         return has(values, "model") ? text(values, "model") : std::string();
     }
 
@@ -178,9 +203,10 @@ class Reader {
     bool is_needed(const std::string& key) const {
         const TableNode::Entry* const objects = root_.find("object");
         if (objects == nullptr || objects->node.array() == nullptr) return false;
-        return std::any_of(objects->node.array()->begin(), objects->node.array()->end(), [&](const Node& object) {
-            return object.table() != nullptr && object.table()->find(key) == nullptr;
-        });
+        return std::any_of(objects->node.array()->begin(), objects->node.array()->end(),
+                           [&](const Node& object) {
+                               return object.table() != nullptr && object.table()->find(key) == nullptr;
+                           });
     }
 
     /// R12, R13: what is not named may be the default, if somebody says so.
@@ -188,7 +214,8 @@ class Reader {
         shading_ = named_model("shading", request_.shading);
         reflection_ = named_model("reflection", request_.reflection);
         const bool no_shading = shading_.empty() && root_.find("shading") == nullptr && is_needed("shading");
-        const bool no_reflection = reflection_.empty() && root_.find("reflection") == nullptr && is_needed("reflection");
+        const bool no_reflection =
+            reflection_.empty() && root_.find("reflection") == nullptr && is_needed("reflection");
         if (no_shading || no_reflection) {
             const std::string missing = no_shading && no_reflection ? "shading or reflection model"
                                         : no_shading                ? "shading model"
@@ -198,10 +225,12 @@ class Reader {
             if (no_shading && no_reflection) defaults += " and ";
             if (no_reflection) defaults += fmt::format("{} reflection", k_default_reflection);
             const bool agreed = request_.use_defaults ||
-                                (request_.ask && request_.ask(fmt::format("The scene names no {}. Use {}?", missing, defaults)));
+                                (request_.ask && request_.ask(fmt::format("The scene names no {}. Use {}?",
+                                                                          missing, defaults)));
             if (!agreed) {
-                diagnostics_.error(whole_, fmt::format("the scene names no {}", missing),
-                                   fmt::format("--defaults uses {}; --shading and --reflection name others", defaults));
+                diagnostics_.error(
+                    whole_, fmt::format("the scene names no {}", missing),
+                    fmt::format("--defaults uses {}; --shading and --reflection name others", defaults));
                 return;
             }
             if (no_shading) shading_ = k_default_shading;
@@ -210,7 +239,8 @@ class Reader {
         read_shading_table();
         if (const TableNode* const table = single("reflection")) {
             report_unknown_keys(*table, names_in(schema_of("reflection").parameters),
-                                {"[reflection]", "an object's material stands in [object.material]", whole_}, diagnostics_);
+                                {"[reflection]", "an object's material stands in [object.material]", whole_},
+                                diagnostics_);
         }
         if (!reflection_.empty()) known(PluginKind::reflection, reflection_, place_of_model("reflection"));
     }
@@ -229,7 +259,8 @@ class Reader {
         const PluginFile* const plugin = known(PluginKind::shading, shading_, place_of_model("shading"));
         const TableNode* const table = single("shading");
         if (plugin == nullptr || table == nullptr || request_.shading) return;
-        const TableContext context{"[shading]", "candela describe " + plugin->manifest.id(), context_of("shading").place};
+        const TableContext context{"[shading]", "candela describe " + plugin->manifest.id(),
+                                   context_of("shading").place};
         report_unknown_keys(*table, names_in(plugin->manifest.parameters, {"model"}), context, diagnostics_);
         shading_parameters_ = read_with_relations(*table, *plugin, context);
     }
@@ -246,7 +277,8 @@ class Reader {
         return nullptr;
     }
 
-    ParamSet read_with_relations(const TableNode& table, const PluginFile& plugin, const TableContext& context) {
+    ParamSet read_with_relations(const TableNode& table, const PluginFile& plugin,
+                                 const TableContext& context) {
         ParamSet values = read_parameters(table, plugin.manifest.parameters, context, diagnostics_);
         check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
         return values;
@@ -257,11 +289,13 @@ class Reader {
         const TableNode::Entry* const entry = root_.find(name);
         if (entry == nullptr) return;
         const ArrayNode* const all = entry->node.array();
-        const bool are_tables = all != nullptr && std::all_of(all->begin(), all->end(),
-                                                              [](const Node& node) { return node.table() != nullptr; });
+        const bool are_tables = all != nullptr && std::all_of(all->begin(), all->end(), [](const Node& node) {
+                                    return node.table() != nullptr;
+                                });
         if (!are_tables) {
-            diagnostics_.error(entry->key_place, fmt::format("'{}' is {}; expected tables, each headed {}", name,
-                                                             description(entry->node), schema_of(name).title));
+            diagnostics_.error(entry->key_place,
+                               fmt::format("'{}' is {}; expected tables, each headed {}", name,
+                                           description(entry->node), schema_of(name).title));
             return;
         }
         for (std::size_t i = 0; i < all->size(); ++i) visit(*(*all)[i].table(), (*all)[i].place, i);
@@ -274,8 +308,9 @@ class Reader {
         if (name == nullptr || name->empty()) return fmt::format("number {}", index);
         const auto [before, is_new] = names_.try_emplace(kind + ' ' + *name, entry->node.place);
         if (!is_new) {
-            diagnostics_.error(entry->node.place, fmt::format("another {} is called '{}', at {}:{}:{}", kind, *name,
-                                                              before->second.file, before->second.line, before->second.column));
+            diagnostics_.error(entry->node.place,
+                               fmt::format("another {} is called '{}', at {}:{}:{}", kind, *name,
+                                           before->second.file, before->second.line, before->second.column));
         }
         return fmt::format("'{}'", *name);
     }
@@ -286,11 +321,14 @@ class Reader {
         const std::vector<Parameter>& own = schema_of("light").parameters;
         const ParamSet common = read_parameters(table, own, context, diagnostics_);
         if (!has(common, "type")) return;
-        const PluginFile* const plugin = known(PluginKind::light, text(common, "type"), table.find("type")->node.place);
+        const PluginFile* const plugin =
+            known(PluginKind::light, text(common, "type"), table.find("type")->node.place);
         if (plugin == nullptr) return;
         context.manual = "candela describe " + plugin->manifest.id();
-        report_unknown_keys(table, names_in(plugin->manifest.parameters, names_in(own)), context, diagnostics_);
-        scene_.lights.push_back({label, {plugin->manifest.name, read_with_relations(table, *plugin, context)}, place});
+        report_unknown_keys(table, names_in(plugin->manifest.parameters, names_in(own)), context,
+                            diagnostics_);
+        scene_.lights.push_back(
+            {label, {plugin->manifest.name, read_with_relations(table, *plugin, context)}, place});
     }
 
     void read_object(const TableNode& table, const SourcePlace& place, std::size_t index) {
@@ -303,7 +341,8 @@ class Reader {
         object.placement = {vector(common, "position"), vector(common, "rotation"), vector(common, "scale")};
         object.color = vector(common, "color");
         if (has(common, "type")) {
-            if (const PluginFile* const shape = known(PluginKind::shape, text(common, "type"), table.find("type")->node.place)) {
+            if (const PluginFile* const shape =
+                    known(PluginKind::shape, text(common, "type"), table.find("type")->node.place)) {
                 context.manual = "candela describe " + shape->manifest.id();
                 const std::vector<std::string> keys =
                     names_in(shape->manifest.parameters, names_in(own, {std::string("material")}));
@@ -322,7 +361,8 @@ class Reader {
         const std::string& name = own ? named : shading_;
         if (name.empty()) return {};
         if (own) {
-            if (const PluginFile* const plugin = known(PluginKind::shading, name, table.find("shading")->node.place)) {
+            if (const PluginFile* const plugin =
+                    known(PluginKind::shading, name, table.find("shading")->node.place)) {
                 return {name, ParamSet(plugin->manifest.parameters)};
             }
             return {};
@@ -331,12 +371,14 @@ class Reader {
         return {name, shading_parameters_.value_or(registry_.parameters(PluginKind::shading, name))};
     }
 
-    Model reflection_for(const TableNode& table, const ParamSet& common, const std::string& label, const SourcePlace& place) {
+    Model reflection_for(const TableNode& table, const ParamSet& common, const std::string& label,
+                         const SourcePlace& place) {
         static const TableNode k_empty;
         const TableNode::Entry* const entry = table.find("material");
         if (entry != nullptr && entry->node.table() == nullptr) {
-            diagnostics_.error(entry->node.place, fmt::format("'material' is {}; expected the table [object.material]",
-                                                              description(entry->node)));
+            diagnostics_.error(entry->node.place,
+                               fmt::format("'material' is {}; expected the table [object.material]",
+                                           description(entry->node)));
             return {};
         }
         const std::string& named = text(common, "reflection");
@@ -349,26 +391,30 @@ class Reader {
             return {};
         }
         const TableNode& material = entry != nullptr ? *entry->node.table() : k_empty;
-        const TableContext context{fmt::format("[object.material] of {}", label), "candela describe " + plugin->manifest.id(),
+        const TableContext context{fmt::format("[object.material] of {}", label),
+                                   "candela describe " + plugin->manifest.id(),
                                    entry != nullptr ? entry->key_place : place};
         report_unknown_material_keys(material, *plugin, context);
         return {name, read_with_relations(material, *plugin, context)};
     }
 
-    /// With --reflection, a material written for another model is no mistake: what the model in use does not know is left out.
-    void report_unknown_material_keys(const TableNode& material, const PluginFile& plugin, const TableContext& context) {
+    /// With --reflection, a material written for another model is no mistake: what the model in use does not
+    /// know is left out.
+    void report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
+                                      const TableContext& context) {
         const std::vector<std::string> known_keys = names_in(plugin.manifest.parameters);
         TableNode unknown;
         for (const TableNode::Entry& entry : material.entries) {
-            if (std::find(known_keys.begin(), known_keys.end(), entry.key) != known_keys.end()) continue;
+            if (std::ranges::find(known_keys, entry.key) != known_keys.end()) continue;
             const std::vector<std::string> others = models_with(entry.key);
             if (others.empty()) {
                 unknown.entries.push_back(entry);
             } else if (!request_.reflection) {
-                diagnostics_.error(entry.key_place, fmt::format("{} has no parameter '{}', which {} {}", plugin.manifest.id(),
-                                                                entry.key, fmt::join(others, ", "),
-                                                                others.size() == 1 ? "has" : "have"),
-                                   fmt::format("({})", context.manual));
+                diagnostics_.error(
+                    entry.key_place,
+                    fmt::format("{} has no parameter '{}', which {} {}", plugin.manifest.id(), entry.key,
+                                fmt::join(others, ", "), others.size() == 1 ? "has" : "have"),
+                    fmt::format("({})", context.manual));
             }
         }
         report_unknown_keys(unknown, known_keys, context, diagnostics_);
@@ -379,7 +425,7 @@ class Reader {
         for (const PluginFile* plugin : registry_.list()) {
             const auto& parameters = plugin->manifest.parameters;
             if (plugin->manifest.kind == PluginKind::reflection &&
-                std::any_of(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == key; })) {
+                std::ranges::any_of(parameters, [&](const Parameter& p) { return p.name == key; })) {
                 models.push_back(plugin->manifest.id());
             }
         }
@@ -389,7 +435,8 @@ class Reader {
     void warn_if_empty() {
         if (diagnostics_.has_errors()) return;
         if (scene_.objects.empty()) {
-            diagnostics_.warning(whole_, "the scene has no objects: the picture shows nothing but the background");
+            diagnostics_.warning(whole_,
+                                 "the scene has no objects: the picture shows nothing but the background");
         } else if (scene_.lights.empty()) {
             diagnostics_.warning(whole_, "the scene has no lights: every object is black");
         }

@@ -21,7 +21,8 @@ import candela.plugins;
 
 export namespace candela {
 
-/// An axis-aligned box centred on the origin: x within width/2, y (up) within height/2, z within depth/2. Metres.
+/// An axis-aligned box centred on the origin: x within width/2, y (up) within height/2, z within depth/2.
+/// Metres.
 struct Room {
     float height = 10;
     float width = 10;
@@ -86,16 +87,19 @@ struct Setting {
 struct SceneRequest {
     std::vector<std::filesystem::path> files;  // merged; none: the default scene
     std::vector<Setting> settings;
-    std::optional<std::string> shading;     // for every object, whatever the files say
-    std::optional<std::string> reflection;  // likewise
-    bool use_defaults = false;              // where no shading or reflection model is named
+    std::optional<std::string> shading;                    // for every object, whatever the files say
+    std::optional<std::string> reflection;                 // likewise
+    bool use_defaults = false;                             // where no shading or reflection model is named
     std::function<bool(const std::string& question)> ask;  // asked instead of failing then; may be empty
 };
 
-/// Reads, merges and checks. Reports all that is wrong, and returns a scene if nothing but warnings were found.
-CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry, Diagnostics& diagnostics);
+/// Reads, merges and checks. Reports all that is wrong, and returns a scene if nothing but warnings were
+/// found.
+CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
+                                            Diagnostics& diagnostics);
 
-/// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection (R12, R14).
+/// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection
+/// (R12, R14).
 CANDELA_API std::string_view default_scene_text() noexcept;
 
 /// What a table of the scene file may hold, beside what plugins declare.

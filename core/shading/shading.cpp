@@ -14,14 +14,16 @@ ShadingModel::~ShadingModel() = default;
 void ShadingModel::vertex_normals(const MeshView& mesh, const Vec3Span& normals) const {
     for (std::size_t group = 0; group < mesh.group_count; ++group) normals.set(group, {});
     if (mesh.authored_normal) {
-        for (std::size_t v = 0; v < mesh.vertex_count; ++v) normals.set(mesh.smooth_group[v], mesh.authored_normal[v]);
+        for (std::size_t v = 0; v < mesh.vertex_count; ++v)
+            normals.set(mesh.smooth_group[v], mesh.authored_normal[v]);
         return;
     }
     for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
         const std::uint32_t group = mesh.smooth_group[mesh.corners[corner]];
         normals.set(group, normals[group] + mesh.face_normal[corner / 3]);
     }
-    for (std::size_t group = 0; group < mesh.group_count; ++group) normals.set(group, normalized(normals[group]));
+    for (std::size_t group = 0; group < mesh.group_count; ++group)
+        normals.set(group, normalized(normals[group]));
 }
 
 }  // namespace candela

@@ -23,10 +23,11 @@ enum class LightingRate : int {
 
 /// A mesh in world space, as far as vertex normals depend on it.
 struct MeshView {
-    ConstVec3Span position;                       // a vertex each
-    std::span<const std::uint32_t> corners;       // three vertices a triangle, counter-clockwise seen from outside
-    ConstVec3Span face_normal;                    // a triangle each, unit; zero where the triangle has no area
-    std::span<const std::uint32_t> smooth_group;  // a vertex each: vertices of one group share one normal, < group_count
+    ConstVec3Span position;                  // a vertex each
+    std::span<const std::uint32_t> corners;  // three vertices a triangle, counter-clockwise seen from outside
+    ConstVec3Span face_normal;               // a triangle each, unit; zero where the triangle has no area
+    std::span<const std::uint32_t>
+        smooth_group;  // a vertex each: vertices of one group share one normal, < group_count
     std::size_t vertex_count = 0;
     std::size_t group_count = 0;
     ConstVec3Span authored_normal;  // a vertex each, unit, from the object's file; null where it has none
@@ -38,7 +39,8 @@ struct ShadingNeeds {
     bool derivatives = false;
 };
 
-/// Points at which normals are wanted: centroids, vertices or fragments, as the lighting rate says. World space.
+/// Points at which normals are wanted: centroids, vertices or fragments, as the lighting rate says. World
+/// space.
 struct ShadingPointBatch {
     std::size_t count = 0;
     ConstVec3Span face_normal;    // unit
@@ -49,8 +51,8 @@ struct ShadingPointBatch {
     ConstVec3Span dpdv;
 };
 
-/// A shading model (CA: "how the normal vector is calculated for polygons in the scene"). Any thread, any batch size from 1;
-/// arrays need no alignment and do not overlap.
+/// A shading model (CA: "how the normal vector is calculated for polygons in the scene"). Any thread, any
+/// batch size from 1; arrays need no alignment and do not overlap.
 class CANDELA_API ShadingModel : public Instance {
   public:
     ~ShadingModel() override;
@@ -58,8 +60,9 @@ class CANDELA_API ShadingModel : public Instance {
     virtual LightingRate lighting_rate() const noexcept = 0;
     virtual ShadingNeeds needs() const noexcept { return {}; }
 
-    /// Writes a unit normal for each smooth group. Unless overridden: the authored normals where the object brings them,
-    /// else the normalised sum of the normals of the faces that share the vertex (CA DD9; Gouraud 1971).
+    /// Writes a unit normal for each smooth group. Unless overridden: the authored normals where the object
+    /// brings them, else the normalised sum of the normals of the faces that share the vertex (CA DD9;
+    /// Gouraud 1971).
     virtual void vertex_normals(const MeshView& mesh, const Vec3Span& normals) const;
 
     /// Writes the unit normal of each point.

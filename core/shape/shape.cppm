@@ -31,7 +31,7 @@ enum class Closedness : int {
 struct MeshLayout {
     std::size_t vertices = 0;
     std::size_t triangles = 0;
-    bool has_normals = false;      // authored normals, which go before any that a shading model would make
+    bool has_normals = false;  // authored normals, which go before any that a shading model would make
     bool has_uv = false;
     bool has_derivatives = false;
     bool has_smooth_groups = false;  // else every vertex has a normal of its own
@@ -41,12 +41,13 @@ struct MeshLayout {
 /// Arrays of the sizes asked for, zero-filled; null or empty where not asked for. Object space, metres.
 struct MeshSpans {
     Vec3Span position;
-    std::span<std::uint32_t> corners;       // three vertices a triangle, counter-clockwise seen from outside
+    std::span<std::uint32_t> corners;  // three vertices a triangle, counter-clockwise seen from outside
     Vec3Span normal;
     Vec2Span uv;
     Vec3Span dpdu;
     Vec3Span dpdv;
-    std::span<std::uint32_t> smooth_group;  // a vertex each, 0 … vertices - 1; vertices of one group share a normal
+    std::span<std::uint32_t>
+        smooth_group;  // a vertex each, 0 … vertices - 1; vertices of one group share a normal
 };
 
 /// Where a shape puts its triangles. Owned by the host; used only during tessellate().
@@ -62,8 +63,8 @@ class CANDELA_API Shape : public Instance {
   public:
     ~Shape() override;
 
-    /// Writes the shape's triangles, centred on the origin of object space unless its parameters say otherwise.
-    /// May throw std::exception: a file that cannot be read.
+    /// Writes the shape's triangles, centred on the origin of object space unless its parameters say
+    /// otherwise. May throw std::exception: a file that cannot be read.
     virtual void tessellate(const MeshRequest& request, MeshSink& sink) const = 0;
 };
 

@@ -45,9 +45,12 @@ bool use_instruction_set(InstructionSet set) noexcept {
 
 std::string_view name_of(InstructionSet set) noexcept {
     switch (set) {
-        case InstructionSet::avx512: return "avx512";
-        case InstructionSet::avx2: return "avx2";
-        case InstructionSet::baseline: break;
+        case InstructionSet::avx512:
+            return "avx512";
+        case InstructionSet::avx2:
+            return "avx2";
+        case InstructionSet::baseline:
+            break;
     }
     return "baseline";
 }

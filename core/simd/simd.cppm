@@ -1,4 +1,5 @@
-// Which instruction set the batch loops run with. Every loop is compiled for each; see candela/multiversion.h.
+// Which instruction set the batch loops run with. Every loop is compiled for each; see
+// candela/multiversion.h.
 module;
 
 #include "candela/api.h"

@@ -92,17 +92,19 @@ std::string found(const Node& node, const Parameter& p) {
 }
 
 /// Checks that a file is there; its absolute path.
-std::optional<std::string> existing_file(const std::string& written, const SourcePlace& place, Diagnostics& diagnostics) {
+std::optional<std::string> existing_file(const std::string& written, const SourcePlace& place,
+                                         Diagnostics& diagnostics) {
     // What comes from the command line (line 0) is relative to where the command runs.
     const fs::path base = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
     std::error_code problem;
     const fs::path file = fs::absolute(base / written, problem).lexically_normal();
     const fs::file_status status = fs::status(file, problem);
     if (status.type() == fs::file_type::regular) return file.string();
-    const char* const what = status.type() == fs::file_type::directory ? "is a directory, not a file"
+    const char* const what = status.type() == fs::file_type::directory   ? "is a directory, not a file"
                              : status.type() == fs::file_type::not_found ? "does not exist"
-                                                                        : "is no ordinary file";
-    diagnostics.error(place, fmt::format("'{}' {}", written, what), fmt::format("looked for {}", file.string()));
+                                                                         : "is no ordinary file";
+    diagnostics.error(place, fmt::format("'{}' {}", written, what),
+                      fmt::format("looked for {}", file.string()));
     return std::nullopt;
 }
 
@@ -124,8 +126,8 @@ std::string suggestion(std::string_view name, std::span<const std::string> candi
 std::optional<Value> typed_value(const Node& node, const Parameter& parameter, Diagnostics& diagnostics) {
     auto value = as_value(node, parameter);
     if (!value) {
-        diagnostics.error(node.place, fmt::format("'{}' is {}; expected {}", parameter.name, found(node, parameter),
-                                                  expectation(parameter)));
+        diagnostics.error(node.place, fmt::format("'{}' is {}; expected {}", parameter.name,
+                                                  found(node, parameter), expectation(parameter)));
     }
     return value;
 }
@@ -155,7 +157,8 @@ ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, 
         if (p.type == ParamType::color) {
             auto& color = std::get<Vec3>(*value);
             if (color.x > 255 || color.y > 255 || color.z > 255) {
-                diagnostics.warning(entry->node.place, fmt::format("'{}': 256 counts as 255, the largest 8-bit number", p.name));
+                diagnostics.warning(entry->node.place,
+                                    fmt::format("'{}': 256 counts as 255, the largest 8-bit number", p.name));
                 color = {std::min(color.x, 255.0f), std::min(color.y, 255.0f), std::min(color.z, 255.0f)};
             }
         }
@@ -169,10 +172,10 @@ ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, 
     return values;
 }
 
-void report_unknown_keys(const TableNode& table, std::span<const std::string> known, const TableContext& context,
-                         Diagnostics& diagnostics) {
+void report_unknown_keys(const TableNode& table, std::span<const std::string> known,
+                         const TableContext& context, Diagnostics& diagnostics) {
     for (const TableNode::Entry& entry : table.entries) {
-        if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+        if (std::ranges::find(known, entry.key) != known.end()) continue;
         diagnostics.error(entry.key_place, fmt::format("unknown key '{}' in {}", entry.key, context.where),
                           joined(suggestion(entry.key, known), manual_hint(context)));
     }

@@ -1,4 +1,5 @@
-// candela-manifest PLUGIN.so OUTPUT.json: writes a plugin's manifest from its own descriptor. Run by candela_add_plugin().
+// candela-manifest PLUGIN.so OUTPUT.json: writes a plugin's manifest from its own descriptor. Run by
+// candela_add_plugin().
 #include <cstdio>
 #include <exception>
 #include <filesystem>

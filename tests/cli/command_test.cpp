@@ -12,7 +12,8 @@ namespace {
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string scene_without_models() {
-    return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight = 16\n"
+    return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight "
+           "= 16\n"
            "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"box\"\ntype = \"cube\"\n";
 }
 
@@ -63,14 +64,16 @@ TEST_CASE("unknown options and wrong values are usage errors with suggestions") 
     CHECK(holds(run_candela({"list", "lightz"}).err, "did you mean 'light'?"));
     CHECK(run_candela({"describe"}).exit_code == 2);
     CHECK(run_candela({"check"}).exit_code == 2);
-    const CommandResult set = run_candela({"list"}, {.input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "mmx"}}, .directory = {}});
+    const CommandResult set = run_candela(
+        {"list"}, {.input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "mmx"}}, .directory = {}});
     CHECK(set.exit_code == 2);
     CHECK(holds(set.err, "baseline, avx2 or avx512"));
 }
 
 TEST_CASE("without arguments, render makes candela.png of the default scene") {
     const fs::path directory = scratch_directory();
-    const CommandResult result = run_candela({"render"}, {.input = "", .environment = {}, .directory = directory});
+    const CommandResult result =
+        run_candela({"render"}, {.input = "", .environment = {}, .directory = directory});
     INFO(result.err);
     CHECK(result.exit_code == 0);
     CHECK(result.out.empty());
@@ -96,8 +99,9 @@ TEST_CASE("on a terminal, -o - is refused") {
 TEST_CASE("flags go before the scene") {
     const fs::path directory = scratch_directory();
     const std::string file = write_file(directory / "scene.toml", scene()).string();
-    const CommandResult result = run_candela({"render", file, "-o", (directory / "a.ppm").string(), "--width", "33", "--height", "7",
-                                              "--samples", "4", "--threads", "2", "--verbose", "--shading", "flat"});
+    const CommandResult result =
+        run_candela({"render", file, "-o", (directory / "a.ppm").string(), "--width", "33", "--height", "7",
+                     "--samples", "4", "--threads", "2", "--verbose", "--shading", "flat"});
     INFO(result.err);
     CHECK(result.exit_code == 0);
     CHECK(holds(result.err, "33 x 7"));
@@ -165,7 +169,8 @@ TEST_CASE("R13: nobody to ask is an error that names --defaults; a terminal is a
     const fs::path directory = scratch_directory();
     const std::string file = write_file(directory / "scene.toml", scene_without_models()).string();
     const std::string picture = (directory / "a.png").string();
-    const CommandResult nobody = run_candela({"render", file, "-o", picture}, {.input = "y\n", .environment = {}, .directory = {}});
+    const CommandResult nobody =
+        run_candela({"render", file, "-o", picture}, {.input = "y\n", .environment = {}, .directory = {}});
     CHECK(nobody.exit_code == 3);
     CHECK(holds(nobody.err, "--defaults"));
     CHECK(run_candela({"render", file, "-o", picture, "--defaults"}).exit_code == 0);
@@ -181,14 +186,16 @@ TEST_CASE("colour is for terminals, unless NO_COLOR says otherwise") {
     CHECK_FALSE(holds(run_candela({"redner"}).err, "\x1b["));
     const CommandSetup colored{.input = "", .environment = {{"TERM", "xterm"}}, .directory = {}};
     CHECK(holds(run_candela_on_terminal({"redner"}, "", colored).out, "\x1b["));
-    const CommandSetup plain{.input = "", .environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, .directory = {}};
+    const CommandSetup plain{
+        .input = "", .environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, .directory = {}};
     CHECK_FALSE(holds(run_candela_on_terminal({"redner"}, "", plain).out, "\x1b["));
 }
 
 TEST_CASE("list and describe tell what manifests tell") {
     const CommandResult all = run_candela({"list"});
     CHECK(all.exit_code == 0);
-    for (const char* const name : {"half-lambert", "gouraud", "teapot", "spot", "openimageio"}) CHECK(holds(all.out, name));
+    for (const char* const name : {"half-lambert", "gouraud", "teapot", "spot", "openimageio"})
+        CHECK(holds(all.out, name));
     const CommandResult lights = run_candela({"list", "lights"});
     CHECK(holds(lights.out, "spot"));
     CHECK_FALSE(holds(lights.out, "teapot"));
@@ -198,7 +205,8 @@ TEST_CASE("list and describe tell what manifests tell") {
 
     const CommandResult phong = run_candela({"describe", "reflection/phong"});
     CHECK(phong.exit_code == 0);
-    for (const char* const part : {"ks I_L max(R.V, 0)^shininess", "Phong (1975)", "shininess", "at least 0", "default 32"}) {
+    for (const char* const part :
+         {"ks I_L max(R.V, 0)^shininess", "Phong (1975)", "shininess", "at least 0", "default 32"}) {
         CHECK(holds(phong.out, part));
     }
     CHECK(holds(run_candela({"describe", "teapot"}).out, "Newell (1975)"));
@@ -223,7 +231,9 @@ TEST_CASE("a broken mesh file is an error with the object's place, exit code 1")
     const auto message = [&](const std::string& name, const std::string& content) {
         write_file(directory / name, content);
         const std::string file =
-            write_file(directory / "scene.toml", scene() + "[[object]]\nname = \"thing\"\ntype = \"mesh\"\nfile = \"" + name + "\"\n").string();
+            write_file(directory / "scene.toml",
+                       scene() + "[[object]]\nname = \"thing\"\ntype = \"mesh\"\nfile = \"" + name + "\"\n")
+                .string();
         const CommandResult result = run_candela({"render", file, "-o", (directory / "a.png").string()});
         CHECK(result.exit_code == 1);
         CHECK(holds(result.err, "scene.toml:18:1: error: object 'thing': plugin shape/mesh:"));
@@ -239,8 +249,11 @@ TEST_CASE("a broken mesh file is an error with the object's place, exit code 1")
     message("junk.obj", "this is no mesh\n");
     message("empty.obj", "");
     message("junk.glb", "glTF but not quite");
-    CHECK(holds(message("beyond.ply",
-                        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
-                "out of range"));
+    CHECK(holds(
+        message(
+            "beyond.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 "
+            "7\n"),
+        "out of range"));
 }

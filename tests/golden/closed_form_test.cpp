@@ -48,10 +48,12 @@ struct Triangle {
     }
 };
 
-Double3 cross(Double3 a, Double3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Double3 cross(Double3 a, Double3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 
-/// Barycentric coordinates where a ray meets the triangle, by the areas of the part triangles; none if it misses, or passes
-/// within `margin` (of a coordinate) of an edge.
+/// Barycentric coordinates where a ray meets the triangle, by the areas of the part triangles; none if it
+/// misses, or passes within `margin` (of a coordinate) of an edge.
 std::optional<Double3> hit(const Triangle& t, Double3 origin, Double3 direction, double margin) {
     const Double3 n = cross(t.p[1] - t.p[0], t.p[2] - t.p[0]);
     const double along = dot(n, direction);
@@ -74,7 +76,8 @@ int compare(const Picture& picture, double relative, double absolute,
             const auto value = expected(x, y);
             if (!value) continue;
             ++compared;
-            INFO("pixel " << x << ", " << y << ": " << text(picture.at(x, y)) << ", expected " << text(*value));
+            INFO("pixel " << x << ", " << y << ": " << text(picture.at(x, y)) << ", expected "
+                          << text(*value));
             REQUIRE(agree(picture.at(x, y), *value, relative, absolute));
         }
     }
@@ -85,19 +88,22 @@ const Triangle k_triangle{{{{-1.2, -0.9, 0.4}, {1.3, -0.7, -0.6}, {0.1, 1.1, 0.9
                           {{unit({-0.5, -0.4, 1}), unit({0.6, -0.3, 0.9}), unit({0.1, 0.7, 1.1})}}};
 
 std::string mesh_object(const char* material) {
-    return fmt::format("[[object]]\ntype = \"mesh\"\nfile = \"triangle.obj\"\ncolor = [255, 204, 102]\n[object.material]\n{}\n",
-                       material);
+    return fmt::format(
+        "[[object]]\ntype = \"mesh\"\nfile = \"triangle.obj\"\ncolor = [255, 204, "
+        "102]\n[object.material]\n{}\n",
+        material);
 }
 constexpr Double3 k_color{1, 0.8, 0.4};
 
 }  // namespace
 
 TEST_CASE("an orthographic Lambert sphere under a directional light is k_d max(N.L, 0) of the true sphere") {
-    const Picture picture = render_exr(scratch_directory(),
-                                       orthographic_view(256, 1.2) + models("phong", "lambert") +
-                                           "[[light]]\ntype = \"directional\"\ndirection = [-1, -2, -2]\n"
-                                           "[[object]]\ntype = \"sphere\"\nradius = 0.5\nsegments = 1024\ncolor = [255, 255, 255]\n"
-                                           "[object.material]\nka = 0\nkd = 0.8\n");
+    const Picture picture = render_exr(
+        scratch_directory(),
+        orthographic_view(256, 1.2) + models("phong", "lambert") +
+            "[[light]]\ntype = \"directional\"\ndirection = [-1, -2, -2]\n"
+            "[[object]]\ntype = \"sphere\"\nradius = 0.5\nsegments = 1024\ncolor = [255, 255, 255]\n"
+            "[object.material]\nka = 0\nkd = 0.8\n");
     const Double3 light = unit({1, 2, 2});
     const int compared = compare(picture, 0, 1e-3, [&](int x, int y) -> std::optional<Double3> {
         const Double3 p = orthographic_point(picture, x, y, 1.2);
@@ -111,11 +117,11 @@ TEST_CASE("an orthographic Lambert sphere under a directional light is k_d max(N
 }
 
 TEST_CASE("a cube's face under a point light follows 1/r^2") {
-    const Picture picture = render_exr(scratch_directory(),
-                                       orthographic_view(200, 2) + models("phong", "lambert") +
-                                           "[[light]]\ntype = \"point\"\nposition = [0.4, -0.3, 2.5]\nintensity = 3\n"
-                                           "[[object]]\ntype = \"cube\"\nsize = 2\ncolor = [255, 255, 255]\n"
-                                           "[object.material]\nka = 0\nkd = 1\n");
+    const Picture picture = render_exr(
+        scratch_directory(), orthographic_view(200, 2) + models("phong", "lambert") +
+                                 "[[light]]\ntype = \"point\"\nposition = [0.4, -0.3, 2.5]\nintensity = 3\n"
+                                 "[[object]]\ntype = \"cube\"\nsize = 2\ncolor = [255, 255, 255]\n"
+                                 "[object.material]\nka = 0\nkd = 1\n");
     const int compared = compare(picture, 1e-4, 0, [&](int x, int y) -> std::optional<Double3> {
         Double3 p = orthographic_point(picture, x, y, 2);
         p.z = 1;
@@ -135,7 +141,8 @@ TEST_CASE("a Gouraud triangle is the barycentric mix of its vertices' colours, i
         const Double3 d = lamp - k_triangle.p[k];
         at_vertex[k] = 0.9 * 4 * std::max(dot(k_triangle.n[k], unit(d)), 0.0) / dot(d, d) * k_color;
     }
-    const std::string rest = models("gouraud", "lambert") + "[[light]]\ntype = \"point\"\nposition = [1, 1.5, 3]\nintensity = 4\n" +
+    const std::string rest = models("gouraud", "lambert") +
+                             "[[light]]\ntype = \"point\"\nposition = [1, 1.5, 3]\nintensity = 4\n" +
                              mesh_object("ka = 0\nkd = 0.9");
     SECTION("orthographic") {
         const Picture picture = render_exr(directory, orthographic_view(160, 3) + rest);
@@ -156,10 +163,10 @@ TEST_CASE("a Gouraud triangle is the barycentric mix of its vertices' colours, i
 }
 
 TEST_CASE("a flat face is constant to the bit: a cube shows as many colours as it has visible triangles") {
-    const Picture picture = render_exr(scratch_directory(),
-                                       perspective_view(200, 200, 30) + models("flat", "phong") +
-                                           "[[light]]\ntype = \"point\"\nposition = [1.2, 1.6, 3]\nintensity = 9\n"
-                                           "[[object]]\ntype = \"cube\"\nrotation = [30, 40, 0]\n");
+    const Picture picture = render_exr(
+        scratch_directory(), perspective_view(200, 200, 30) + models("flat", "phong") +
+                                 "[[light]]\ntype = \"point\"\nposition = [1.2, 1.6, 3]\nintensity = 9\n"
+                                 "[[object]]\ntype = \"cube\"\nrotation = [30, 40, 0]\n");
     std::set<std::tuple<float, float, float>> colors;
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
@@ -178,10 +185,12 @@ TEST_CASE("Phong and Blinn-Phong highlights match a per-pixel evaluation in doub
         for (const double shininess : {5.0, 60.0}) {
             INFO((blinn ? "Blinn-Phong" : "Phong") << ", shininess " << shininess);
             const Picture picture = render_exr(
-                directory, perspective_view(240, 200, 40) + models("phong", blinn ? "blinn-phong" : "phong") +
-                               "[[light]]\ntype = \"point\"\nposition = [0.7, 0.9, 2.6]\nintensity = 2\n"
-                               "[[light]]\ntype = \"ambient\"\ncolor = [51, 51, 51]\n" +
-                               mesh_object(fmt::format("ka = 0.5\nkd = 0.3\nks = 0.7\nshininess = {}", shininess).c_str()));
+                directory,
+                perspective_view(240, 200, 40) + models("phong", blinn ? "blinn-phong" : "phong") +
+                    "[[light]]\ntype = \"point\"\nposition = [0.7, 0.9, 2.6]\nintensity = 2\n"
+                    "[[light]]\ntype = \"ambient\"\ncolor = [51, 51, 51]\n" +
+                    mesh_object(
+                        fmt::format("ka = 0.5\nkd = 0.3\nks = 0.7\nshininess = {}", shininess).c_str()));
             const int compared = compare(picture, 1e-4, 1e-5, [&](int x, int y) -> std::optional<Double3> {
                 const Double3 ray = perspective_ray(picture, x, y, 40);
                 const auto b = hit(k_triangle, k_eye, ray, 0.01);
@@ -193,8 +202,10 @@ TEST_CASE("Phong and Blinn-Phong highlights match a per-pixel evaluation in doub
                 const double intensity = 2 / dot(lamp - p, lamp - p);
                 const double cosine = dot(n, l);
                 const double base = blinn ? dot(n, unit(l + v)) : dot(2 * cosine * n - l, v);
-                const double highlight = cosine > 0 ? 0.7 * intensity * std::pow(std::max(base, 0.0), shininess) : 0;
-                return (0.5 * 0.2 + 0.3 * intensity * std::max(cosine, 0.0)) * k_color + Double3{highlight, highlight, highlight};
+                const double highlight =
+                    cosine > 0 ? 0.7 * intensity * std::pow(std::max(base, 0.0), shininess) : 0;
+                return (0.5 * 0.2 + 0.3 * intensity * std::max(cosine, 0.0)) * k_color +
+                       Double3{highlight, highlight, highlight};
             });
             CHECK(compared > 6000);
         }
@@ -205,23 +216,25 @@ TEST_CASE("seen from behind, an open surface is lit on the side that is seen") {
     const auto directory = scratch_directory();
     write_file(directory / "triangle.obj", k_triangle.obj());
     const std::string scene = models("phong", "lambert") +
-                              "[[light]]\ntype = \"directional\"\ndirection = [0, 0, 1]\n" + mesh_object("ka = 0\nkd = 1");
+                              "[[light]]\ntype = \"directional\"\ndirection = [0, 0, 1]\n" +
+                              mesh_object("ka = 0\nkd = 1");
     // The light travels along +z, so that it falls on the side away from the observer at +z …
     const Picture front = render_exr(directory, orthographic_view(64, 3) + scene);
     CHECK(front.at(32, 32) == candela::Vec3{0, 0, 0});
     // … and on the side that an observer at -z sees.
-    const Picture back = render_exr(directory, orthographic_view(64, 3) + scene, {"--set", "observer.position=[0,0,-4]"});
+    const Picture back =
+        render_exr(directory, orthographic_view(64, 3) + scene, {"--set", "observer.position=[0,0,-4]"});
     CHECK(back.at(32, 32).x > 0.7f);
 }
 
 TEST_CASE("scene colours are decoded from sRGB, and 8-bit pictures are encoded again") {
     const auto directory = scratch_directory();
     const auto pixel = [&](const char* management, const std::string& file) {
-        const auto scene = write_file(
-            directory / "scene.toml",
-            fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 9\nheight = 9\n"
-                        "background = [188, 64, 5]\ncolor_management = \"{}\"\n",
-                        management));
+        const auto scene = write_file(directory / "scene.toml",
+                                      fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = "
+                                                  "[0, 0, 0]\n[image]\nwidth = 9\nheight = 9\n"
+                                                  "background = [188, 64, 5]\ncolor_management = \"{}\"\n",
+                                                  management));
         REQUIRE(run_candela({"render", scene.string(), "-o", (directory / file).string()}).exit_code == 0);
         return read_picture(directory / file).at(4, 4);
     };

@@ -25,7 +25,8 @@ Rendered render_file(const std::filesystem::path& file) {
     REQUIRE(scene.has_value());
     const auto compiled = candela::compile(*scene, test_registry(), diagnostics);
     REQUIRE(compiled.has_value());
-    candela::Film film(scene->image.width, scene->image.height, candela::PixelType::real, candela::ColorEncoding::srgb);
+    candela::Film film(scene->image.width, scene->image.height, candela::PixelType::real,
+                       candela::ColorEncoding::srgb);
     const auto statistics = candela::render(*compiled, film, {.threads = 2});
     Rendered result;
     result.shaded = statistics.pixels_shaded;
@@ -42,7 +43,8 @@ Rendered render_file(const std::filesystem::path& file) {
 TEST_CASE("all lights x reflection models x shading models x shapes render without a NaN") {
     const auto directory = scratch_directory();
     write_file(directory / "tetrahedron.obj",
-               "v 0.5 0.5 0.5\nv -0.5 -0.5 0.5\nv -0.5 0.5 -0.5\nv 0.5 -0.5 -0.5\nf 1 2 4\nf 1 3 2\nf 1 4 3\nf 2 3 4\n");
+               "v 0.5 0.5 0.5\nv -0.5 -0.5 0.5\nv -0.5 0.5 -0.5\nv 0.5 -0.5 -0.5\nf 1 2 4\nf 1 3 2\nf 1 4 "
+               "3\nf 2 3 4\n");
     const std::vector<std::string> lights = {
         "type = \"ambient\"\n", "type = \"directional\"\ndirection = [-1, -1, -2]\n",
         "type = \"point\"\nposition = [1, 1, 2]\nintensity = 5\n",
@@ -54,9 +56,12 @@ TEST_CASE("all lights x reflection models x shading models x shapes render witho
             for (const char* const reflection : {"lambert", "half-lambert", "phong", "blinn-phong"}) {
                 for (const char* const shading : {"flat", "gouraud", "phong"}) {
                     const std::string scene = fmt::format(
-                        "version = 1\n[observer]\nposition = [1, 2, 3]\nlook_at = [0, 0, 0]\n[image]\nwidth = 48\nheight = 48\n"
-                        "[shading]\nmodel = \"{}\"\n[reflection]\nmodel = \"{}\"\n[[light]]\n{}[[object]]\ntype = \"{}\"\n{}",
-                        shading, reflection, light, shape, shape == "mesh" ? "file = \"tetrahedron.obj\"\n" : "");
+                        "version = 1\n[observer]\nposition = [1, 2, 3]\nlook_at = [0, 0, 0]\n[image]\nwidth "
+                        "= 48\nheight = 48\n"
+                        "[shading]\nmodel = \"{}\"\n[reflection]\nmodel = "
+                        "\"{}\"\n[[light]]\n{}[[object]]\ntype = \"{}\"\n{}",
+                        shading, reflection, light, shape,
+                        shape == "mesh" ? "file = \"tetrahedron.obj\"\n" : "");
                     INFO(scene);
                     const Rendered picture = render_file(write_file(directory / "scene.toml", scene));
                     CHECK(picture.finite);

@@ -71,7 +71,8 @@ class Fixture {
     }
 
     std::vector<float> picture(int threads, int tile_size) const {
-        candela::Film film(compiled_->image.width, compiled_->image.height, candela::PixelType::real, candela::ColorEncoding::srgb);
+        candela::Film film(compiled_->image.width, compiled_->image.height, candela::PixelType::real,
+                           candela::ColorEncoding::srgb);
         candela::render(*compiled_, film, {.threads = threads, .tile_size = tile_size});
         const auto pixels = film.view().reals;
         return {pixels.begin(), pixels.end()};
@@ -101,9 +102,12 @@ TEST_CASE("the command writes the same file with one thread and with eight") {
     const auto directory = scratch_directory();
     const auto scene = write_file(directory / "scene.toml", k_scene).string();
     for (const char* const extension : {"png", "exr"}) {
-        const auto one = directory / ("one." + std::string(extension)), eight = directory / ("eight." + std::string(extension));
-        REQUIRE(run_candela({"render", scene, "--samples", "4", "--threads", "1", "-o", one.string()}).exit_code == 0);
-        REQUIRE(run_candela({"render", scene, "--samples", "4", "--threads", "8", "-o", eight.string()}).exit_code == 0);
+        const auto one = directory / ("one." + std::string(extension)),
+                   eight = directory / ("eight." + std::string(extension));
+        REQUIRE(run_candela({"render", scene, "--samples", "4", "--threads", "1", "-o", one.string()})
+                    .exit_code == 0);
+        REQUIRE(run_candela({"render", scene, "--samples", "4", "--threads", "8", "-o", eight.string()})
+                    .exit_code == 0);
         CHECK(read_file(one).size() > 1000);
         CHECK((read_file(one) == read_file(eight)));
     }
@@ -118,7 +122,8 @@ TEST_CASE("every instruction set gives the same picture but for rounding") {
         INFO(candela::name_of(set));
         REQUIRE(candela::use_instruction_set(set));
         const auto picture = fixture.picture(2, 64);
-        // A hair of difference in a projected vertex moves an edge by a sub-pixel, and so may change a pixel on it.
+        // A hair of difference in a projected vertex moves an edge by a sub-pixel, and so may change a pixel
+        // on it.
         std::size_t different = 0;
         for (std::size_t i = 0; i < picture.size(); ++i) {
             if (std::abs(picture[i] - expected[i]) > 1e-4f * std::max(1.0f, expected[i])) ++different;

@@ -20,11 +20,13 @@ struct Picture {
 
 Picture read_picture(const std::filesystem::path& file);
 
-/// Writes `scene` (TOML without its version) into `directory`, renders it to an EXR file with the command, reads that.
+/// Writes `scene` (TOML without its version) into `directory`, renders it to an EXR file with the command,
+/// reads that.
 Picture render_exr(const std::filesystem::path& directory, const std::string& scene,
                    const std::vector<std::string>& arguments = {});
 
-/// The centre of a pixel in an orthographic view along -z from (0, 0, distance), y up, `metres` fitting the height.
+/// The centre of a pixel in an orthographic view along -z from (0, 0, distance), y up, `metres` fitting the
+/// height.
 Double3 orthographic_point(const Picture& picture, int x, int y, double metres);
 
 /// The unit direction of a pixel's ray in a perspective view along -z, y up.

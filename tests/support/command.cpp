@@ -88,7 +88,8 @@ CommandResult run_candela_on_terminal(const std::vector<std::string>& arguments,
 
 CommandResult run_program(const std::vector<std::string>& words, const CommandSetup& setup) {
     static int runs = 0;
-    const fs::path base = fs::path(CANDELA_TEST_SCRATCH) / ("run-" + std::to_string(::getpid()) + "-" + std::to_string(++runs));
+    const fs::path base =
+        fs::path(CANDELA_TEST_SCRATCH) / ("run-" + std::to_string(::getpid()) + "-" + std::to_string(++runs));
     fs::create_directories(base.parent_path());
     const std::string in = base.string() + ".in", out = base.string() + ".out", err = base.string() + ".err";
     write_file(in, setup.input);

@@ -14,9 +14,9 @@ struct CommandResult {
 };
 
 struct CommandSetup {
-    std::string input;                                         // on stdin, which is no terminal
+    std::string input;                                             // on stdin, which is no terminal
     std::vector<std::pair<std::string, std::string>> environment;  // added to this process's
-    std::filesystem::path directory;                           // to run in; the scratch directory if empty
+    std::filesystem::path directory;  // to run in; the scratch directory if empty
 };
 
 /// Runs `candela arguments…` of the build tree.
@@ -24,7 +24,8 @@ CommandResult run_candela(const std::vector<std::string>& arguments, const Comma
 /// Runs any program, found as a shell finds it.
 CommandResult run_program(const std::vector<std::string>& words, const CommandSetup& setup = {});
 
-/// Runs `candela arguments…` on a terminal of its own, types `typed`, and returns what the terminal showed (as `out`).
+/// Runs `candela arguments…` on a terminal of its own, types `typed`, and returns what the terminal showed
+/// (as `out`).
 CommandResult run_candela_on_terminal(const std::vector<std::string>& arguments, const std::string& typed,
                                       const CommandSetup& setup = {});
 

@@ -57,29 +57,33 @@ Vec3 Random::point(double half_size) {
     return {x(), x(), x()};
 }
 
-std::vector<ReflectedPair> reflect(const candela::ReflectionModel& model, const std::vector<ReflectionSample>& samples,
-                                   candela::Rgb color) {
+std::vector<ReflectedPair> reflect(const candela::ReflectionModel& model,
+                                   const std::vector<ReflectionSample>& samples, candela::Rgb color) {
     const Vec3Arrays normal = column(samples, &ReflectionSample::normal);
     const Vec3Arrays to_observer = column(samples, &ReflectionSample::to_observer);
     const Vec3Arrays to_light = column(samples, &ReflectionSample::to_light);
     const Vec3Arrays light_diffuse = column(samples, &ReflectionSample::diffuse);
     const Vec3Arrays light_specular = column(samples, &ReflectionSample::specular);
-    Vec3Arrays ambient = zeros(samples.size()), diffuse = zeros(samples.size()), specular = zeros(samples.size());
+    Vec3Arrays ambient = zeros(samples.size()), diffuse = zeros(samples.size()),
+               specular = zeros(samples.size());
     model.reflect({samples.size(), normal.span(), to_observer.span(), {}, color},
                   {to_light.span(), light_diffuse.span(), light_specular.span()},
                   {ambient.span(), diffuse.span(), specular.span()});
     std::vector<ReflectedPair> result;
-    for (std::size_t i = 0; i < samples.size(); ++i) result.push_back({diffuse.span()[i], specular.span()[i]});
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        result.push_back({diffuse.span()[i], specular.span()[i]});
     return result;
 }
 
-std::vector<Vec3> reflect_ambient(const candela::ReflectionModel& model, const std::vector<ReflectionSample>& samples,
-                                  candela::Rgb color, Vec3 intensity) {
+std::vector<Vec3> reflect_ambient(const candela::ReflectionModel& model,
+                                  const std::vector<ReflectionSample>& samples, candela::Rgb color,
+                                  Vec3 intensity) {
     const Vec3Arrays normal = column(samples, &ReflectionSample::normal);
     const Vec3Arrays to_observer = column(samples, &ReflectionSample::to_observer);
     Vec3Arrays light = zeros(samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) light.span().set(i, intensity);
-    Vec3Arrays ambient = zeros(samples.size()), diffuse = zeros(samples.size()), specular = zeros(samples.size());
+    Vec3Arrays ambient = zeros(samples.size()), diffuse = zeros(samples.size()),
+               specular = zeros(samples.size());
     model.reflect_ambient({samples.size(), normal.span(), to_observer.span(), {}, color}, light.span(),
                           {ambient.span(), diffuse.span(), specular.span()});
     std::vector<Vec3> result;
@@ -87,7 +91,8 @@ std::vector<Vec3> reflect_ambient(const candela::ReflectionModel& model, const s
     return result;
 }
 
-void check_reflection(const candela::ReflectionModel& model, const ReflectionReference& reference, double tolerance) {
+void check_reflection(const candela::ReflectionModel& model, const ReflectionReference& reference,
+                      double tolerance) {
     constexpr candela::Rgb k_color{0.8f, 0.5f, 0.25f};
     each_way([&](std::size_t size) {
         Random random(static_cast<unsigned>(size));
@@ -102,14 +107,16 @@ void check_reflection(const candela::ReflectionModel& model, const ReflectionRef
         const auto batch = reflect(model, samples, k_color);
         for (std::size_t i = 0; i < size; ++i) {
             const ReflectionSample& s = samples[i];
-            INFO("sample " << i << ": N " << text(s.normal) << " V " << text(s.to_observer) << " L " << text(s.to_light));
-            const ExactPair expected =
-                reference(exact(s.normal), exact(s.to_observer), exact(s.to_light), {k_color.r, k_color.g, k_color.b});
-            const Double3 d{expected.diffuse.x * s.diffuse.x, expected.diffuse.y * s.diffuse.y, expected.diffuse.z * s.diffuse.z};
+            INFO("sample " << i << ": N " << text(s.normal) << " V " << text(s.to_observer) << " L "
+                           << text(s.to_light));
+            const ExactPair expected = reference(exact(s.normal), exact(s.to_observer), exact(s.to_light),
+                                                 {k_color.r, k_color.g, k_color.b});
+            const Double3 d{expected.diffuse.x * s.diffuse.x, expected.diffuse.y * s.diffuse.y,
+                            expected.diffuse.z * s.diffuse.z};
             const Double3 h{expected.specular.x * s.specular.x, expected.specular.y * s.specular.y,
                             expected.specular.z * s.specular.z};
-            INFO("diffuse " << text(batch[i].diffuse) << ", expected " << text(d) << "; specular " << text(batch[i].specular)
-                            << ", expected " << text(h));
+            INFO("diffuse " << text(batch[i].diffuse) << ", expected " << text(d) << "; specular "
+                            << text(batch[i].specular) << ", expected " << text(h));
             REQUIRE(agree(batch[i].diffuse, d, tolerance));
             REQUIRE(agree(batch[i].specular, h, tolerance));
             const auto single = reflect(model, {s}, k_color);
@@ -119,13 +126,15 @@ void check_reflection(const candela::ReflectionModel& model, const ReflectionRef
     });
 }
 
-std::vector<IncidentSample> illuminate(const candela::Light& light, const std::vector<Vec3>& positions, Vec3 normal) {
+std::vector<IncidentSample> illuminate(const candela::Light& light, const std::vector<Vec3>& positions,
+                                       Vec3 normal) {
     Vec3Arrays position = zeros(positions.size()), normals = zeros(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
         position.span().set(i, positions[i]);
         normals.span().set(i, normal);
     }
-    Vec3Arrays to_light = zeros(positions.size()), diffuse = zeros(positions.size()), specular = zeros(positions.size());
+    Vec3Arrays to_light = zeros(positions.size()), diffuse = zeros(positions.size()),
+               specular = zeros(positions.size());
     light.illuminate(0, {positions.size(), position.span(), normals.span()},
                      {to_light.span(), diffuse.span(), specular.span()});
     std::vector<IncidentSample> result;
@@ -136,7 +145,8 @@ std::vector<IncidentSample> illuminate(const candela::Light& light, const std::v
 }
 
 std::vector<Vec3> illuminate_ambient(const candela::Light& light, const std::vector<Vec3>& positions) {
-    Vec3Arrays position = zeros(positions.size()), normals = zeros(positions.size()), ambient = zeros(positions.size());
+    Vec3Arrays position = zeros(positions.size()), normals = zeros(positions.size()),
+               ambient = zeros(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) position.span().set(i, positions[i]);
     light.illuminate_ambient({positions.size(), position.span(), normals.span()}, ambient.span());
     std::vector<Vec3> result;
@@ -169,10 +179,13 @@ bool agree(double a, double b, double relative, double absolute) {
     return std::abs(a - b) <= std::max(absolute, relative * std::max(std::abs(a), std::abs(b)));
 }
 
-bool agree(Vec3 a, Vec3 b, double relative, double absolute) { return agree(a, exact(b), relative, absolute); }
+bool agree(Vec3 a, Vec3 b, double relative, double absolute) {
+    return agree(a, exact(b), relative, absolute);
+}
 
 bool agree(Vec3 a, Double3 b, double relative, double absolute) {
-    return agree(a.x, b.x, relative, absolute) && agree(a.y, b.y, relative, absolute) && agree(a.z, b.z, relative, absolute);
+    return agree(a.x, b.x, relative, absolute) && agree(a.y, b.y, relative, absolute) &&
+           agree(a.z, b.z, relative, absolute);
 }
 
 std::string text(Vec3 v) { return fmt::format("({}, {}, {})", v.x, v.y, v.z); }

@@ -29,7 +29,9 @@ inline Double3 unit(Double3 a) { return (1 / length(a)) * a; }
 class Random {
   public:
     explicit Random(unsigned seed) : engine_(seed) {}
-    double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+    double number(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(engine_);
+    }
     candela::Vec3 direction();
     candela::Vec3 point(double half_size);
 
@@ -48,8 +50,8 @@ struct ReflectedPair {
 };
 
 /// Runs `model` over the samples as one batch; the sums start at zero.
-std::vector<ReflectedPair> reflect(const candela::ReflectionModel& model, const std::vector<ReflectionSample>& samples,
-                                   candela::Rgb color);
+std::vector<ReflectedPair> reflect(const candela::ReflectionModel& model,
+                                   const std::vector<ReflectionSample>& samples, candela::Rgb color);
 /// Likewise, of ambient light of intensity `ambient`.
 std::vector<candela::Vec3> reflect_ambient(const candela::ReflectionModel& model,
                                            const std::vector<ReflectionSample>& samples, candela::Rgb color,
@@ -60,17 +62,20 @@ struct ExactPair {
 };
 using ReflectionReference = std::function<ExactPair(Double3 n, Double3 v, Double3 l, Double3 color)>;
 
-/// Compares a reflection model with a reference at random samples, for every instruction set and batch size, and one sample
-/// at a time with the batch (1e-5).
-void check_reflection(const candela::ReflectionModel& model, const ReflectionReference& reference, double tolerance);
+/// Compares a reflection model with a reference at random samples, for every instruction set and batch size,
+/// and one sample at a time with the batch (1e-5).
+void check_reflection(const candela::ReflectionModel& model, const ReflectionReference& reference,
+                      double tolerance);
 
 /// What a light sends to a receiver.
 struct IncidentSample {
     candela::Vec3 to_light, diffuse, specular;
 };
-std::vector<IncidentSample> illuminate(const candela::Light& light, const std::vector<candela::Vec3>& positions,
+std::vector<IncidentSample> illuminate(const candela::Light& light,
+                                       const std::vector<candela::Vec3>& positions,
                                        candela::Vec3 normal = {0, 1, 0});
-std::vector<candela::Vec3> illuminate_ambient(const candela::Light& light, const std::vector<candela::Vec3>& positions);
+std::vector<candela::Vec3> illuminate_ambient(const candela::Light& light,
+                                              const std::vector<candela::Vec3>& positions);
 
 struct ExactIncident {
     Double3 to_light, intensity;

@@ -15,7 +15,8 @@ double worst(double low, double high, double floor, Approximate approximate, Exa
     for (int i = 0; i <= 200000; ++i) {
         const auto x = static_cast<float>(low + (high - low) * i / 200000);
         const double expected = exact(static_cast<double>(x));
-        error = std::max(error, std::abs(static_cast<double>(approximate(x)) - expected) / std::max(std::abs(expected), floor));
+        error = std::max(error, std::abs(static_cast<double>(approximate(x)) - expected) /
+                                    std::max(std::abs(expected), floor));
     }
     return error;
 }
@@ -23,18 +24,24 @@ double worst(double low, double high, double floor, Approximate approximate, Exa
 }  // namespace
 
 TEST_CASE("kernel powers and logarithms agree with double precision to a few units in the last place") {
-    CHECK(worst(-99, 99, 0, [](float x) { return k::exp2(x); }, [](double x) { return std::exp2(x); }) < 3e-7);
-    CHECK(worst(1e-6, 4, 1e-2, [](float x) { return k::log2(x); }, [](double x) { return std::log2(x); }) < 5e-7);
+    CHECK(
+        worst(-99, 99, 0, [](float x) { return k::exp2(x); }, [](double x) { return std::exp2(x); }) < 3e-7);
+    CHECK(worst(
+              1e-6, 4, 1e-2, [](float x) { return k::log2(x); }, [](double x) { return std::log2(x); }) <
+          5e-7);
     CHECK(worst(-30, 30, 0, [](float x) { return k::exp(x); }, [](double x) { return std::exp(x); }) < 3e-6);
-    CHECK(worst(0.01, 100, 1e-2, [](float x) { return k::log(x); }, [](double x) { return std::log(x); }) < 5e-7);
+    CHECK(worst(
+              0.01, 100, 1e-2, [](float x) { return k::log(x); }, [](double x) { return std::log(x); }) <
+          5e-7);
 }
 
 TEST_CASE("kernel pow agrees with double precision for every shininess in use") {
     for (const double y : {0.5, 1.0, 2.0, 10.0, 32.0, 150.0, 1000.0}) {
         INFO("exponent " << y);
         const auto exponent = static_cast<float>(y);
-        CHECK(worst(0.5, 1, 1e-6, [&](float x) { return k::pow(x, exponent); }, [&](double x) { return std::pow(x, y); }) <
-              3e-7 * (y + 2));
+        CHECK(worst(
+                  0.5, 1, 1e-6, [&](float x) { return k::pow(x, exponent); },
+                  [&](double x) { return std::pow(x, y); }) < 3e-7 * (y + 2));
     }
 }
 
@@ -57,10 +64,12 @@ TEST_CASE("kernel angles agree with double precision") {
     constexpr double k_pi = std::numbers::pi;
     CHECK(worst(-20, 20, 1, [](float x) { return k::sin(x); }, [](double x) { return std::sin(x); }) < 3e-7);
     CHECK(worst(-20, 20, 1, [](float x) { return k::cos(x); }, [](double x) { return std::cos(x); }) < 3e-7);
-    CHECK(worst(-1.4, 1.4, 1, [](float x) { return k::tan(x); }, [](double x) { return std::tan(x); }) < 1e-6);
+    CHECK(
+        worst(-1.4, 1.4, 1, [](float x) { return k::tan(x); }, [](double x) { return std::tan(x); }) < 1e-6);
     CHECK(worst(-1, 1, 1, [](float x) { return k::asin(x); }, [](double x) { return std::asin(x); }) < 5e-7);
     CHECK(worst(-1, 1, 1, [](float x) { return k::acos(x); }, [](double x) { return std::acos(x); }) < 5e-7);
-    CHECK(worst(-50, 50, 1, [](float x) { return k::atan(x); }, [](double x) { return std::atan(x); }) < 5e-7);
+    CHECK(
+        worst(-50, 50, 1, [](float x) { return k::atan(x); }, [](double x) { return std::atan(x); }) < 5e-7);
     for (int i = 0; i < 360; ++i) {
         const double angle = (i + 0.5) * k_pi / 180 - k_pi;
         const auto y = static_cast<float>(std::sin(angle)), x = static_cast<float>(std::cos(angle));
@@ -71,7 +80,8 @@ TEST_CASE("kernel angles agree with double precision") {
 }
 
 TEST_CASE("kernel rounding follows GLSL") {
-    for (const float x : {-2.5f, -2.0f, -1.2f, -0.0f, 0.0f, 0.3f, 0.5f, 0.99f, 1.0f, 7.5f, 123456.7f, 1e10f, -1e10f}) {
+    for (const float x :
+         {-2.5f, -2.0f, -1.2f, -0.0f, 0.0f, 0.3f, 0.5f, 0.99f, 1.0f, 7.5f, 123456.7f, 1e10f, -1e10f}) {
         INFO(x);
         CHECK(k::floor(x) == std::floor(x));
         CHECK(k::ceil(x) == std::ceil(x));

@@ -28,13 +28,15 @@ double volume(const Mesh& mesh) {
     double six = 0;
     const auto p = mesh.position.span();
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        const Double3 a = exact(p[mesh.corners[3 * t]]), b = exact(p[mesh.corners[3 * t + 1]]), c = exact(p[mesh.corners[3 * t + 2]]);
+        const Double3 a = exact(p[mesh.corners[3 * t]]), b = exact(p[mesh.corners[3 * t + 1]]),
+                      c = exact(p[mesh.corners[3 * t + 2]]);
         six += a.x * (b.y * c.z - b.z * c.y) - a.y * (b.x * c.z - b.z * c.x) + a.z * (b.x * c.y - b.y * c.x);
     }
     return six / 6;
 }
 
-/// Vertices, edges, faces with vertices at one place counted once, and how many edges are not between two faces.
+/// Vertices, edges, faces with vertices at one place counted once, and how many edges are not between two
+/// faces.
 struct Topology {
     int euler = 0;
     int open_edges = 0;
@@ -48,12 +50,14 @@ Topology topology(const Mesh& mesh) {
     std::map<std::pair<std::size_t, std::size_t>, int> edges;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t a = place(mesh.corners[3 * t + k]), b = place(mesh.corners[3 * t + (k + 1) % 3]);
+            const std::size_t a = place(mesh.corners[3 * t + k]),
+                              b = place(mesh.corners[3 * t + (k + 1) % 3]);
             edges[std::minmax(a, b)] += a < b ? 1 : -1;
         }
     }
     Topology result;
-    result.euler = static_cast<int>(places.size()) - static_cast<int>(edges.size()) + static_cast<int>(mesh.triangle_count());
+    result.euler = static_cast<int>(places.size()) - static_cast<int>(edges.size()) +
+                   static_cast<int>(mesh.triangle_count());
     for (const auto& [edge, balance] : edges) result.open_edges += balance != 0 ? 1 : 0;
     return result;
 }
@@ -62,7 +66,8 @@ Topology topology(const Mesh& mesh) {
 class GivenShape final : public Shape {
   public:
     GivenShape() = default;
-    GivenShape(std::vector<Vec3> v, std::vector<std::uint32_t> c) : vertices(std::move(v)), corners(std::move(c)) {}
+    GivenShape(std::vector<Vec3> v, std::vector<std::uint32_t> c)
+        : vertices(std::move(v)), corners(std::move(c)) {}
 
     std::vector<Vec3> vertices;
     std::vector<std::uint32_t> corners;
@@ -75,7 +80,8 @@ class GivenShape final : public Shape {
 };
 
 GivenShape tetrahedron() {
-    return GivenShape({{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3});
+    return GivenShape({{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}},
+                      {0, 1, 3, 0, 2, 1, 0, 3, 2, 1, 2, 3});
 }
 
 std::string complaint_about(const Shape& shape) {
@@ -142,7 +148,8 @@ TEST_CASE("vertex normals of a fine sphere converge to the sphere's own, across 
     const Mesh mesh = build(*instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{256}}}));
     double worst = 1;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        worst = std::min(worst, dot(exact(mesh.vertex_normal.span()[i]), unit(exact(mesh.position.span()[i]))));
+        worst =
+            std::min(worst, dot(exact(mesh.vertex_normal.span()[i]), unit(exact(mesh.position.span()[i]))));
     }
     CHECK(worst > 0.99999);
 }

@@ -9,8 +9,8 @@
 
 #include "support/samples.h"
 
-using candela::ParamSet;
 using candela::Parameter;
+using candela::ParamSet;
 using candela::ParamType;
 using candela::Value;
 using candela::Vec3;
@@ -27,14 +27,33 @@ candela::Manifest sample_manifest() {
     m.version = "1.2.3";
     m.title = "Lamp \"quoted\"";
     m.formula = "a\nb";
-    m.parameters = {
-        {.name = "size", .type = ParamType::real, .unit = "m", .meaning = "x", .fallback = 0.1, .minimum = 0, .minimum_excluded = true},
-        {.name = "count", .type = ParamType::integer, .meaning = "x", .fallback = std::int64_t{3}, .minimum = 1, .maximum = 9},
-        {.name = "on", .type = ParamType::boolean, .meaning = "x", .fallback = true},
-        {.name = "law", .type = ParamType::choice, .meaning = "x", .fallback = std::string("b"), .choices = {"a", "b"}},
-        {.name = "at", .type = ParamType::point, .meaning = "x", .fallback = std::nullopt},
-        {.name = "tint", .type = ParamType::color, .meaning = "x", .fallback = Vec3{1, 2, 3}},
-        {.name = "kd", .type = ParamType::triple, .meaning = "x", .fallback = Vec3{0.1f, 0.2f, 0.3f}, .maximum = 1, .maximum_excluded = true}};
+    m.parameters = {{.name = "size",
+                     .type = ParamType::real,
+                     .unit = "m",
+                     .meaning = "x",
+                     .fallback = 0.1,
+                     .minimum = 0,
+                     .minimum_excluded = true},
+                    {.name = "count",
+                     .type = ParamType::integer,
+                     .meaning = "x",
+                     .fallback = std::int64_t{3},
+                     .minimum = 1,
+                     .maximum = 9},
+                    {.name = "on", .type = ParamType::boolean, .meaning = "x", .fallback = true},
+                    {.name = "law",
+                     .type = ParamType::choice,
+                     .meaning = "x",
+                     .fallback = std::string("b"),
+                     .choices = {"a", "b"}},
+                    {.name = "at", .type = ParamType::point, .meaning = "x", .fallback = std::nullopt},
+                    {.name = "tint", .type = ParamType::color, .meaning = "x", .fallback = Vec3{1, 2, 3}},
+                    {.name = "kd",
+                     .type = ParamType::triple,
+                     .meaning = "x",
+                     .fallback = Vec3{0.1f, 0.2f, 0.3f},
+                     .maximum = 1,
+                     .maximum_excluded = true}};
     m.relations = {{candela::RelationType::less, "size", "count", true, "why"}};
     m.properties = {{"closed", "true"}, {"euler", "2"}};
     m.formats = {{"foo", "Foo", candela::PixelType::real}};
@@ -51,7 +70,8 @@ TEST_CASE("a manifest written as JSON and read again is the same manifest") {
 
 TEST_CASE("what is no manifest is refused with a reason") {
     for (const char* const text : {"", "{", "[]", "3", "{}", R"({"candela_manifest": 7})",
-                                   R"({"candela_manifest": 1, "abi": "x", "kind": "toaster"})", R"({"candela_manifest": 1, "abi": 4})"}) {
+                                   R"({"candela_manifest": 1, "abi": "x", "kind": "toaster"})",
+                                   R"({"candela_manifest": 1, "abi": 4})"}) {
         INFO(text);
         CHECK_THROWS_AS(candela::manifest_from_json(text), candela::Error);
     }
@@ -59,21 +79,34 @@ TEST_CASE("what is no manifest is refused with a reason") {
 
 TEST_CASE("parameters are delivered as plugins expect them") {
     using candela::ColorEncoding;
-    ParamSet angle = set_of({.name = "a", .type = ParamType::real, .unit = "deg", .meaning = "", .fallback = 180.0});
+    ParamSet angle =
+        set_of({.name = "a", .type = ParamType::real, .unit = "deg", .meaning = "", .fallback = 180.0});
     CHECK(agree(angle.delivered(ColorEncoding::none)[0].number[0], 3.14159265, 1e-6));
-    ParamSet direction = set_of({.name = "d", .type = ParamType::direction, .meaning = "", .fallback = Vec3{0, 3, 4}});
+    ParamSet direction =
+        set_of({.name = "d", .type = ParamType::direction, .meaning = "", .fallback = Vec3{0, 3, 4}});
     CHECK(direction.delivered(ColorEncoding::none)[0].number[1] == 0.6f);
-    ParamSet color = set_of({.name = "c", .type = ParamType::color, .meaning = "", .fallback = Vec3{255, 51, 0}});
+    ParamSet color =
+        set_of({.name = "c", .type = ParamType::color, .meaning = "", .fallback = Vec3{255, 51, 0}});
     CHECK(agree(color.delivered(ColorEncoding::none)[0].number[1], 0.2, 1e-6));
     CHECK(agree(color.delivered(ColorEncoding::srgb)[0].number[1], 0.033105, 1e-4));
-    ParamSet choice = set_of({.name = "w", .type = ParamType::choice, .meaning = "", .fallback = std::string("two"), .choices = {"one", "two"}});
+    ParamSet choice = set_of({.name = "w",
+                              .type = ParamType::choice,
+                              .meaning = "",
+                              .fallback = std::string("two"),
+                              .choices = {"one", "two"}});
     CHECK(choice.delivered(ColorEncoding::none)[0].integer == 1);
-    ParamSet required = set_of({.name = "r", .type = ParamType::point, .meaning = "", .fallback = std::nullopt});
+    ParamSet required =
+        set_of({.name = "r", .type = ParamType::point, .meaning = "", .fallback = std::nullopt});
     CHECK_THROWS_AS(required.delivered(ColorEncoding::none), std::invalid_argument);
 }
 
 TEST_CASE("a parameter set takes what fits and nothing else") {
-    ParamSet set = set_of({.name = "kd", .type = ParamType::triple, .meaning = "", .fallback = Vec3{}, .minimum = 0, .maximum = 1});
+    ParamSet set = set_of({.name = "kd",
+                           .type = ParamType::triple,
+                           .meaning = "",
+                           .fallback = Vec3{},
+                           .minimum = 0,
+                           .maximum = 1});
     set.set("kd", 0.5);
     CHECK(std::get<Vec3>(set.get("kd")) == Vec3{0.5f, 0.5f, 0.5f});
     set.set("kd", std::int64_t{1});
@@ -96,7 +129,8 @@ TEST_CASE("the sRGB transfer functions are those of IEC 61966-2-1, and inverse t
 }
 
 TEST_CASE("every 8-bit colour survives decoding and the film's encoding") {
-    for (const candela::ColorEncoding encoding : {candela::ColorEncoding::srgb, candela::ColorEncoding::none}) {
+    for (const candela::ColorEncoding encoding :
+         {candela::ColorEncoding::srgb, candela::ColorEncoding::none}) {
         candela::Film film(256, 1, candela::PixelType::byte, encoding);
         candela::Vec3Arrays row;
         row.resize(256);

@@ -65,9 +65,10 @@ TEST_CASE("the shipped plugins are all listed, with their manifests and without 
         for (const candela::Parameter& p : file->manifest.parameters) CHECK_FALSE(p.meaning.empty());
     }
     CHECK(ids == std::vector<std::string>{"light/ambient", "light/directional", "light/point", "light/spot",
-                                          "reflection/blinn-phong", "reflection/half-lambert", "reflection/lambert",
-                                          "reflection/phong", "shading/flat", "shading/gouraud", "shading/phong", "shape/cube",
-                                          "shape/mesh", "shape/sphere", "shape/teapot", "shape/torus", "image/openimageio",
+                                          "reflection/blinn-phong", "reflection/half-lambert",
+                                          "reflection/lambert", "reflection/phong", "shading/flat",
+                                          "shading/gouraud", "shading/phong", "shape/cube", "shape/mesh",
+                                          "shape/sphere", "shape/teapot", "shape/torus", "image/openimageio",
                                           "image/png", "image/pnm"});
     CHECK(registry.refusals().empty());
 }
@@ -81,7 +82,8 @@ TEST_CASE("every shipped plugin agrees with its manifest, and every default fits
             if (p.fallback) CHECK_FALSE(candela::complaint(p, *p.fallback));
         }
         const candela::ParamSet defaults(file->manifest.parameters);
-        for (const candela::Relation& r : file->manifest.relations) CHECK_FALSE(candela::complaint(r, defaults));
+        for (const candela::Relation& r : file->manifest.relations)
+            CHECK_FALSE(candela::complaint(r, defaults));
     }
 }
 
@@ -117,7 +119,8 @@ TEST_CASE("an unknown name says what is installed and suggests the nearest") {
 }
 
 TEST_CASE("a library with a wrong fingerprint is refused before anything of it is called") {
-    CHECK(holds(refusal(directory_with(k_libraries / "old_abi.so", "old"), "old"), "it was built for 'candela interface 0;"));
+    CHECK(holds(refusal(directory_with(k_libraries / "old_abi.so", "old"), "old"),
+                "it was built for 'candela interface 0;"));
 }
 
 TEST_CASE("a manifest with a wrong fingerprint is refused before the library is loaded") {
@@ -133,11 +136,13 @@ TEST_CASE("a manifest with a wrong fingerprint is refused before the library is 
 }
 
 TEST_CASE("a library without an entry point is refused") {
-    CHECK(holds(refusal(directory_with(k_libraries / "no_entry.so", "none"), "none"), "does not export candela_plugin_abi"));
+    CHECK(holds(refusal(directory_with(k_libraries / "no_entry.so", "none"), "none"),
+                "does not export candela_plugin_abi"));
 }
 
 TEST_CASE("a library that needs a symbol that nobody has is refused by the symbol's name") {
-    CHECK(holds(refusal(directory_with(k_libraries / "missing_symbol.so", "needy"), "needy"), "candela_test_nobody_has_this"));
+    CHECK(holds(refusal(directory_with(k_libraries / "missing_symbol.so", "needy"), "needy"),
+                "candela_test_nobody_has_this"));
 }
 
 TEST_CASE("a text file called .so is refused") {
@@ -175,8 +180,9 @@ TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
     Registry registry({k_libraries, k_shipped});
     candela::ParamSet values = registry.parameters(PluginKind::reflection, "throwing");
     values.set("kd", 0.0);
-    CHECK(message_of([&] { registry.create<candela::ReflectionModel>("throwing", values, candela::ColorEncoding::none); }) ==
-          "plugin reflection/throwing: no model without light");
+    CHECK(message_of([&] {
+              registry.create<candela::ReflectionModel>("throwing", values, candela::ColorEncoding::none);
+          }) == "plugin reflection/throwing: no model without light");
 
     for (const char* const light : {"point", "ambient"}) {
         candela::SceneRequest request;
@@ -187,9 +193,10 @@ TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
         const bool is_point = std::string(light) == "point";
         if (!is_point) {
             request.settings.clear();
-            request.files = {write_file(scratch_directory() / "scene.toml",
-                                        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\n"
-                                        "model = \"phong\"\n[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n")};
+            request.files = {write_file(
+                scratch_directory() / "scene.toml",
+                "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\n"
+                "model = \"phong\"\n[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n")};
         }
         const auto scene = candela::read_scene(request, registry, diagnostics);
         INFO(diagnostics.text(false));
@@ -198,16 +205,19 @@ TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
         REQUIRE(compiled);
         candela::Film film(64, 64, candela::PixelType::byte, candela::ColorEncoding::srgb);
         for (const int threads : {1, 4}) {
-            const std::string sentence = message_of([&] { candela::render(*compiled, film, {.threads = threads}); });
-            CHECK(sentence == (is_point ? "plugin reflection/throwing: out of photons"
-                                        : "plugin reflection/throwing threw something that is no std::exception"));
+            const std::string sentence =
+                message_of([&] { candela::render(*compiled, film, {.threads = threads}); });
+            CHECK(sentence == (is_point
+                                   ? "plugin reflection/throwing: out of photons"
+                                   : "plugin reflection/throwing threw something that is no std::exception"));
         }
     }
 }
 
 TEST_CASE("nothing but what a scene names is loaded") {
-    const CommandResult traced = run_candela({"render", "-o", (scratch_directory() / "a.png").string()},
-                                             {.input = "", .environment = {{"LD_DEBUG", "files"}}, .directory = {}});
+    const CommandResult traced =
+        run_candela({"render", "-o", (scratch_directory() / "a.png").string()},
+                    {.input = "", .environment = {{"LD_DEBUG", "files"}}, .directory = {}});
     REQUIRE(traced.exit_code == 0);
     for (const char* const unused : {"OpenImageIO", "assimp", "half-lambert", "gouraud", "teapot", "spot"}) {
         CHECK_FALSE(holds(traced.err, unused));

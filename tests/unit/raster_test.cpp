@@ -15,7 +15,8 @@ using candela::Vec3;
 
 namespace {
 
-Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>& corners, bool closed = false) {
+Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>& corners,
+             bool closed = false) {
     Mesh mesh;
     mesh.position.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) mesh.position.span().set(i, vertices[i]);
@@ -25,10 +26,11 @@ Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>
 }
 
 /// What each sample of a picture sees, row by row, sample by sample.
-std::vector<std::uint32_t> visible(const std::vector<const Mesh*>& meshes, const Camera& camera, int samples = 1,
-                                   int tile_size = 64) {
+std::vector<std::uint32_t> visible(const std::vector<const Mesh*>& meshes, const Camera& camera,
+                                   int samples = 1, int tile_size = 64) {
     const candela::ProjectedScene scene = candela::project(meshes, camera, tile_size);
-    std::vector<std::uint32_t> ids(static_cast<std::size_t>(camera.width * camera.height * samples), candela::k_no_triangle);
+    std::vector<std::uint32_t> ids(static_cast<std::size_t>(camera.width * camera.height * samples),
+                                   candela::k_no_triangle);
     candela::TileVisibility tile;
     for (int t = 0; t < scene.tile_count(); ++t) {
         if (!candela::rasterize(scene, t, samples, tile)) continue;
@@ -46,10 +48,13 @@ std::vector<std::uint32_t> visible(const std::vector<const Mesh*>& meshes, const
 
 /// One unit is one pixel: the picture's middle is the origin.
 Camera pixel_camera(int width, int height) {
-    return Camera::looking({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, static_cast<float>(height), width, height);
+    return Camera::looking({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic,
+                           static_cast<float>(height), width, height);
 }
 
-Double3 cross(Double3 a, Double3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Double3 cross(Double3 a, Double3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 
 struct Hit {
     double distance;  // along the view
@@ -74,7 +79,8 @@ std::optional<Hit> cast(Double3 origin, Double3 direction, const std::array<Doub
 }  // namespace
 
 TEST_CASE("triangles that share edges leave no gap and hit no sample twice (top-left rule)") {
-    // A square cut into triangles by random points: its every sample must be seen through exactly one of them.
+    // A square cut into triangles by random points: its every sample must be seen through exactly one of
+    // them.
     Random random(11);
     for (int round = 0; round < 20; ++round) {
         const int cells = 9;
@@ -87,7 +93,8 @@ TEST_CASE("triangles that share edges leave no gap and hit no sample twice (top-
                     const double j = is_border ? 0 : random.number(-1.2, 1.2);
                     return static_cast<float>(round % 2 == 0 ? j : std::round(j * 2) / 2);
                 };
-                vertices.push_back({static_cast<float>(4 * x - 18) + jitter(), static_cast<float>(4 * y - 18) + jitter(), 0});
+                vertices.push_back({static_cast<float>(4 * x - 18) + jitter(),
+                                    static_cast<float>(4 * y - 18) + jitter(), 0});
             }
         }
         std::vector<Mesh> triangles;
@@ -103,7 +110,8 @@ TEST_CASE("triangles that share edges leave no gap and hit no sample twice (top-
             std::vector<int> hits(static_cast<std::size_t>(36 * 36 * samples), 0);
             for (const Mesh& triangle : triangles) {
                 const auto ids = visible({&triangle}, camera, samples);
-                for (std::size_t i = 0; i < ids.size(); ++i) hits[i] += ids[i] == candela::k_no_triangle ? 0 : 1;
+                for (std::size_t i = 0; i < ids.size(); ++i)
+                    hits[i] += ids[i] == candela::k_no_triangle ? 0 : 1;
             }
             CHECK(std::all_of(hits.begin(), hits.end(), [](int n) { return n == 1; }));
         }
@@ -116,9 +124,10 @@ TEST_CASE("what is seen is what a ray meets first, also for triangles that reach
     std::size_t compared = 0, seen = 0;
     for (int round = 0; round < 60; ++round) {
         const bool perspective = round % 3 != 2;
-        const Camera camera = Camera::looking({0, 0, 0}, {0, 0, -1}, {0, 1, 0},
-                                              perspective ? Projection::perspective : Projection::orthographic,
-                                              perspective ? 70.0f : 3.0f, width, height);
+        const Camera camera =
+            Camera::looking({0, 0, 0}, {0, 0, -1}, {0, 1, 0},
+                            perspective ? Projection::perspective : Projection::orthographic,
+                            perspective ? 70.0f : 3.0f, width, height);
         std::vector<Vec3> vertices;
         std::vector<std::uint32_t> corners;
         std::vector<std::array<Double3, 3>> triangles;
@@ -174,8 +183,10 @@ TEST_CASE("what is seen is what a ray meets first, also for triangles that reach
 }
 
 TEST_CASE("a floor that passes under the observer is drawn to the picture's lower edge") {
-    const Mesh floor = mesh_of({{-500, -1, 500}, {500, -1, 500}, {500, -1, -500}, {-500, -1, -500}}, {0, 1, 2, 0, 2, 3});
-    const Camera camera = Camera::looking({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, Projection::perspective, 60, 64, 64);
+    const Mesh floor =
+        mesh_of({{-500, -1, 500}, {500, -1, 500}, {500, -1, -500}, {-500, -1, -500}}, {0, 1, 2, 0, 2, 3});
+    const Camera camera =
+        Camera::looking({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, Projection::perspective, 60, 64, 64);
     const auto ids = visible({&floor}, camera);
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
@@ -192,7 +203,8 @@ TEST_CASE("closed meshes are culled from behind, open ones are seen from both si
     const auto sees = [&](const std::vector<std::uint32_t>& corners, bool closed) {
         const Mesh mesh = mesh_of(vertices, corners, closed);
         const auto ids = visible({&mesh}, camera);
-        return std::any_of(ids.begin(), ids.end(), [](std::uint32_t id) { return id != candela::k_no_triangle; });
+        return std::any_of(ids.begin(), ids.end(),
+                           [](std::uint32_t id) { return id != candela::k_no_triangle; });
     };
     CHECK(sees({0, 1, 2}, true));
     CHECK_FALSE(sees({0, 2, 1}, true));
@@ -204,17 +216,20 @@ TEST_CASE("of equally near triangles, the first is seen") {
     const Mesh first = mesh_of({{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}, {0, 1, 2});
     const Mesh second = mesh_of({{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}, {0, 1, 2});
     const auto ids = visible({&first, &second}, pixel_camera(16, 16));
-    CHECK(std::set<std::uint32_t>(ids.begin(), ids.end()) == std::set<std::uint32_t>{0, candela::k_no_triangle});
+    CHECK(std::set<std::uint32_t>(ids.begin(), ids.end()) ==
+          std::set<std::uint32_t>{0, candela::k_no_triangle});
 }
 
 TEST_CASE("the share of samples that see a half-plane is the share of the pixel that it covers") {
     // A vertical edge at x = 0.25 of the middle pixels.
-    const Mesh half = mesh_of({{0.25f, -50, 0}, {50, -50, 0}, {50, 50, 0}, {0.25f, 50, 0}}, {0, 1, 2, 0, 2, 3});
+    const Mesh half =
+        mesh_of({{0.25f, -50, 0}, {50, -50, 0}, {50, 50, 0}, {0.25f, 50, 0}}, {0, 1, 2, 0, 2, 3});
     for (const int samples : {4, 8, 16}) {
         const auto ids = visible({&half}, pixel_camera(8, 8), samples);
         int seen = 0;
         for (int s = 0; s < samples; ++s) {
-            seen += ids[static_cast<std::size_t>((4 * 8 + 4) * samples + s)] == candela::k_no_triangle ? 0 : 1;
+            seen +=
+                ids[static_cast<std::size_t>((4 * 8 + 4) * samples + s)] == candela::k_no_triangle ? 0 : 1;
         }
         INFO(samples << " samples");
         CHECK(std::abs(static_cast<double>(seen) / samples - 0.75) <= 0.5 / samples + 1e-9);
@@ -240,9 +255,15 @@ TEST_CASE("sample patterns have distinct samples whose columns and rows are all 
 
 TEST_CASE("numbers that overflow on the way to the picture draw nothing, and harm nobody") {
     const float huge = 1e38f;
-    const Mesh mesh = mesh_of({{-huge, -huge, -huge}, {huge, -huge, -huge}, {0, huge, -huge}, {-1, -1, -3}, {1, -1, -3}, {0, 1, -3}},
+    const Mesh mesh = mesh_of({{-huge, -huge, -huge},
+                               {huge, -huge, -huge},
+                               {0, huge, -huge},
+                               {-1, -1, -3},
+                               {1, -1, -3},
+                               {0, 1, -3}},
                               {0, 1, 2, 3, 4, 5});
-    const Camera camera = Camera::looking({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, Projection::perspective, 60, 32, 32);
+    const Camera camera =
+        Camera::looking({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, Projection::perspective, 60, 32, 32);
     const auto ids = visible({&mesh}, camera);
     CHECK(ids[16 * 32 + 16] == 1);
 }
@@ -250,7 +271,8 @@ TEST_CASE("numbers that overflow on the way to the picture draw nothing, and har
 TEST_CASE("a large picture and a small tile see the same as a small picture would") {
     // Beyond 8192 pixels, fixed point has fewer bits: an edge may move by a sixteenth of a pixel, no more.
     const Mesh mesh = mesh_of({{-30, -10, 0}, {30, -10, 0}, {0, 14, 0}}, {0, 1, 2});
-    const candela::ProjectedScene scene = candela::project(std::vector<const Mesh*>{&mesh}, pixel_camera(9000, 32), 64);
+    const candela::ProjectedScene scene =
+        candela::project(std::vector<const Mesh*>{&mesh}, pixel_camera(9000, 32), 64);
     CHECK(scene.subpixel_bits == 4);
     candela::TileVisibility tile;
     std::size_t seen = 0;

@@ -56,7 +56,8 @@ void check_error(const std::string& text, int line, int column, const std::strin
 
 }  // namespace
 
-TEST_CASE("the default scene is one cube, one point light in the centre of the room, Phong and Phong (R12, R14)") {
+TEST_CASE(
+    "the default scene is one cube, one point light in the centre of the room, Phong and Phong (R12, R14)") {
     const Result result = read(candela::SceneRequest{});
     INFO(result.text);
     REQUIRE(result.scene);
@@ -154,15 +155,18 @@ TEST_CASE("an unknown key is an error at its place, with a suggestion") {
 }
 
 TEST_CASE("a wrong type is an error that says what was found and what is expected") {
-    check_error(whole() + "color = \"red\"\n", 15, 9, "'color' is a string, \"red\"; expected three whole numbers 0-255");
+    check_error(whole() + "color = \"red\"\n", 15, 9,
+                "'color' is a string, \"red\"; expected three whole numbers 0-255");
     check_error(whole() + "color = [1, 2.5, 3]\n", 15, 9, "a list whose second value is the number 2.5");
     check_error(whole() + "color = [1, 2]\n", 15, 9, "a list of 2 values");
     check_error(whole() + "size = true\n", 15, 8, "'size' is true; expected a number, greater than 0");
-    check_error(whole() + "position = 3\n", 15, 12, "'position' is the whole number 3; expected three numbers");
+    check_error(whole() + "position = 3\n", 15, 12,
+                "'position' is the whole number 3; expected three numbers");
     check_error(whole() + "type2 = 1979-05-27\n", 15, 1, "unknown key 'type2'");
     check_error(whole() + "size = 1979-05-27\n", 15, 8, "'size' is a date or time");
     check_error(whole() + "material = 3\n", 15, 12, "expected the table [object.material]");
-    check_error(std::string("version = 1\nlight = 3\n") + k_observer + k_models, 2, 1, "expected tables, each headed [[light]]");
+    check_error(std::string("version = 1\nlight = 3\n") + k_observer + k_models, 2, 1,
+                "expected tables, each headed [[light]]");
     check_error("version = 1.0\n" + whole().substr(12), 1, 11, "expected the whole number 1");
 }
 
@@ -186,8 +190,9 @@ TEST_CASE("a value outside its range is an error that names the range") {
 
 TEST_CASE("values just inside their range are accepted") {
     for (const char* const line :
-         {"size = 1e-6\n", "color = [0, 255, 0]\n", "[object.material]\nkd = 1\nks = 0\n", "[object.material]\nkd = [0, 0.5, 0.7]\n",
-          "[object.material]\nshininess = 0\n", "[image]\nsamples = 16\n", "[image]\nwidth = 65536\nheight = 1\n", "scale = [1, 2, 3]\n"}) {
+         {"size = 1e-6\n", "color = [0, 255, 0]\n", "[object.material]\nkd = 1\nks = 0\n",
+          "[object.material]\nkd = [0, 0.5, 0.7]\n", "[object.material]\nshininess = 0\n",
+          "[image]\nsamples = 16\n", "[image]\nwidth = 65536\nheight = 1\n", "scale = [1, 2, 3]\n"}) {
         INFO(line);
         const Result result = read(whole() + line);
         INFO(result.text);
@@ -214,9 +219,12 @@ TEST_CASE("a surface that sends out more light than it receives draws a warning 
 }
 
 TEST_CASE("what must hold between two parameters is checked") {
-    check_error(whole() + "[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\ndirection = [0, -1, 0]\ninner_angle = 30\n", 19, 15,
-                "must not exceed outer_angle");
-    check_error(whole() + "[[object]]\ntype = \"torus\"\nminor_radius = 0.5\n", 17, 16, "must be less than major_radius");
+    check_error(
+        whole() +
+            "[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\ndirection = [0, -1, 0]\ninner_angle = 30\n",
+        19, 15, "must not exceed outer_angle");
+    check_error(whole() + "[[object]]\ntype = \"torus\"\nminor_radius = 0.5\n", 17, 16,
+                "must be less than major_radius");
 }
 
 TEST_CASE("a missing key or table that is required is an error") {
@@ -234,14 +242,16 @@ TEST_CASE("an unknown plugin is an error with a suggestion") {
     check_error(whole() + "[[light]]\ntype = \"points\"\n", 16, 8, "did you mean 'point'?");
     check_error(whole() + "shading = \"fong\"\n", 15, 11, "no shading plugin is called 'fong'");
     check_error(whole() + "reflection = \"lambret\"\n", 15, 14, "did you mean 'lambert'?");
-    check_error(std::string("version = 1\n") + k_observer + "[shading]\nmodel = \"smooth\"\n[reflection]\nmodel = \"phong\"\n" + k_cube,
+    check_error(std::string("version = 1\n") + k_observer +
+                    "[shading]\nmodel = \"smooth\"\n[reflection]\nmodel = \"phong\"\n" + k_cube,
                 6, 9, "no shading plugin is called 'smooth'");
 }
 
 TEST_CASE("observers that see nothing definite are errors") {
     check_error("version = 1\n[observer]\nposition = [1, 1, 1]\nlook_at = [1, 1, 1]\n", 4, 11, "must differ");
     check_error("version = 1\n[observer]\nposition = [0, 3, 0]\nlook_at = [0, 0, 0]\n", 4, 11, "'up'");
-    check_error("version = 1\n[observer]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\nup = [0, 0, 2]\n", 5, 6, "'up'");
+    check_error("version = 1\n[observer]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\nup = [0, 0, 2]\n", 5, 6,
+                "'up'");
     check_error("version = 1\n[observer]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\nup = [0, 0, 0]\n", 5, 6,
                 "cannot be zero");
 }
@@ -250,7 +260,8 @@ TEST_CASE("all problems are reported in one go, sorted by place") {
     const Result result = read(whole() + "size = -1\ncolor = 3\nfoo = 1\n[[light]]\ntype = \"laser\"\n");
     INFO(result.text);
     REQUIRE(result.found.size() == 4);
-    for (std::size_t i = 1; i < result.found.size(); ++i) CHECK(result.found[i - 1].place.line <= result.found[i].place.line);
+    for (std::size_t i = 1; i < result.found.size(); ++i)
+        CHECK(result.found[i - 1].place.line <= result.found[i].place.line);
 }
 
 TEST_CASE("TOML's own errors have a place") {
@@ -262,7 +273,8 @@ TEST_CASE("several files are one scene; what may stand once is reported with bot
     const auto directory = scratch_directory();
     const auto lights = write_file(directory / "lights.toml", k_light);
     const auto objects = write_file(directory / "objects.toml", std::string("version = 1\n") + k_cube);
-    const auto rest = write_file(directory / "rest.toml", std::string("version = 1\n") + k_observer + k_models);
+    const auto rest =
+        write_file(directory / "rest.toml", std::string("version = 1\n") + k_observer + k_models);
     candela::SceneRequest request;
     request.files = {lights, objects, rest};
     const Result result = read(request);
@@ -284,8 +296,8 @@ TEST_CASE("include takes in other files, relative to the one that names them, an
     write_file(directory / "parts" / "lights.toml", k_light);
     write_file(directory / "loop.toml", "include = [\"loop.toml\"]\nversion = 1\n");
     candela::SceneRequest request;
-    request.files = {write_file(directory / "scene.toml", "include = [\"parts/lights.toml\"]\nversion = 1\n" + std::string(k_observer) +
-                                                              k_models + k_cube)};
+    request.files = {write_file(directory / "scene.toml", "include = [\"parts/lights.toml\"]\nversion = 1\n" +
+                                                              std::string(k_observer) + k_models + k_cube)};
     CHECK(read(request).scene->lights.size() == 1);
     request.files = {directory / "loop.toml"};
     CHECK(read(request).text.find("includes itself") != std::string::npos);
@@ -309,9 +321,11 @@ TEST_CASE("files that cannot be read each have their own message (R11)") {
     CHECK(message(directory / "gone.toml").find("no such file") != std::string::npos);
     CHECK(message(directory).find("directory") != std::string::npos);
     CHECK(message(write_file(directory / "empty.toml", "")).find("empty") != std::string::npos);
-    CHECK(message(write_file(directory / "binary.toml", std::string("a\0b", 3))).find("binary") != std::string::npos);
+    CHECK(message(write_file(directory / "binary.toml", std::string("a\0b", 3))).find("binary") !=
+          std::string::npos);
     CHECK(message("/dev/null").find("no ordinary file") != std::string::npos);
-    CHECK(message(write_file(directory / "latin.toml", "version = \"\xe9\"\n")).find("utf-8") != std::string::npos);
+    CHECK(message(write_file(directory / "latin.toml", "version = \"\xe9\"\n")).find("utf-8") !=
+          std::string::npos);
 }
 
 TEST_CASE("settings go before the files, by name and by number") {
@@ -393,8 +407,10 @@ TEST_CASE("a material for another model is an error, unless the model came from 
     REQUIRE(overridden.scene);
     CHECK(overridden.found.empty());
     CHECK(overridden.scene->objects[0].reflection.name == "lambert");
-    CHECK(std::get<Vec3>(overridden.scene->objects[0].reflection.parameters.get("kd")) == Vec3{0.3f, 0.3f, 0.3f});
-    check_error(whole() + "reflection = \"lambert\"\n[object.material]\nshininess = 20\n", 17, 1, "reflection/phong");
+    CHECK(std::get<Vec3>(overridden.scene->objects[0].reflection.parameters.get("kd")) ==
+          Vec3{0.3f, 0.3f, 0.3f});
+    check_error(whole() + "reflection = \"lambert\"\n[object.material]\nshininess = 20\n", 17, 1,
+                "reflection/phong");
     // A key that no model knows is a mistake all the same.
     CHECK_FALSE(read(whole() + "[object.material]\nshinyness = 20\n", request).scene);
 }
@@ -409,7 +425,9 @@ TEST_CASE("a scene without lights or objects is a scene, with a warning") {
 }
 
 TEST_CASE("names of lights and objects are unique, each of their kind") {
-    const Result result = read(whole() + "[[object]]\nname = \"box\"\ntype = \"sphere\"\n[[light]]\nname = \"box\"\ntype = \"ambient\"\n");
+    const Result result = read(
+        whole() +
+        "[[object]]\nname = \"box\"\ntype = \"sphere\"\n[[light]]\nname = \"box\"\ntype = \"ambient\"\n");
     REQUIRE(result.found.size() == 1);
     CHECK(result.found[0].place.line == 16);
     CHECK(result.found[0].message.find("another object is called 'box'") != std::string::npos);

@@ -19,7 +19,8 @@ namespace {
 class TemporaryFile {
   public:
     explicit TemporaryFile(const std::string& extension) {
-        std::string pattern = (std::filesystem::temp_directory_path() / "candela-XXXXXX").string() + '.' + extension;
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "candela-XXXXXX").string() + '.' + extension;
         const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(extension.size() + 1));
         if (descriptor < 0) throw std::runtime_error("no temporary file can be made: " + pattern);
         ::close(descriptor);
@@ -44,12 +45,14 @@ void send_file(const std::string& path, candela::ByteSink& sink) {
     if (!in.eof()) throw std::runtime_error("the temporary file cannot be read back: " + path);
 }
 
-/// All the formats that OpenImageIO writes. Some of its writers insist on a file of their own, so the bytes take a detour.
+/// All the formats that OpenImageIO writes. Some of its writers insist on a file of their own, so the bytes
+/// take a detour.
 class OpenImageIo final : public candela::ImageFormat {
   public:
     explicit OpenImageIo(const NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char* extension, candela::ByteSink& sink) const override {
+    void write(const candela::PictureView& picture, const char* extension,
+               candela::ByteSink& sink) const override {
         const bool is_float = picture.pixels == candela::PixelType::real;
         const TemporaryFile file(extension);
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file.path());
@@ -94,9 +97,11 @@ constexpr candela::Property k_properties[] = {{"fallback"}};
 
 }  // namespace
 
-CANDELA_PLUGIN(image, OpenImageIo, k_no_fields,
-               {.title = "OpenImageIO",
-                .summary = "Every other format: OpenEXR, TIFF, JPEG, Radiance and more. Yields to plugins made for one format.",
-                .reference = "Gritz and contributors (2008-), OpenImageIO",
-                .properties = k_properties,
-                .formats = k_formats})
+CANDELA_PLUGIN(
+    image, OpenImageIo, k_no_fields,
+    {.title = "OpenImageIO",
+     .summary =
+         "Every other format: OpenEXR, TIFF, JPEG, Radiance and more. Yields to plugins made for one format.",
+     .reference = "Gritz and contributors (2008-), OpenImageIO",
+     .properties = k_properties,
+     .formats = k_formats})

@@ -20,7 +20,8 @@ class Png final : public candela::ImageFormat {
     explicit Png(const PngOptions& options) : options_(options) {}
 
     void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
-        const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
+        const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER),
+                                                                     spng_ctx_free);
         if (context == nullptr) throw std::bad_alloc();
         Stream stream{sink, nullptr};
         const auto check = [&](int result) {
@@ -65,8 +66,8 @@ class Png final : public candela::ImageFormat {
     PngOptions options_;
 };
 
-constexpr auto k_fields =
-    fields(integer(&PngOptions::compression, "compression", 1, "from 0, none, to 9, smallest file").range(0, 9));
+constexpr auto k_fields = fields(
+    integer(&PngOptions::compression, "compression", 1, "from 0, none, to 9, smallest file").range(0, 9));
 
 constexpr candela::FileFormat k_formats[] = {{"png", "Portable Network Graphics, 8 bits a channel"}};
 

@@ -15,7 +15,8 @@ class Pnm final : public candela::ImageFormat {
   public:
     explicit Pnm(const NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char* extension, candela::ByteSink& sink) const override {
+    void write(const candela::PictureView& picture, const char* extension,
+               candela::ByteSink& sink) const override {
         const std::string size = std::to_string(picture.width) + ' ' + std::to_string(picture.height) + '\n';
         if (std::string_view(extension) == "ppm") {
             put(sink, "P6\n" + size + "255\n");
@@ -31,7 +32,9 @@ class Pnm final : public candela::ImageFormat {
     }
 
   private:
-    static void put(candela::ByteSink& sink, const std::string& text) { sink.write(std::as_bytes(std::span(text))); }
+    static void put(candela::ByteSink& sink, const std::string& text) {
+        sink.write(std::as_bytes(std::span(text)));
+    }
 };
 
 constexpr candela::FileFormat k_formats[] = {{"ppm", "Portable pixmap, 8 bits a channel, not compressed"},
@@ -39,8 +42,9 @@ constexpr candela::FileFormat k_formats[] = {{"ppm", "Portable pixmap, 8 bits a 
 
 }  // namespace
 
-CANDELA_PLUGIN(image, Pnm, k_no_fields,
-               {.title = "PPM and PFM",
-                .summary = "Uncompressed pictures, 8-bit and float, that every tool reads and a dozen lines write.",
-                .reference = "Poskanzer (1988), PPM; Debevec (2001), PFM",
-                .formats = k_formats})
+CANDELA_PLUGIN(
+    image, Pnm, k_no_fields,
+    {.title = "PPM and PFM",
+     .summary = "Uncompressed pictures, 8-bit and float, that every tool reads and a dozen lines write.",
+     .reference = "Poskanzer (1988), PPM; Debevec (2001), PFM",
+     .formats = k_formats})

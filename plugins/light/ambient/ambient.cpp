@@ -14,8 +14,9 @@ constexpr auto k_fields = fields(light_color(&AmbientLight::color),
 
 }  // namespace
 
-CANDELA_AMBIENT_LIGHT_PLUGIN(ambient, AmbientLight, k_fields,
-                             {.title = "Ambient light",
-                              .summary = "Light from everywhere: it stands for all that other surfaces pass on.",
-                              .formula = "I_ambient = color intensity",
-                              .reference = "Shreiner, Angel (2012), Interactive computer graphics, 6th edition"})
+CANDELA_AMBIENT_LIGHT_PLUGIN(
+    ambient, AmbientLight, k_fields,
+    {.title = "Ambient light",
+     .summary = "Light from everywhere: it stands for all that other surfaces pass on.",
+     .formula = "I_ambient = color intensity",
+     .reference = "Shreiner, Angel (2012), Interactive computer graphics, 6th edition"})

@@ -21,7 +21,8 @@ TEST_CASE("light/ambient is colour times intensity everywhere, and comes from no
 }
 
 TEST_CASE("a light's colour is decoded from sRGB where colours are managed (IEC 61966-2-1)") {
-    const auto light = instance<Light>("ambient", {{"color", Vec3{188, 128, 10}}}, candela::ColorEncoding::srgb);
+    const auto light =
+        instance<Light>("ambient", {{"color", Vec3{188, 128, 10}}}, candela::ColorEncoding::srgb);
     // 188/255 decodes to 0.5029, 128/255 to 0.2159, 10/255 to 0.003035.
     CHECK(agree(illuminate_ambient(*light, {Vec3{}})[0], Double3{0.5029, 0.2159, 0.003035}, 1e-3));
 }

@@ -38,7 +38,8 @@ TEST_CASE("light/point fades with 1/r^2 (DD7), 1/(r + k) (RE) or not at all") {
 
 TEST_CASE("light/point stays finite where a surface goes through it") {
     for (const char* const law : {"inverse-square", "offset-linear", "none"}) {
-        const auto light = instance<Light>("point", {{"position", Vec3{1, 1, 1}}, {"attenuation", std::string(law)}});
+        const auto light =
+            instance<Light>("point", {{"position", Vec3{1, 1, 1}}, {"attenuation", std::string(law)}});
         for (const float distance : {0.0f, 1e-30f, 1e-20f, 1e-7f}) {
             INFO(law << " at " << distance);
             const auto incident = illuminate(*light, {Vec3{1 + distance, 1, 1}}, {0, 0, 1})[0];

@@ -43,10 +43,12 @@ TEST_CASE("light/spot is a point light times smoothstep, or linear, between the 
     check_falloff("linear", [](double t) { return t; });
 }
 
-TEST_CASE("light/spot gives full light within the inner cone, none beyond the outer, and a hard edge where they are one") {
-    const auto soft = instance<Light>("spot", {{"position", Vec3{0, 4, 0}},
-                                               {"direction", Vec3{0, -1, 0}},
-                                               {"attenuation", std::string("none")}});
+TEST_CASE(
+    "light/spot gives full light within the inner cone, none beyond the outer, and a hard edge where they "
+    "are one") {
+    const auto soft = instance<Light>(
+        "spot",
+        {{"position", Vec3{0, 4, 0}}, {"direction", Vec3{0, -1, 0}}, {"attenuation", std::string("none")}});
     CHECK(agree(intensity_at(*soft, 14.9), 1, 1e-5));
     CHECK(intensity_at(*soft, 25.1) == 0);
     CHECK(intensity_at(*soft, 20) > 0.05f);

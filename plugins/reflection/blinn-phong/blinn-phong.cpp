@@ -9,8 +9,9 @@ using namespace candela::sdk;
 
 namespace {
 
-constexpr auto k_fields = fields(ambient_coefficient(&BlinnPhongMaterial::ka), diffuse_coefficient(&BlinnPhongMaterial::kd),
-                                 specular_coefficient(&BlinnPhongMaterial::ks), shininess(&BlinnPhongMaterial::shininess));
+constexpr auto k_fields =
+    fields(ambient_coefficient(&BlinnPhongMaterial::ka), diffuse_coefficient(&BlinnPhongMaterial::kd),
+           specular_coefficient(&BlinnPhongMaterial::ks), shininess(&BlinnPhongMaterial::shininess));
 
 constexpr candela::Property k_properties[] = {{"isotropic"}};
 
@@ -19,11 +20,13 @@ constexpr candela::Property k_properties[] = {{"isotropic"}};
 CANDELA_REFLECTION_PLUGIN(
     blinn_phong, BlinnPhongMaterial, k_fields,
     {.title = "Blinn-Phong",
-     .summary = "Matt surface with a highlight where the normal comes near the half vector of light and observer.",
+     .summary =
+         "Matt surface with a highlight where the normal comes near the half vector of light and observer.",
      .formula = "H = (L + V) / |L + V|\n"
                 "I_a = ka C_o I_ambient\n"
                 "I_d = kd C_o I_L max(N.L, 0)\n"
                 "I_s = ks I_L max(N.H, 0)^shininess  where N.L > 0, else 0",
-     .reference = "Blinn (1977), Models of light reflection for computer synthesized pictures, SIGGRAPH, 192-198",
+     .reference =
+         "Blinn (1977), Models of light reflection for computer synthesized pictures, SIGGRAPH, 192-198",
      .relations = k_diffuse_and_specular,
      .properties = k_properties})

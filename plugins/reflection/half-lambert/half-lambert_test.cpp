@@ -20,6 +20,7 @@ TEST_CASE("reflection/half-lambert is k_d C_o (N.L / 2 + 1/2)^n on both sides of
 
 TEST_CASE("reflection/half-lambert uses the published exponent 2 unless told otherwise") {
     const auto model = instance<ReflectionModel>("half-lambert", {{"kd", 1.0}});
-    const auto reflected = reflect(*model, {{{0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}, {1, 1, 1}}}, {1, 1, 1});
+    const auto reflected =
+        reflect(*model, {{{0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 1}, {1, 1, 1}}}, {1, 1, 1});
     CHECK(agree(reflected[0].diffuse.x, 0.25, 1e-6));
 }

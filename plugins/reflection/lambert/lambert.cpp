@@ -9,15 +9,17 @@ using namespace candela::sdk;
 
 namespace {
 
-constexpr auto k_fields = fields(ambient_coefficient(&LambertMaterial::ka), diffuse_coefficient(&LambertMaterial::kd));
+constexpr auto k_fields =
+    fields(ambient_coefficient(&LambertMaterial::ka), diffuse_coefficient(&LambertMaterial::kd));
 
 constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}, {"isotropic"}};
 
 }  // namespace
 
-CANDELA_REFLECTION_PLUGIN(lambert, LambertMaterial, k_fields,
-                          {.title = "Lambert",
-                           .summary = "A matt surface: bright where it faces the light, equally bright from everywhere.",
-                           .formula = "I_a = ka C_o I_ambient\nI_d = kd C_o I_L max(N.L, 0)",
-                           .reference = "Lambert (1760), Photometria",
-                           .properties = k_properties})
+CANDELA_REFLECTION_PLUGIN(
+    lambert, LambertMaterial, k_fields,
+    {.title = "Lambert",
+     .summary = "A matt surface: bright where it faces the light, equally bright from everywhere.",
+     .formula = "I_a = ka C_o I_ambient\nI_d = kd C_o I_L max(N.L, 0)",
+     .reference = "Lambert (1760), Photometria",
+     .properties = k_properties})

@@ -9,8 +9,9 @@ using namespace candela::sdk;
 
 namespace {
 
-constexpr auto k_fields = fields(ambient_coefficient(&PhongMaterial::ka), diffuse_coefficient(&PhongMaterial::kd),
-                                 specular_coefficient(&PhongMaterial::ks), shininess(&PhongMaterial::shininess));
+constexpr auto k_fields =
+    fields(ambient_coefficient(&PhongMaterial::ka), diffuse_coefficient(&PhongMaterial::kd),
+           specular_coefficient(&PhongMaterial::ks), shininess(&PhongMaterial::shininess));
 
 constexpr candela::Property k_properties[] = {{"isotropic"}};
 

@@ -30,7 +30,8 @@ float highlight(const ReflectionModel& model, Double3 n, Double3 v, Double3 l) {
 TEST_CASE("reflection/phong is IM3: k_s I_L max(R.V, 0)^alpha where N.L > 0, and Lambert's diffuse light") {
     for (const double shininess : {0.0, 1.0, 10.0, 32.0, 150.0}) {
         INFO("shininess " << shininess);
-        const auto model = instance<ReflectionModel>("phong", {{"kd", 0.6}, {"ks", 0.4}, {"shininess", shininess}});
+        const auto model =
+            instance<ReflectionModel>("phong", {{"kd", 0.6}, {"ks", 0.4}, {"shininess", shininess}});
         check_reflection(
             *model,
             [&](Double3 n, Double3 v, Double3 l, Double3 color) -> ExactPair {
@@ -55,7 +56,8 @@ TEST_CASE("RE example 2: cos theta is 0.7071 and cos alpha 0.8575 at the corner 
     // Light (-10, 10, 0), observer (20, 5, 0), point (0, 0, 0), N (0, 1, 0).
     CHECK(agree(highlight(*cosine_of_alpha(), {0, 1, 0}, {20, 5, 0}, {-10, 10, 0}), 0.8575, 0, 5e-5));
     const auto diffuse = instance<ReflectionModel>("phong", {{"kd", 1.0}, {"ks", 0.0}});
-    const ReflectionSample sample{{0, 1, 0}, direction({20, 5, 0}), direction({-10, 10, 0}), {1, 1, 1}, {1, 1, 1}};
+    const ReflectionSample sample{
+        {0, 1, 0}, direction({20, 5, 0}), direction({-10, 10, 0}), {1, 1, 1}, {1, 1, 1}};
     CHECK(agree(reflect(*diffuse, {sample}, {1, 1, 1})[0].diffuse.x, 0.7071, 0, 5e-5));
 }
 
@@ -73,7 +75,8 @@ TEST_CASE("RE example 3, corrected: the red intensity at V1 is 0.4353 where R.V 
     CHECK(agree(incident.to_light, Double3{-0.4962, 0.8683, 0}, 0, k_decimals));
     const Vec3 n = direction({1, 2, -2});
     CHECK(agree(dot(n, incident.to_light), 0.4135, 0, k_decimals));
-    CHECK(agree(highlight(*cosine_of_alpha(), exact(n), {0, 0, -1}, exact(incident.to_light)), 0.5514, 0, k_decimals));
+    CHECK(agree(highlight(*cosine_of_alpha(), exact(n), {0, 0, -1}, exact(incident.to_light)), 0.5514, 0,
+                k_decimals));
 
     // -0.5514 is R.V for an observer on the side of +z: an even power must not make that a highlight.
     const ReflectionSample from_behind{n, {0, 0, 1}, incident.to_light, incident.diffuse, incident.specular};

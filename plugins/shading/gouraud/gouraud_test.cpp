@@ -12,7 +12,8 @@ TEST_CASE("shading/gouraud lights vertices") {
 }
 
 TEST_CASE("vertex normals are the normalised sum of the normals of the faces that share the vertex (DD9)") {
-    // Three faces of a cube's corner: x, y and z, each a triangle, meet in vertex 0; the others have a face or two.
+    // Three faces of a cube's corner: x, y and z, each a triangle, meet in vertex 0; the others have a face
+    // or two.
     const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const std::vector<std::uint32_t> corners = {0, 1, 2, 0, 2, 3, 0, 3, 1};
     const std::vector<Vec3> face_normals = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
@@ -24,7 +25,8 @@ TEST_CASE("vertex normals are the normalised sum of the normals of the faces tha
     for (std::size_t i = 0; i < 3; ++i) face.span().set(i, face_normals[i]);
     const std::vector<std::uint32_t> group = {0, 1, 2, 3};
     for (const char* const name : {"flat", "gouraud", "phong"}) {
-        instance<ShadingModel>(name)->vertex_normals({position.span(), corners, face.span(), group, 4, 4, {}}, normal.span());
+        instance<ShadingModel>(name)->vertex_normals({position.span(), corners, face.span(), group, 4, 4, {}},
+                                                     normal.span());
         const float third = 1 / std::sqrt(3.0f);
         const float half = 1 / std::sqrt(2.0f);
         CHECK(agree(normal.span()[0], Vec3{third, third, third}, 1e-6));
@@ -43,7 +45,8 @@ TEST_CASE("vertices of one smooth group share one normal, those of different gro
     face.span().set(0, {1, 0, 0});
     face.span().set(1, {0, 1, 0});
     const std::vector<std::uint32_t> group = {0, 1, 2, 0, 4, 5};
-    instance<ShadingModel>("gouraud")->vertex_normals({position.span(), corners, face.span(), group, 6, 6, {}}, normal.span());
+    instance<ShadingModel>("gouraud")->vertex_normals(
+        {position.span(), corners, face.span(), group, 6, 6, {}}, normal.span());
     const float half = 1 / std::sqrt(2.0f);
     CHECK(agree(normal.span()[0], Vec3{half, half, 0}, 1e-6));
     CHECK(agree(normal.span()[1], Vec3{1, 0, 0}, 1e-6));

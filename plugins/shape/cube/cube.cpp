@@ -8,7 +8,8 @@ struct CubeShape {
     float size;
 };
 
-/// A cube about the origin. Each face has four vertices of its own, so that every shading model keeps the edges sharp.
+/// A cube about the origin. Each face has four vertices of its own, so that every shading model keeps the
+/// edges sharp.
 class Cube final : public candela::Shape {
   public:
     explicit Cube(const CubeShape& shape) : shape_(shape) {}
@@ -31,7 +32,8 @@ class Cube final : public candela::Shape {
             for (const std::uint32_t c : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.corners[corner++] = vertex + c;
             for (const auto& [u, v] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}}) {
                 const float half = 0.5f * shape_.size;
-                mesh.position.set(vertex, half * (face.outwards + (2 * u - 1) * face.right + (2 * v - 1) * face.up));
+                mesh.position.set(vertex,
+                                  half * (face.outwards + (2 * u - 1) * face.right + (2 * v - 1) * face.up));
                 mesh.uv.x[vertex] = u;
                 mesh.uv.y[vertex] = v;
                 mesh.dpdu.set(vertex, shape_.size * face.right);
@@ -52,4 +54,6 @@ constexpr candela::Property k_properties[] = {{"closed"}, {"euler-characteristic
 }  // namespace
 
 CANDELA_PLUGIN(shape, Cube, k_fields,
-               {.title = "Cube", .summary = "A cube about the object's position.", .properties = k_properties})
+               {.title = "Cube",
+                .summary = "A cube about the object's position.",
+                .properties = k_properties})

@@ -22,23 +22,23 @@ struct MeshShape {
 
 std::string lower_extension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension;
 }
 
 /// The triangles of a file, its parts put together and its node transformations applied.
 class FileMesh final : public candela::Shape {
   public:
-    explicit FileMesh(const MeshShape& shape) : file_(shape.file) {}
+    explicit FileMesh(const MeshShape& shape) : file_(shape.file != nullptr ? shape.file : "") {}
 
     void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
         Assimp::Importer importer;
         // Points and lines have no surface.
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         const aiScene* const scene =
-            importer.ReadFile(file_, aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType |
-                                         aiProcess_PreTransformVertices);
+            importer.ReadFile(file_, aiProcess_ValidateDataStructure | aiProcess_Triangulate |
+                                         aiProcess_SortByPType | aiProcess_PreTransformVertices);
         if (scene == nullptr) throw std::runtime_error("'" + file_ + "': " + importer.GetErrorString());
         const std::span<aiMesh* const> parts(scene->mMeshes, scene->mNumMeshes);
 
@@ -60,11 +60,13 @@ class FileMesh final : public candela::Shape {
         for (const aiMesh* part : parts) {
             const auto first = static_cast<std::uint32_t>(vertex);
             for (const aiFace& face : std::span(part->mFaces, part->mNumFaces)) {
-                if (face.mNumIndices != 3) throw std::runtime_error("'" + file_ + "' has a face that is no triangle");
+                if (face.mNumIndices != 3)
+                    throw std::runtime_error("'" + file_ + "' has a face that is no triangle");
                 for (const unsigned index : std::span(face.mIndices, 3)) {
                     if (index >= part->mNumVertices) {
                         throw std::runtime_error("'" + file_ + "' has a face whose corner is vertex " +
-                                                 std::to_string(index) + " of " + std::to_string(part->mNumVertices));
+                                                 std::to_string(index) + " of " +
+                                                 std::to_string(part->mNumVertices));
                     }
                     mesh.corners[corner++] = first + index;
                 }
@@ -92,8 +94,10 @@ constexpr auto k_fields =
 
 }  // namespace
 
-CANDELA_PLUGIN(shape, FileMesh, k_fields,
-               {.title = "Mesh from a file",
-                .summary = "Triangles from OBJ, PLY, STL, glTF and GLB files. Normals are the file's; where it has none, the "
-                           "shading model makes them, smooth where corners touch.",
-                .reference = "The Open Asset Import Library, assimp"})
+CANDELA_PLUGIN(
+    shape, FileMesh, k_fields,
+    {.title = "Mesh from a file",
+     .summary =
+         "Triangles from OBJ, PLY, STL, glTF and GLB files. Normals are the file's; where it has none, the "
+         "shading model makes them, smooth where corners touch.",
+     .reference = "The Open Asset Import Library, assimp"})

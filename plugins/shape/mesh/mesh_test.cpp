@@ -15,7 +15,8 @@ using candela::Vec3;
 namespace {
 
 Mesh mesh_of(const std::filesystem::path& file, const char* shading = "phong") {
-    return candela::build_mesh(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {}, *instance<candela::ShadingModel>(shading));
+    return candela::build_mesh(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {},
+                               *instance<candela::ShadingModel>(shading));
 }
 
 /// A sphere as careless exporters write it: every triangle with three vertices of its own, and no normals.
@@ -27,7 +28,8 @@ std::string soup_of_a_sphere() {
         const Vec3 p = mesh.position.span()[corner];
         text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
     }
-    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
+    for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+        text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
     return text;
 }
 
@@ -40,15 +42,17 @@ TEST_CASE("shape/mesh: duplicated vertices without normals come out smooth, and 
     CHECK(mesh.closed);
     double worst = 1;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        worst = std::min(worst, dot(exact(mesh.vertex_normal.span()[i]), unit(exact(mesh.position.span()[i]))));
+        worst =
+            std::min(worst, dot(exact(mesh.vertex_normal.span()[i]), unit(exact(mesh.position.span()[i]))));
     }
     // A facet's own normal is off by up to 1 - cos(3.75 degrees * sqrt 2) = 0.004 at its corners.
     CHECK(worst > 0.9995);
 }
 
 TEST_CASE("shape/mesh: normals from the file go before those of the shading model") {
-    const Mesh mesh = mesh_of(write_file(scratch_directory() / "n.obj", std::string(k_triangle) +
-                                                                            "vn 1 0 0\nvn 0 1 0\nvn 0 0 2\nf 1//1 2//2 3//3\n"));
+    const Mesh mesh =
+        mesh_of(write_file(scratch_directory() / "n.obj",
+                           std::string(k_triangle) + "vn 1 0 0\nvn 0 1 0\nvn 0 0 2\nf 1//1 2//2 3//3\n"));
     CHECK(mesh.triangle_count() == 1);
     CHECK(agree(mesh.vertex_normal.span()[mesh.corners[0]], Vec3{1, 0, 0}, 1e-6));
     CHECK(agree(mesh.vertex_normal.span()[mesh.corners[1]], Vec3{0, 1, 0}, 1e-6));
@@ -57,22 +61,25 @@ TEST_CASE("shape/mesh: normals from the file go before those of the shading mode
 }
 
 TEST_CASE("shape/mesh: polygons are cut into triangles") {
-    const Mesh mesh = mesh_of(write_file(scratch_directory() / "quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));
+    const Mesh mesh = mesh_of(
+        write_file(scratch_directory() / "quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));
     CHECK(mesh.triangle_count() == 2);
 }
 
 TEST_CASE("shape/mesh reads PLY, STL and glTF") {
     const auto directory = scratch_directory();
-    const auto ply = write_file(directory / "a.ply",
-                                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                                "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    const auto ply = write_file(
+        directory / "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
     const auto stl = write_file(directory / "a.stl",
-                                "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-                                "facet normal 1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid a\n");
+                                "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex "
+                                "0 1 0\nendloop\nendfacet\n"
+                                "facet normal 1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 "
+                                "1\nendloop\nendfacet\nendsolid a\n");
     // Three float positions, three 16-bit indices; a node that moves them by (0, 0, 5).
-    const auto gltf = write_file(
-        directory / "a.gltf",
-        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    const auto gltf = write_file(directory / "a.gltf",
+                                 R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
             "nodes": [{"mesh": 0, "translation": [0, 0, 5]}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
@@ -97,10 +104,12 @@ TEST_CASE("a teapot that lost its normals and its shared vertices looks like the
         const Vec3 p = original.position.span()[corner];
         text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
     }
-    for (std::size_t i = 0; i < original.corners.size(); i += 3) text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
+    for (std::size_t i = 0; i < original.corners.size(); i += 3)
+        text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
     const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", text));
     REQUIRE(read.triangle_count() == original.triangle_count());
     for (std::size_t corner = 0; corner < read.corners.size(); ++corner) {
-        REQUIRE(agree(read.vertex_normal.span()[read.corners[corner]], original.vertex_normal.span()[original.corners[corner]], 1e-4, 1e-4));
+        REQUIRE(agree(read.vertex_normal.span()[read.corners[corner]],
+                      original.vertex_normal.span()[original.corners[corner]], 1e-4, 1e-4));
     }
 }

@@ -16,8 +16,9 @@ class Sphere final : public candela::Shape {
     void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
         const auto around = static_cast<std::size_t>(shape_.segments);
         tessellate_surface<SphereShape, candela::kernel::sphere_position, candela::kernel::sphere_dpdu,
-                           candela::kernel::sphere_dpdv>(shape_, {.u_is_periodic = true, .v_ends_in_poles = true}, around,
-                                                         std::max<std::size_t>(around / 2, 2), sink);
+                           candela::kernel::sphere_dpdv>(shape_,
+                                                         {.u_is_periodic = true, .v_ends_in_poles = true},
+                                                         around, std::max<std::size_t>(around / 2, 2), sink);
     }
 
   private:

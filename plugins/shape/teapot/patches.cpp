@@ -6,8 +6,8 @@ namespace {
 
 using candela::Vec3;
 
-/// A ring of a surface of revolution: radius and height, and where the inner control points of a quarter turn stand
-/// (0.56 of the radius, Newell's circle; the knob has a rounder one).
+/// A ring of a surface of revolution: radius and height, and where the inner control points of a quarter turn
+/// stand (0.56 of the radius, Newell's circle; the knob has a rounder one).
 struct Ring {
     float radius;
     float height;
@@ -16,12 +16,12 @@ struct Ring {
 using Profile = std::array<Ring, 4>;
 
 constexpr std::array<Profile, 6> k_profiles = {{
-    {{{0, 3.15f}, {0.8f, 3.15f, 0.45f}, {0, 2.85f}, {0.2f, 2.7f}}},                // knob
-    {{{0.2f, 2.7f}, {0.4f, 2.55f}, {1.3f, 2.55f}, {1.3f, 2.4f}}},                  // lid
-    {{{1.4f, 2.4f}, {1.3375f, 2.53125f}, {1.4375f, 2.53125f}, {1.5f, 2.4f}}},      // rim
-    {{{1.5f, 2.4f}, {1.75f, 1.875f}, {2, 1.35f}, {2, 0.9f}}},                      // upper body
-    {{{2, 0.9f}, {2, 0.45f}, {1.5f, 0.225f}, {1.5f, 0.15f}}},                      // lower body
-    {{{1.5f, 0.15f}, {1.5f, 0.075f}, {1.425f, 0}, {0, 0}}},                        // bottom
+    {{{0, 3.15f}, {0.8f, 3.15f, 0.45f}, {0, 2.85f}, {0.2f, 2.7f}}},            // knob
+    {{{0.2f, 2.7f}, {0.4f, 2.55f}, {1.3f, 2.55f}, {1.3f, 2.4f}}},              // lid
+    {{{1.4f, 2.4f}, {1.3375f, 2.53125f}, {1.4375f, 2.53125f}, {1.5f, 2.4f}}},  // rim
+    {{{1.5f, 2.4f}, {1.75f, 1.875f}, {2, 1.35f}, {2, 0.9f}}},                  // upper body
+    {{{2, 0.9f}, {2, 0.45f}, {1.5f, 0.225f}, {1.5f, 0.15f}}},                  // lower body
+    {{{1.5f, 0.15f}, {1.5f, 0.075f}, {1.425f, 0}, {0, 0}}},                    // bottom
 }};
 
 /// One half of a handle or spout, z >= 0: x, y (up) and z of the original's control net.
@@ -51,7 +51,8 @@ Patch quarter_turn(const Profile& profile) {
     Patch patch;
     for (std::size_t row = 0; row < 4; ++row) {
         const auto [radius, height, inner] = profile[row];
-        patch[row] = {{{radius, height, 0}, {radius, height, inner}, {inner, height, radius}, {0, height, radius}}};
+        patch[row] = {
+            {{radius, height, 0}, {radius, height, inner}, {inner, height, radius}, {0, height, radius}}};
     }
     return patch;
 }

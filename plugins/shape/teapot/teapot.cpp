@@ -1,3 +1,10 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "candela/shape_plugin.h"
 #include "patches.h"
 
@@ -14,7 +21,8 @@ struct TeapotShape {
 
 using Weights = std::array<float, 4>;
 
-/// Cubic Bernstein polynomials; at the ends exactly 0 and 1, so that patches that share a boundary meet exactly.
+/// Cubic Bernstein polynomials; at the ends exactly 0 and 1, so that patches that share a boundary meet
+/// exactly.
 Weights bernstein(float t) {
     const float s = 1 - t;
     return {s * s * s, 3 * t * s * s, 3 * t * t * s, t * t * t};
@@ -34,7 +42,8 @@ Vec3 combine(const Points& points, const Weights& weights) {
 
 /// The patch's point or derivative, as the weights say.
 Vec3 blend(const teapot::Patch& patch, const Weights& u, const Weights& v) {
-    return combine({combine(patch[0], u), combine(patch[1], u), combine(patch[2], u), combine(patch[3], u)}, v);
+    return combine({combine(patch[0], u), combine(patch[1], u), combine(patch[2], u), combine(patch[3], u)},
+                   v);
 }
 
 /// The patch's point; where a row of control points is one point, exactly that.
@@ -56,7 +65,8 @@ class Teapot final : public candela::Shape {
         const std::size_t width = n + 1;
         const float scale = shape_.size / teapot::k_height;
 
-        // Where a patch ends in a point, one of two triangles has no area; which, is known once the vertices are.
+        // Where a patch ends in a point, one of two triangles has no area; which, is known once the vertices
+        // are.
         std::vector<Vec3> position;
         for (const teapot::Patch& patch : patches) {
             for (std::size_t i = 0; i < width * width; ++i) {
@@ -67,14 +77,17 @@ class Teapot final : public candela::Shape {
         }
         std::vector<std::uint32_t> corners;
         const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
-            if (position[a] == position[b] || position[b] == position[c] || position[c] == position[a]) return;
+            if (position[a] == position[b] || position[b] == position[c] || position[c] == position[a])
+                return;
             for (const std::size_t vertex : {a, b, c}) corners.push_back(static_cast<std::uint32_t>(vertex));
         };
         for (std::size_t p = 0; p < patches.size(); ++p) {
-            for (std::size_t cell = 0; cell < n * n; ++cell) {
-                const std::size_t a = p * width * width + cell / n * width + cell % n;
-                triangle(a, a + 1, a + 1 + width);
-                triangle(a, a + 1 + width, a + width);
+            for (std::size_t row = 0; row < n; ++row) {
+                for (std::size_t column = 0; column < n; ++column) {
+                    const std::size_t a = (p * width + row) * width + column;
+                    triangle(a, a + 1, a + 1 + width);
+                    triangle(a, a + 1 + width, a + width);
+                }
             }
         }
 
@@ -84,15 +97,17 @@ class Teapot final : public candela::Shape {
                                                        .has_derivatives = true,
                                                        .has_smooth_groups = true,
                                                        .closedness = candela::Closedness::open});
-        std::copy(corners.begin(), corners.end(), mesh.corners.begin());
-        for (std::size_t i = 0; i < position.size(); ++i) {
-            const teapot::Patch& patch = patches[i / (width * width)];
-            const auto [u, v] = parameters(i % (width * width));
-            mesh.position.set(i, position[i]);
-            mesh.uv.x[i] = u;
-            mesh.uv.y[i] = v;
-            mesh.dpdu.set(i, scale * blend(patch, bernstein_derivative(u), bernstein(v)));
-            mesh.dpdv.set(i, scale * blend(patch, bernstein(u), bernstein_derivative(v)));
+        std::ranges::copy(corners, mesh.corners.begin());
+        std::size_t i = 0;
+        for (const teapot::Patch& patch : patches) {
+            for (std::size_t vertex = 0; vertex < width * width; ++vertex, ++i) {
+                const auto [u, v] = parameters(vertex);
+                mesh.position.set(i, position[i]);
+                mesh.uv.x[i] = u;
+                mesh.uv.y[i] = v;
+                mesh.dpdu.set(i, scale * blend(patch, bernstein_derivative(u), bernstein(v)));
+                mesh.dpdv.set(i, scale * blend(patch, bernstein(u), bernstein_derivative(v)));
+            }
         }
         // One normal a place: smooth across the seams of the patches.
         weld_by_position(mesh.position, position.size(), mesh.smooth_group);
@@ -101,9 +116,11 @@ class Teapot final : public candela::Shape {
   private:
     /// u and v of a patch's vertex.
     std::pair<float, float> parameters(std::size_t vertex) const {
-        const auto n = static_cast<std::size_t>(shape_.segments);
-        return {static_cast<float>(vertex % (n + 1)) / static_cast<float>(n),
-                static_cast<float>(vertex / (n + 1)) / static_cast<float>(n)};
+        const std::size_t width = static_cast<std::size_t>(shape_.segments) + 1;
+        const std::size_t row = vertex / width;
+        const std::size_t column = vertex % width;
+        const auto last = static_cast<float>(shape_.segments);
+        return {static_cast<float>(column) / last, static_cast<float>(row) / last};
     }
 
     TeapotShape shape_;
@@ -111,16 +128,18 @@ class Teapot final : public candela::Shape {
 
 constexpr auto k_fields =
     fields(real(&TeapotShape::size, "size", 1, "height, from the bottom to the knob").above(0).unit("m"),
-           integer(&TeapotShape::segments, "segments", 10, "faces along each edge of the 32 patches").range(1, 1024));
+           integer(&TeapotShape::segments, "segments", 10, "faces along each edge of the 32 patches")
+               .range(1, 1024));
 
 constexpr candela::Property k_properties[] = {{"open"}};
 
 }  // namespace
 
-CANDELA_PLUGIN(shape, Teapot, k_fields,
-               {.title = "Teapot",
-                .summary = "Newell's teapot, centred on its axis at half its height, spout along +x; not closed.",
-                .formula = "p(u, v) = sum B_i(u) B_j(v) P_ij  over 32 bicubic Bezier patches",
-                .reference = "Newell (1975), The utilization of procedure models in digital image synthesis, "
-                             "University of Utah",
-                .properties = k_properties})
+CANDELA_PLUGIN(
+    shape, Teapot, k_fields,
+    {.title = "Teapot",
+     .summary = "Newell's teapot, centred on its axis at half its height, spout along +x; not closed.",
+     .formula = "p(u, v) = sum B_i(u) B_j(v) P_ij  over 32 bicubic Bezier patches",
+     .reference = "Newell (1975), The utilization of procedure models in digital image synthesis, "
+                  "University of Utah",
+     .properties = k_properties})

@@ -34,7 +34,8 @@ TEST_CASE("shape/teapot has Newell's proportions, and the height that is asked f
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    // The published control net: from the handle at x = -3 to the lip of the spout, 3.15 high, the body of radius 2.
+    // The published control net: from the handle at x = -3 to the lip of the spout, 3.15 high, the body of
+    // radius 2.
     CHECK(agree(high.y - low.y, 3.15, 1e-5));
     CHECK(agree(low.y, -3.15 / 2, 1e-5));
     CHECK(agree(low.x, -3.0, 0.02));
@@ -49,13 +50,15 @@ TEST_CASE("shape/teapot is smooth across the seams of its patches: one place, on
     std::size_t shared = 0;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const Vec3 p = mesh.position.span()[i];
-        const auto [known, is_new] = normal_at.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, mesh.vertex_normal.span()[i]);
+        const auto [known, is_new] =
+            normal_at.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, mesh.vertex_normal.span()[i]);
         if (is_new) continue;
         ++shared;
         CHECK(known->second == mesh.vertex_normal.span()[i]);
     }
     CHECK(shared > 300);
-    // Nearly all seams are shared: the open edges are those of the lid, the rim, and the ends of handle and spout.
+    // Nearly all seams are shared: the open edges are those of the lid, the rim, and the ends of handle and
+    // spout.
     CHECK(mesh.open_edges == 16 * 8);
 }
 

@@ -16,8 +16,9 @@ class Torus final : public candela::Shape {
     void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
         const auto around = static_cast<std::size_t>(shape_.segments);
         tessellate_surface<TorusShape, candela::kernel::torus_position, candela::kernel::torus_dpdu,
-                           candela::kernel::torus_dpdv>(shape_, {.u_is_periodic = true, .v_is_periodic = true}, around,
-                                                        std::max<std::size_t>(around / 2, 3), sink);
+                           candela::kernel::torus_dpdv>(shape_,
+                                                        {.u_is_periodic = true, .v_is_periodic = true},
+                                                        around, std::max<std::size_t>(around / 2, 3), sink);
     }
 
   private:
@@ -31,15 +32,16 @@ constexpr auto k_fields =
            real(&TorusShape::minor_radius, "minor_radius", 0.2f, "of the tube").above(0).unit("m"),
            segments(&TorusShape::segments, 64, "faces around the ring; half as many around the tube"));
 
-constexpr candela::RelationSpec k_relations[] = {{candela::RelationType::less, "minor_radius", "major_radius", false,
-                                                  "the tube would run into itself"}};
+constexpr candela::RelationSpec k_relations[] = {
+    {candela::RelationType::less, "minor_radius", "major_radius", false, "the tube would run into itself"}};
 constexpr candela::Property k_properties[] = {{"closed"}, {"euler-characteristic", "0"}, {"parametric"}};
 
 }  // namespace
 
-CANDELA_PLUGIN(shape, Torus, k_fields,
-               {.title = "Torus",
-                .summary = "A ring that lies flat around the object's position.",
-                .formula = "p(u, v) = ((R + r cos(2 pi v)) sin(2 pi u), r sin(2 pi v), (R + r cos(2 pi v)) cos(2 pi u))",
-                .relations = k_relations,
-                .properties = k_properties})
+CANDELA_PLUGIN(
+    shape, Torus, k_fields,
+    {.title = "Torus",
+     .summary = "A ring that lies flat around the object's position.",
+     .formula = "p(u, v) = ((R + r cos(2 pi v)) sin(2 pi u), r sin(2 pi v), (R + r cos(2 pi v)) cos(2 pi u))",
+     .relations = k_relations,
+     .properties = k_properties})

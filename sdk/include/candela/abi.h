@@ -17,6 +17,6 @@
 #define CANDELA_ABI_LIBRARY "libstdc++ old"
 #endif
 
-#define CANDELA_ABI                                                                                           \
-    "candela interface " CANDELA_ABI_TEXT(CANDELA_INTERFACE_VERSION) "; c++ abi " CANDELA_ABI_TEXT(           \
+#define CANDELA_ABI                                                                                 \
+    "candela interface " CANDELA_ABI_TEXT(CANDELA_INTERFACE_VERSION) "; c++ abi " CANDELA_ABI_TEXT( \
         __GXX_ABI_VERSION) "; " CANDELA_ABI_LIBRARY

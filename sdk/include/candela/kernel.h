@@ -1,9 +1,10 @@
 // The kernel language in C++: the part of GLSL that a <name>.kernel file may use.
 //
-// A kernel is the common subset of C++ and GLSL: structs of float, int, vec2 and vec3; functions marked KERNEL that take
-// and return values; locals, ternaries, arithmetic; float literals written 0.5f; and the functions below, which have
-// GLSL's names and meanings. Every function is inlined into the batch loop that calls it and is written so that clang
-// vectorises that loop: no branches, no calls, no error numbers, and no results in the denormal range.
+// A kernel is the common subset of C++ and GLSL: structs of float, int, vec2 and vec3; functions marked
+// KERNEL that take and return values; locals, ternaries, arithmetic; float literals written 0.5f; and the
+// functions below, which have GLSL's names and meanings. Every function is inlined into the batch loop that
+// calls it and is written so that clang vectorises that loop: no branches, no calls, no error numbers, and no
+// results in the denormal range.
 //
 // Include kernels inside `namespace candela::kernel { ... }`, where the names resolve to these functions.
 #pragma once
@@ -24,8 +25,10 @@ struct vec2 {
     float x, y;
     vec2() = default;
     CANDELA_KERNEL_INLINE constexpr explicit vec2(float s) : x(s), y(s) {}
-    CANDELA_KERNEL_INLINE constexpr vec2(float x_, float y_) : x(x_), y(y_) {}
+    CANDELA_KERNEL_INLINE constexpr vec2(float in_x, float in_y) : x(in_x), y(in_y) {}
+    // NOLINTNEXTLINE(modernize-use-equals-default)
     CANDELA_KERNEL_INLINE constexpr vec2(const vec2& v) : x(v.x), y(v.y) {}
+    // NOLINTNEXTLINE(modernize-use-equals-default)
     CANDELA_KERNEL_INLINE constexpr vec2& operator=(const vec2& v) {
         x = v.x;
         y = v.y;
@@ -37,9 +40,12 @@ struct vec3 {
     float x, y, z;
     vec3() = default;
     CANDELA_KERNEL_INLINE constexpr explicit vec3(float s) : x(s), y(s), z(s) {}
-    CANDELA_KERNEL_INLINE constexpr vec3(float x_, float y_, float z_) : x(x_), y(y_), z(z_) {}
-    // Written out: an implicit copy is a block of memory, which keeps a `condition ? a : b` from becoming a vector blend.
+    CANDELA_KERNEL_INLINE constexpr vec3(float in_x, float in_y, float in_z) : x(in_x), y(in_y), z(in_z) {}
+    // Written out: an implicit copy is a block of memory, which keeps a `condition ? a : b` from becoming a
+    // vector blend.
+    // NOLINTNEXTLINE(modernize-use-equals-default)
     CANDELA_KERNEL_INLINE constexpr vec3(const vec3& v) : x(v.x), y(v.y), z(v.z) {}
+    // NOLINTNEXTLINE(modernize-use-equals-default)
     CANDELA_KERNEL_INLINE constexpr vec3& operator=(const vec3& v) {
         x = v.x;
         y = v.y;
@@ -48,18 +54,18 @@ struct vec3 {
     }
 };
 
-#define CANDELA_VEC3_OPERATOR(op)                                                                             \
-    CANDELA_KERNEL_INLINE constexpr vec3 operator op(vec3 a, vec3 b) {                                        \
-        return vec3(a.x op b.x, a.y op b.y, a.z op b.z);                                                      \
-    }                                                                                                         \
-    CANDELA_KERNEL_INLINE constexpr vec3 operator op(vec3 a, float s) {                                       \
-        return vec3(a.x op s, a.y op s, a.z op s);                                                            \
-    }                                                                                                         \
-    CANDELA_KERNEL_INLINE constexpr vec3 operator op(float s, vec3 a) {                                       \
-        return vec3(s op a.x, s op a.y, s op a.z);                                                            \
-    }                                                                                                         \
-    CANDELA_KERNEL_INLINE constexpr vec3& operator op##=(vec3& a, vec3 b) { return a = a op b; }              \
-    CANDELA_KERNEL_INLINE constexpr vec3& operator op##=(vec3& a, float s) { return a = a op s; }
+#define CANDELA_VEC3_OPERATOR(op)                                                                 \
+    CANDELA_KERNEL_INLINE constexpr vec3 operator op(vec3 a, vec3 b) {                            \
+        return vec3(a.x op b.x, a.y op b.y, a.z op b.z);                                          \
+    }                                                                                             \
+    CANDELA_KERNEL_INLINE constexpr vec3 operator op(vec3 a, float s) {                           \
+        return vec3(a.x op s, a.y op s, a.z op s);                                                \
+    }                                                                                             \
+    CANDELA_KERNEL_INLINE constexpr vec3 operator op(float s, vec3 a) {                           \
+        return vec3(s op a.x, s op a.y, s op a.z);                                                \
+    }                                                                                             \
+    CANDELA_KERNEL_INLINE constexpr vec3& operator op##=(vec3 & a, vec3 b) { return a = a op b; } \
+    CANDELA_KERNEL_INLINE constexpr vec3& operator op##=(vec3 & a, float s) { return a = a op s; }
 CANDELA_VEC3_OPERATOR(+)
 CANDELA_VEC3_OPERATOR(-)
 CANDELA_VEC3_OPERATOR(*)
@@ -67,9 +73,11 @@ CANDELA_VEC3_OPERATOR(/)
 #undef CANDELA_VEC3_OPERATOR
 CANDELA_KERNEL_INLINE constexpr vec3 operator-(vec3 a) { return vec3(-a.x, -a.y, -a.z); }
 
-#define CANDELA_VEC2_OPERATOR(op)                                                                             \
-    CANDELA_KERNEL_INLINE constexpr vec2 operator op(vec2 a, vec2 b) { return vec2(a.x op b.x, a.y op b.y); } \
-    CANDELA_KERNEL_INLINE constexpr vec2 operator op(vec2 a, float s) { return vec2(a.x op s, a.y op s); }    \
+#define CANDELA_VEC2_OPERATOR(op)                                                                          \
+    CANDELA_KERNEL_INLINE constexpr vec2 operator op(vec2 a, vec2 b) {                                     \
+        return vec2(a.x op b.x, a.y op b.y);                                                               \
+    }                                                                                                      \
+    CANDELA_KERNEL_INLINE constexpr vec2 operator op(vec2 a, float s) { return vec2(a.x op s, a.y op s); } \
     CANDELA_KERNEL_INLINE constexpr vec2 operator op(float s, vec2 a) { return vec2(s op a.x, s op a.y); }
 CANDELA_VEC2_OPERATOR(+)
 CANDELA_VEC2_OPERATOR(-)
@@ -93,8 +101,8 @@ CANDELA_KERNEL_INLINE constexpr float smoothstep(float edge0, float edge1, float
 CANDELA_KERNEL_INLINE constexpr float sign(float x) { return x > 0.0f ? 1.0f : (x < 0.0f ? -1.0f : 0.0f); }
 CANDELA_KERNEL_INLINE float abs(float x) { return __builtin_fabsf(x); }
 
-/// To the nearest integer, halves to even, for |x| < 2^22. Adding and subtracting 1.5 * 2^23 needs no SSE 4.1, so that
-/// the baseline loop vectorises too.
+/// To the nearest integer, halves to even, for |x| < 2^22. Adding and subtracting 1.5 * 2^23 needs no
+/// SSE 4.1, so that the baseline loop vectorises too.
 CANDELA_KERNEL_INLINE float round_to_even(float x) { return (x + 12582912.0f) - 12582912.0f; }
 /// For |x| < 2^22; beyond that a float has no fraction worth speaking of.
 CANDELA_KERNEL_INLINE float floor(float x) {
@@ -106,7 +114,8 @@ CANDELA_KERNEL_INLINE float ceil(float x) { return -floor(-x); }
 CANDELA_KERNEL_INLINE float fract(float x) { return x - floor(x); }
 CANDELA_KERNEL_INLINE float mod(float x, float y) { return x - y * floor(x / y); }
 
-// Powers. Polynomials by Remez exchange; the figures in brackets are the largest relative errors of the polynomial.
+// Powers. Polynomials by Remez exchange; the figures in brackets are the largest relative errors of the
+// polynomial.
 
 CANDELA_KERNEL_INLINE float sqrt(float x) { return __builtin_sqrtf(x); }
 CANDELA_KERNEL_INLINE float inversesqrt(float x) { return 1.0f / __builtin_sqrtf(x); }
@@ -152,7 +161,8 @@ CANDELA_KERNEL_INLINE float pow(float x, float y) { return exp2(y * log2(x)); }
 CANDELA_KERNEL_INLINE constexpr float radians(float degrees) { return 0.0174532925f * degrees; }
 CANDELA_KERNEL_INLINE constexpr float degrees(float radians) { return 57.2957795f * radians; }
 
-/// Distance of x from the nearest multiple of pi, and whether that multiple is odd; for |x| up to a few thousand.
+/// Distance of x from the nearest multiple of pi, and whether that multiple is odd; for |x| up to a few
+/// thousand.
 struct ReducedAngle {
     float rest;
     float sign;
@@ -247,8 +257,12 @@ CANDELA_KERNEL_INLINE vec3 normalize(vec3 a) { return a * inversesqrt(max(dot(a,
 CANDELA_KERNEL_INLINE constexpr vec3 reflect(vec3 incident, vec3 normal) {
     return incident - 2.0f * dot(normal, incident) * normal;
 }
-CANDELA_KERNEL_INLINE constexpr vec3 min(vec3 a, vec3 b) { return vec3(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)); }
-CANDELA_KERNEL_INLINE constexpr vec3 max(vec3 a, vec3 b) { return vec3(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)); }
+CANDELA_KERNEL_INLINE constexpr vec3 min(vec3 a, vec3 b) {
+    return vec3(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z));
+}
+CANDELA_KERNEL_INLINE constexpr vec3 max(vec3 a, vec3 b) {
+    return vec3(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z));
+}
 CANDELA_KERNEL_INLINE constexpr vec3 clamp(vec3 a, float low, float high) {
     return vec3(clamp(a.x, low, high), clamp(a.y, low, high), clamp(a.z, low, high));
 }

@@ -29,7 +29,9 @@ constexpr Field<P> attenuation(std::int32_t P::* member) {
 }
 template <class P>
 constexpr Field<P> attenuation_offset(float P::* member) {
-    return real(member, "attenuation_offset", 0.01f, "k of offset-linear attenuation 1/(r + k)").minimum(0).unit("m");
+    return real(member, "attenuation_offset", 0.01f, "k of offset-linear attenuation 1/(r + k)")
+        .minimum(0)
+        .unit("m");
 }
 
 CANDELA_KERNEL_INLINE kernel::Receiver receiver_at(const ReceiverBatch& batch, std::size_t i) {
@@ -98,12 +100,12 @@ class KernelAmbientLight final : public Light {
 }  // namespace candela::sdk
 
 /// A plugin from the kernel function `prefix_illuminate`; `Params` is its first argument.
-#define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                                     \
-    CANDELA_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), fields, \
-                   __VA_ARGS__)
+#define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                             \
+    CANDELA_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), \
+                   fields, __VA_ARGS__)
 
 /// A plugin from the kernel function `prefix_illuminate_ambient`; `Params` is its first argument.
-#define CANDELA_AMBIENT_LIGHT_PLUGIN(prefix, Params, fields, ...)                                             \
-    CANDELA_PLUGIN(                                                                                           \
-        light, (candela::sdk::KernelAmbientLight<Params, &candela::kernel::prefix##_illuminate_ambient>),     \
+#define CANDELA_AMBIENT_LIGHT_PLUGIN(prefix, Params, fields, ...)                                         \
+    CANDELA_PLUGIN(                                                                                       \
+        light, (candela::sdk::KernelAmbientLight<Params, &candela::kernel::prefix##_illuminate_ambient>), \
         fields, __VA_ARGS__)

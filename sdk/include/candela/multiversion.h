@@ -8,8 +8,8 @@
 //     };
 //     candela::multiversion<AddLoop>(count, a, sum);
 //
-// Everything the loop calls must be inlined into it, or it is neither vectorised nor compiled for the wider set;
-// clang warns where a CANDELA_VECTORIZE loop stayed scalar.
+// Everything the loop calls must be inlined into it, or it is neither vectorised nor compiled for the wider
+// set; clang warns where a CANDELA_VECTORIZE loop stayed scalar.
 #pragma once
 
 #include "candela/api.h"
@@ -27,7 +27,8 @@ namespace candela {
 /// candela::instruction_set() as a number, for headers, which cannot import: 0 baseline, 1 AVX2, 2 AVX-512.
 CANDELA_API int instruction_set_level() noexcept;
 
-/// The versions of one loop; not inlined, so that each can be found by its name in a profile and in the compiler's records.
+/// The versions of one loop; not inlined, so that each can be found by its name in a profile and in the
+/// compiler's records.
 template <class Loop, class... Arguments>
 struct Multiversion {
     [[gnu::noinline]] static void baseline(const Arguments&... arguments) { Loop::run(arguments...); }
@@ -41,16 +42,20 @@ struct Multiversion {
 #endif
 };
 
-/// Runs `Loop::run(arguments...)` with the instruction set in use. Arguments are taken by const reference, so a loop
-/// copies what it reads into locals or takes them by value: then the compiler knows that its stores do not change them.
+/// Runs `Loop::run(arguments...)` with the instruction set in use. Arguments are taken by const reference, so
+/// a loop copies what it reads into locals or takes them by value: then the compiler knows that its stores do
+/// not change them.
 template <class Loop, class... Arguments>
 inline void multiversion(const Arguments&... arguments) {
     using Versions = Multiversion<Loop, Arguments...>;
 #if defined(__x86_64__)
     switch (instruction_set_level()) {
-        case 2: return Versions::avx512(arguments...);
-        case 1: return Versions::avx2(arguments...);
-        default: break;
+        case 2:
+            return Versions::avx512(arguments...);
+        case 1:
+            return Versions::avx2(arguments...);
+        default:
+            break;
     }
 #endif
     Versions::baseline(arguments...);

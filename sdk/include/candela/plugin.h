@@ -47,8 +47,12 @@ struct Field {
 
     // The rest of the declaration, after the kind of value: real(...).at_least(0).unit("m").
 
-    constexpr Field minimum(float low) const { return with([&](ParamSpec& s) { s.minimum = low; }); }
-    constexpr Field maximum(float high) const { return with([&](ParamSpec& s) { s.maximum = high; }); }
+    constexpr Field minimum(float low) const {
+        return with([&](ParamSpec& s) { s.minimum = low; });
+    }
+    constexpr Field maximum(float high) const {
+        return with([&](ParamSpec& s) { s.maximum = high; });
+    }
     constexpr Field range(float low, float high) const { return minimum(low).maximum(high); }
     constexpr Field above(float low) const {
         return with([&](ParamSpec& s) { s.minimum = low, s.minimum_excluded = true; });
@@ -56,8 +60,12 @@ struct Field {
     constexpr Field below(float high) const {
         return with([&](ParamSpec& s) { s.maximum = high, s.maximum_excluded = true; });
     }
-    constexpr Field unit(const char* name) const { return with([&](ParamSpec& s) { s.unit = name; }); }
-    constexpr Field required() const { return with([&](ParamSpec& s) { s.required = true; }); }
+    constexpr Field unit(const char* name) const {
+        return with([&](ParamSpec& s) { s.unit = name; });
+    }
+    constexpr Field required() const {
+        return with([&](ParamSpec& s) { s.required = true; });
+    }
 
   private:
     template <class Change>
@@ -68,7 +76,8 @@ struct Field {
     }
 };
 
-// Declarations. `meaning` is one sentence; a default is written as a person writes it in a scene: degrees, colours 0-255.
+// Declarations. `meaning` is one sentence; a default is written as a person writes it in a scene: degrees,
+// colours 0-255.
 
 template <class P>
 constexpr Field<P> real(float P::* member, const char* name, float fallback, const char* meaning) {
@@ -81,15 +90,20 @@ constexpr Field<P> angle(float P::* member, const char* name, float fallback, co
     return real(member, name, fallback, meaning).unit("deg");
 }
 template <class P>
-constexpr Field<P> integer(std::int32_t P::* member, const char* name, std::int32_t fallback, const char* meaning) {
-    return {.spec = {.name = name, .type = ParamType::integer, .meaning = meaning, .fallback = {.integer = fallback}},
+constexpr Field<P> integer(std::int32_t P::* member, const char* name, std::int32_t fallback,
+                           const char* meaning) {
+    return {.spec = {.name = name,
+                     .type = ParamType::integer,
+                     .meaning = meaning,
+                     .fallback = {.integer = fallback}},
             .integer = member};
 }
 /// One of `words`; the member receives its index, the default is the first.
 template <class P>
 constexpr Field<P> choice(std::int32_t P::* member, const char* name, std::span<const char* const> words,
                           const char* meaning) {
-    return {.spec = {.name = name, .type = ParamType::choice, .meaning = meaning, .choices = words}, .integer = member};
+    return {.spec = {.name = name, .type = ParamType::choice, .meaning = meaning, .choices = words},
+            .integer = member};
 }
 template <class P>
 constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool fallback, const char* meaning) {
@@ -100,7 +114,8 @@ constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool fall
             .integer = member};
 }
 template <class P>
-constexpr Field<P> three(vec3 P::* member, ParamType type, const char* name, vec3 fallback, const char* meaning) {
+constexpr Field<P> three(vec3 P::* member, ParamType type, const char* name, vec3 fallback,
+                         const char* meaning) {
     return {.spec = {.name = name,
                      .type = type,
                      .meaning = meaning,
@@ -126,7 +141,8 @@ constexpr Field<P> coefficient(vec3 P::* member, const char* name, float fallbac
 }
 template <class P>
 constexpr Field<P> file(const char* P::* member, const char* name, const char* meaning) {
-    return {.spec = {.name = name, .type = ParamType::file, .meaning = meaning, .required = true}, .text = member};
+    return {.spec = {.name = name, .type = ParamType::file, .meaning = meaning, .required = true},
+            .text = member};
 }
 
 template <class Params, std::size_t count>
@@ -175,30 +191,30 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 
 }  // namespace candela::sdk
 
-/// Exports a plugin of `kind` whose instances are made by `new Model(params)`, `params` filled through `fields_`, an
-/// array of candela::sdk::Field. The rest is a candela::sdk::About.
-#define CANDELA_PLUGIN(kind_, Model, fields_, ...)                                                            \
-    extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }                        \
-    extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {                  \
-        static constexpr auto specs = candela::sdk::specs_of(fields_);                                        \
-        static const candela::sdk::About about = __VA_ARGS__;                                                 \
-        static const candela::PluginDescriptor descriptor{                                                    \
-            .kind = candela::PluginKind::kind_,                                                               \
-            .name = CANDELA_PLUGIN_NAME,                                                                      \
-            .version = CANDELA_PLUGIN_VERSION,                                                                \
-            .title = about.title,                                                                             \
-            .summary = about.summary,                                                                         \
-            .formula = about.formula,                                                                         \
-            .reference = about.reference,                                                                     \
-            .parameters = specs,                                                                              \
-            .relations = about.relations,                                                                     \
-            .properties = about.properties,                                                                   \
-            .formats = about.formats,                                                                         \
-            .kernel = candela::sdk::k_kernel_text,                                                            \
-            .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* {                 \
-                return new Model(candela::sdk::params_from(fields_, values));                      \
-            }};                                                                                               \
-        return &descriptor;                                                                                   \
+/// Exports a plugin of `kind` whose instances are made by `new Model(params)`, `params` filled through
+/// `fields_`, an array of candela::sdk::Field. The rest is a candela::sdk::About.
+#define CANDELA_PLUGIN(kind_, Model, fields_, ...)                                            \
+    extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }        \
+    extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {  \
+        static constexpr auto specs = candela::sdk::specs_of(fields_);                        \
+        static const candela::sdk::About about = __VA_ARGS__;                                 \
+        static const candela::PluginDescriptor descriptor{                                    \
+            .kind = candela::PluginKind::kind_,                                               \
+            .name = CANDELA_PLUGIN_NAME,                                                      \
+            .version = CANDELA_PLUGIN_VERSION,                                                \
+            .title = about.title,                                                             \
+            .summary = about.summary,                                                         \
+            .formula = about.formula,                                                         \
+            .reference = about.reference,                                                     \
+            .parameters = specs,                                                              \
+            .relations = about.relations,                                                     \
+            .properties = about.properties,                                                   \
+            .formats = about.formats,                                                         \
+            .kernel = candela::sdk::k_kernel_text,                                            \
+            .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* { \
+                return new Model(candela::sdk::params_from(fields_, values));                 \
+            }};                                                                               \
+        return &descriptor;                                                                   \
     }
 
 #define CANDELA_EXPORT __attribute__((visibility("default")))

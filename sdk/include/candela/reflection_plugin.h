@@ -1,7 +1,8 @@
 // A reflection model from two kernel functions:
 //
-//     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)      what is reflected of a light's intensities
-//     vec3 x_reflect_ambient(XMaterial m, Surface s)                  what is reflected of ambient intensity
+//     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)      what is reflected of a light's
+//     intensities vec3 x_reflect_ambient(XMaterial m, Surface s)                  what is reflected of
+//     ambient intensity
 #pragma once
 
 #include "candela/multiversion.h"
@@ -96,7 +97,8 @@ class KernelReflection final : public ReflectionModel {
 
     void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
                          const ReflectedBatch& reflected) const override {
-        multiversion<ReflectAmbientLoop<Material, reflect_ambient_, tangent>>(material_, surface, ambient, reflected);
+        multiversion<ReflectAmbientLoop<Material, reflect_ambient_, tangent>>(material_, surface, ambient,
+                                                                              reflected);
     }
 
   private:
@@ -105,9 +107,10 @@ class KernelReflection final : public ReflectionModel {
 
 }  // namespace candela::sdk
 
-/// A plugin from the kernel functions `prefix_reflect` and `prefix_reflect_ambient`; `Material` is their first argument.
-#define CANDELA_REFLECTION_PLUGIN(prefix, Material, fields, ...)                                              \
-    CANDELA_PLUGIN(reflection,                                                                                \
-                   (candela::sdk::KernelReflection<Material, &candela::kernel::prefix##_reflect,              \
-                                                   &candela::kernel::prefix##_reflect_ambient>),              \
+/// A plugin from the kernel functions `prefix_reflect` and `prefix_reflect_ambient`; `Material` is their
+/// first argument.
+#define CANDELA_REFLECTION_PLUGIN(prefix, Material, fields, ...)                                 \
+    CANDELA_PLUGIN(reflection,                                                                   \
+                   (candela::sdk::KernelReflection<Material, &candela::kernel::prefix##_reflect, \
+                                                   &candela::kernel::prefix##_reflect_ambient>), \
                    fields, __VA_ARGS__)

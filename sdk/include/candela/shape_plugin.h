@@ -1,4 +1,5 @@
-// Shapes. A parametric surface comes from three kernel functions, u and v from 0 to 1, dpdu x dpdv pointing outwards:
+// Shapes. A parametric surface comes from three kernel functions, u and v from 0 to 1, dpdu x dpdv pointing
+// outwards:
 //
 //     vec3 x_position(XShape s, float u, float v)
 //     vec3 x_dpdu(XShape s, float u, float v)
@@ -38,8 +39,8 @@ struct Topology {
 
 template <class Params, auto position, auto dpdu, auto dpdv>
 struct SurfaceRowLoop {
-    CANDELA_BATCH_LOOP static void run(Params params, float v, float u_step, std::size_t count, Vec3Span p, Vec2Span uv,
-                                       Vec3Span pu, Vec3Span pv) {
+    CANDELA_BATCH_LOOP static void run(Params params, float v, float u_step, std::size_t count, Vec3Span p,
+                                       Vec2Span uv, Vec3Span pu, Vec3Span pv) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const float u = static_cast<float>(static_cast<std::int32_t>(i)) * u_step;
@@ -63,7 +64,8 @@ struct SurfaceRowLoop {
 
 /// The triangles of a grid of `columns` x `rows` quadrilaterals over the parameter square.
 template <class Params, auto position, auto dpdu, auto dpdv>
-void tessellate_surface(const Params& params, Topology topology, std::size_t columns, std::size_t rows, MeshSink& sink) {
+void tessellate_surface(const Params& params, Topology topology, std::size_t columns, std::size_t rows,
+                        MeshSink& sink) {
     const std::size_t width = columns + 1;
     const bool closed = topology.u_is_periodic && (topology.v_is_periodic || topology.v_ends_in_poles);
     const std::size_t poles = topology.v_ends_in_poles ? 2 : 0;
@@ -78,8 +80,8 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
         const std::size_t first = row * width;
         const float v = static_cast<float>(row) / static_cast<float>(rows);
         multiversion<SurfaceRowLoop<Params, position, dpdu, dpdv>>(
-            params, v, 1.0f / static_cast<float>(columns), width, mesh.position.from(first), mesh.uv.from(first),
-            mesh.dpdu.from(first), mesh.dpdv.from(first));
+            params, v, 1.0f / static_cast<float>(columns), width, mesh.position.from(first),
+            mesh.uv.from(first), mesh.dpdu.from(first), mesh.dpdv.from(first));
     }
 
     // Vertices that are one place get one position to the last bit, and one normal.
@@ -104,7 +106,8 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
 
     std::size_t corner = 0;
     const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
-        for (const std::size_t vertex : {a, b, c}) mesh.corners[corner++] = static_cast<std::uint32_t>(vertex);
+        for (const std::size_t vertex : {a, b, c})
+            mesh.corners[corner++] = static_cast<std::uint32_t>(vertex);
     };
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t column = 0; column < columns; ++column) {
@@ -121,7 +124,8 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
 }
 
 /// Puts vertices at one position, to the last bit, into one smooth group.
-inline void weld_by_position(ConstVec3Span position, std::size_t count, std::span<std::uint32_t> smooth_group) {
+inline void weld_by_position(ConstVec3Span position, std::size_t count,
+                             std::span<std::uint32_t> smooth_group) {
     struct Key {
         std::uint32_t bits[3];
         bool operator==(const Key&) const = default;

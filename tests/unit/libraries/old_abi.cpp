@@ -1,4 +1,5 @@
-// A plugin of another time: its fingerprint is not this Candela's, and its descriptor must never be looked at.
+// A plugin of another time: its fingerprint is not this Candela's, and its descriptor must never be looked
+// at.
 #include <cstdlib>
 
 extern "C" __attribute__((visibility("default"))) const char* candela_plugin_abi() {

@@ -16,7 +16,8 @@ class Throwing final : public candela::ReflectionModel {
     explicit Throwing(const Params& params) {
         if (params.kd.x == 0) throw std::runtime_error("no model without light");
     }
-    void reflect(const candela::SurfaceBatch&, const candela::LightingBatch&, const candela::ReflectedBatch&) const override {
+    void reflect(const candela::SurfaceBatch&, const candela::LightingBatch&,
+                 const candela::ReflectedBatch&) const override {
         throw std::runtime_error("out of photons");
     }
     void reflect_ambient(const candela::SurfaceBatch&, const candela::ConstVec3Span&,

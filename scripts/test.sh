@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Sets up, builds and runs all tests.
+#   scripts/test.sh            the release build, the one that users run
+#   scripts/test.sh asan …     other presets: dev, asan, ubsan, tsan
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+cd "$root"
+
+"$root/scripts/setup.sh"
+[ $# -gt 0 ] || set -- release
+for preset in "$@"; do
+    printf '== %s\n' "$preset"
+    cmake --preset "$preset" -DCANDELA_TESTS=ON >/dev/null
+    cmake --build --preset "$preset"
+    ctest --preset "$preset" --parallel "$(nproc)"
+done
