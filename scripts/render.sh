@@ -9,7 +9,11 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 log=$root/build/render-build.log
 mkdir -p "$root/build"
 # Only what rendering needs; what a developer has configured stays as it is.
-[ -f "$root/build/release/build.ninja" ] || configure=(-DCANDELA_TESTS=OFF)
+configure=()
+if [ ! -f "$root/build/release/build.ninja" ]; then
+    configure=(-DCANDELA_TESTS=OFF)
+    echo "render: building, which takes a minute or two (log: $log)" >&2
+fi
 if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target candela_runtime; } \
     >"$log" 2>&1; then
     tail -n 30 "$log" >&2
