@@ -29,7 +29,7 @@ if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null || fail "packages must be installed: run this as root, or install sudo"
   as_root=(sudo)
 fi
-apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 "$@"; }
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive DEBCONF_NOWARNINGS=yes apt-get -qq -o DPkg::Lock::Timeout=300 "$@"; }
 
 installed() { dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
 installed_version() { dpkg-query -W -f '${Version}' "$1" 2>/dev/null || true; }
@@ -43,7 +43,7 @@ packages=(
   libassimp-dev libopenimageio-dev
 )
 if [ "$everything" = yes ]; then
-  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3-minimal)
+  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev)
 fi
 
 # Boost: Debian 12 has 1.81 beside its default 1.74; later releases need no such choice.
