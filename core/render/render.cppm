@@ -4,6 +4,7 @@ module;
 #include "candela/api.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
