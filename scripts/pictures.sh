@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Renders the pictures of the documentation anew: docs/pictures/*.png.
+#   scripts/pictures.sh [directory]     somewhere else
+# The contact sheet is one scene: in each cell a coarse sphere and a coarse teapot with a shading and a reflection model of
+# their own, all in the same light.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+out=${1:-$root/docs/pictures}
+mkdir -p "$out"
+
+render() { "$root/scripts/render.sh" "$@"; }
+
+contact_sheet() {
+    cat <<'TOML'
+version = 1
+[room]
+width = 20.0
+[observer]
+position   = [0.0, 0.0, 4.0]
+look_at    = [0.0, 0.0, 0.0]
+projection = "orthographic"
+height     = 4.5
+[image]
+width      = 1000
+height     = 450
+samples    = 16
+background = [24, 26, 32]
+[[light]]
+type      = "directional"
+direction = [1.0, -1.1, -1.2]
+intensity = 0.9
+[[light]]
+type      = "directional"
+direction = [-1.0, 0.2, -0.6]
+color     = [120, 140, 200]
+intensity = 0.25
+[[light]]
+type  = "ambient"
+color = [150, 155, 180]
+TOML
+    local row=0 shading column reflection x y material
+    for shading in flat gouraud phong; do
+        column=0
+        for reflection in lambert half-lambert phong blinn-phong; do
+            x=$(awk "BEGIN { print -3.75 + 2.5 * $column }")
+            y=$(awk "BEGIN { print 1.5 - 1.5 * $row }")
+            material=
+            case $reflection in *phong) material='material = { kd = 0.6, ks = 0.4, shininess = 30.0 }' ;; esac
+            cat <<TOML
+[[object]]
+type = "sphere"
+radius = 0.48
+segments = 16
+position = [$(awk "BEGIN { print $x - 0.7 }"), $y, 0.0]
+rotation = [12.0, 20.0, 0.0]
+color = [200, 96, 48]
+shading = "$shading"
+reflection = "$reflection"
+$material
+[[object]]
+type = "teapot"
+size = 0.72
+segments = 3
+position = [$(awk "BEGIN { print $x + 0.38 }"), $y, 0.0]
+rotation = [24.0, 20.0, 0.0]
+color = [70, 130, 190]
+shading = "$shading"
+reflection = "$reflection"
+$material
+TOML
+            column=$((column + 1))
+        done
+        row=$((row + 1))
+    done
+}
+
+sheet=$(mktemp --suffix=.toml)
+trap 'rm -f "$sheet"' EXIT
+contact_sheet >"$sheet"
+render "$sheet" -o "$out/contact-sheet.png"
+render "$root/docs/examples/still-life.toml" -o "$out/still-life.png"
+render --samples 16 -o "$out/default-scene.png"
