@@ -10,6 +10,13 @@ mkdir -p "$out"
 
 render() { "$root/scripts/render.sh" "$@"; }
 
+# object 'KEYS; OF; IT' X Y SHADING REFLECTION MATERIAL
+object() {
+    printf '[[object]]\n'
+    tr ';' '\n' <<<"$1"
+    printf 'position = [%s, %s, 0.0]\nshading = "%s"\nreflection = "%s"\n%s\n' "$2" "$3" "$4" "$5" "$6"
+}
+
 contact_sheet() {
     cat <<'TOML'
 version = 1
@@ -46,28 +53,10 @@ TOML
             y=$(awk "BEGIN { print 1.5 - 1.5 * $row }")
             material=
             case $reflection in *phong) material='material = { kd = 0.6, ks = 0.4, shininess = 30.0 }' ;; esac
-            cat <<TOML
-[[object]]
-type = "sphere"
-radius = 0.48
-segments = 16
-position = [$(awk "BEGIN { print $x - 0.7 }"), $y, 0.0]
-rotation = [12.0, 20.0, 0.0]
-color = [200, 96, 48]
-shading = "$shading"
-reflection = "$reflection"
-$material
-[[object]]
-type = "teapot"
-size = 0.72
-segments = 3
-position = [$(awk "BEGIN { print $x + 0.38 }"), $y, 0.0]
-rotation = [24.0, 20.0, 0.0]
-color = [70, 130, 190]
-shading = "$shading"
-reflection = "$reflection"
-$material
-TOML
+            object 'type = "sphere"; radius = 0.48; segments = 16; rotation = [12.0, 20.0, 0.0]; color = [200, 96, 48]' \
+                "$(awk "BEGIN { print $x - 0.7 }")" "$y" "$shading" "$reflection" "$material"
+            object 'type = "teapot"; size = 0.72; segments = 3; rotation = [24.0, 20.0, 0.0]; color = [70, 130, 190]' \
+                "$(awk "BEGIN { print $x + 0.38 }")" "$y" "$shading" "$reflection" "$material"
             column=$((column + 1))
         done
         row=$((row + 1))

@@ -23,6 +23,12 @@ double milliseconds_since(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
+/// "7.3 ms", "1.37 s".
+std::string duration_text(double milliseconds) {
+    return milliseconds < 1000 ? fmt::format("{:.3g} ms", milliseconds)
+                               : fmt::format("{:.3g} s", milliseconds / 1000);
+}
+
 int threads_from(const CommandLine& line) {
     if (!line.has("threads")) return 0;
     const int threads = line.get<int>("threads");
@@ -87,9 +93,9 @@ int run_render(const std::vector<std::string>& arguments) {
             read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles,
             statistics.points_lit, candela::name_of(candela::instruction_set()), write_ms);
     }
-    std::cerr << fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {:.3g} ms\n",
+    std::cerr << fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {}\n",
                              output == "-" ? "picture" : output, film.width(), film.height(),
                              statistics.triangles, statistics.triangles == 1 ? "" : "s",
-                             statistics.pixels_shaded, milliseconds_since(begin));
+                             statistics.pixels_shaded, duration_text(milliseconds_since(begin)));
     return 0;
 }

@@ -5,6 +5,8 @@ module;
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -41,12 +43,18 @@ Json json_of(const Value& value) {
     return std::visit(Writer{}, value);
 }
 
+/// A colour's channels are whole numbers.
+Json color_json(const Vec3& v) { return Json::array({std::lround(v.x), std::lround(v.y), std::lround(v.z)}); }
+
 Json json_of(const Parameter& p) {
     Json json;
     json["name"] = p.name;
     json["type"] = name_of(p.type);
     if (!p.unit.empty()) json["unit"] = p.unit;
-    if (p.fallback) json["default"] = json_of(*p.fallback);
+    if (p.fallback) {
+        json["default"] =
+            p.type == ParamType::color ? color_json(std::get<Vec3>(*p.fallback)) : json_of(*p.fallback);
+    }
     if (p.minimum != k_no_minimum) json[p.minimum_excluded ? "above" : "minimum"] = shortest(p.minimum);
     if (p.maximum != k_no_maximum) json[p.maximum_excluded ? "below" : "maximum"] = shortest(p.maximum);
     if (!p.choices.empty()) json["choices"] = p.choices;

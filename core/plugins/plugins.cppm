@@ -72,6 +72,7 @@ CANDELA_API Manifest manifest_from_json(std::string_view text);
 struct PluginFile {
     Manifest manifest;
     std::filesystem::path library;
+    const PluginDescriptor* descriptor = nullptr;  // once it is loaded
 };
 
 /// A candidate that cannot be used, and one sentence that says why and what to do.
@@ -152,6 +153,7 @@ class CANDELA_API Registry {
     const PluginFile* look_at(const std::filesystem::path& directory, const std::string& id, PluginKind kind,
                               std::string_view name);
     void scan();
+    const PluginDescriptor& load(const PluginFile& file);
 
     std::vector<std::filesystem::path> search_path_;
     mutable std::recursive_mutex mutex_;

@@ -219,10 +219,17 @@ ParamSet Registry::parameters(PluginKind kind, std::string_view name) {
     return ParamSet(require(kind, name).manifest.parameters);
 }
 
+const PluginDescriptor& Registry::load(const PluginFile& file) {
+    const std::lock_guard lock(mutex_);
+    PluginFile& known = *found_.find(file.manifest.id())->second;
+    if (known.descriptor == nullptr) known.descriptor = &load_plugin(known.library, &known.manifest);
+    return *known.descriptor;
+}
+
 std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string_view name,
                                                     const ParamSet& values, ColorEncoding encoding) {
     const PluginFile& file = require(kind, name);
-    const PluginDescriptor& descriptor = load_plugin(file.library, &file.manifest);
+    const PluginDescriptor& descriptor = load(file);
     try {
         std::unique_ptr<Instance> instance(descriptor.create(values.delivered(encoding)));
         if (instance == nullptr) throw std::runtime_error("made nothing");

@@ -38,7 +38,8 @@ TEST_CASE("the README's scene is valid, and its mistake is explained as it says"
 
     scene.replace(scene.find("intensity"), 9, "intensty");
     write_file(directory / "ball.toml", scene);
-    const CommandResult bad = run_candela({"check", "ball.toml"}, {.input = "", .environment = {}, .directory = directory});
+    const CommandResult bad =
+        run_candela({"check", "ball.toml"}, {.input = "", .environment = {}, .directory = directory});
     CHECK(bad.exit_code == 3);
     CHECK(bad.err == block("README.md", "text"));
 }
@@ -46,7 +47,8 @@ TEST_CASE("the README's scene is valid, and its mistake is explained as it says"
 TEST_CASE("the scene of docs/scene-file.md is valid") {
     const fs::path directory = scratch_directory();
     write_file(directory / "lights.toml", "[[light]]\ntype = \"ambient\"\n");
-    const CommandResult result = check(write_file(directory / "scene.toml", block("docs/scene-file.md", "toml")));
+    const CommandResult result =
+        check(write_file(directory / "scene.toml", block("docs/scene-file.md", "toml")));
     INFO(result.err);
     CHECK(result.exit_code == 0);
 }

@@ -19,18 +19,21 @@ Mesh mesh_of(const std::filesystem::path& file, const char* shading = "phong") {
                                *instance<candela::ShadingModel>(shading));
 }
 
-/// A sphere as careless exporters write it: every triangle with three vertices of its own, and no normals.
-std::string soup_of_a_sphere() {
-    const auto sphere = instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{48}}});
-    const Mesh mesh = candela::build_mesh(*sphere, {}, {}, *instance<candela::ShadingModel>("phong"));
+/// A mesh as careless exporters write it: every triangle with three vertices of its own, and no normals.
+std::string soup_of(const Mesh& mesh) {
     std::string text;
     for (const std::uint32_t corner : mesh.corners) {
         const Vec3 p = mesh.position.span()[corner];
         text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
     }
-    for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
         text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
+    }
     return text;
+}
+
+Mesh built(const Shape& shape) {
+    return candela::build_mesh(shape, {}, {}, *instance<candela::ShadingModel>("phong"));
 }
 
 constexpr const char* k_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -38,7 +41,8 @@ constexpr const char* k_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 }  // namespace
 
 TEST_CASE("shape/mesh: duplicated vertices without normals come out smooth, and closed") {
-    const Mesh mesh = mesh_of(write_file(scratch_directory() / "soup.obj", soup_of_a_sphere()));
+    const Mesh sphere = built(*instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{48}}}));
+    const Mesh mesh = mesh_of(write_file(scratch_directory() / "soup.obj", soup_of(sphere)));
     CHECK(mesh.closed);
     double worst = 1;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -97,16 +101,8 @@ TEST_CASE("shape/mesh reads PLY, STL and glTF") {
 }
 
 TEST_CASE("a teapot that lost its normals and its shared vertices looks like the teapot") {
-    const auto phong = instance<candela::ShadingModel>("phong");
-    const Mesh original = candela::build_mesh(*instance<Shape>("teapot"), {}, {}, *phong);
-    std::string text;
-    for (const std::uint32_t corner : original.corners) {
-        const Vec3 p = original.position.span()[corner];
-        text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
-    }
-    for (std::size_t i = 0; i < original.corners.size(); i += 3)
-        text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
-    const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", text));
+    const Mesh original = built(*instance<Shape>("teapot"));
+    const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", soup_of(original)));
     REQUIRE(read.triangle_count() == original.triangle_count());
     for (std::size_t corner = 0; corner < read.corners.size(); ++corner) {
         REQUIRE(agree(read.vertex_normal.span()[read.corners[corner]],

@@ -9,21 +9,7 @@ using namespace candela::sdk;
 
 namespace {
 
-class Torus final : public candela::Shape {
-  public:
-    explicit Torus(const TorusShape& shape) : shape_(shape) {}
-
-    void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
-        const auto around = static_cast<std::size_t>(shape_.segments);
-        tessellate_surface<TorusShape, candela::kernel::torus_position, candela::kernel::torus_dpdu,
-                           candela::kernel::torus_dpdv>(shape_,
-                                                        {.u_is_periodic = true, .v_is_periodic = true},
-                                                        around, std::max<std::size_t>(around / 2, 3), sink);
-    }
-
-  private:
-    TorusShape shape_;
-};
+constexpr Topology k_topology{.u_is_periodic = true, .v_is_periodic = true};
 
 constexpr auto k_fields =
     fields(real(&TorusShape::major_radius, "major_radius", 0.5f, "from the centre to the middle of the tube")

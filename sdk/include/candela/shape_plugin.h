@@ -5,6 +5,8 @@
 //     vec3 x_dpdu(XShape s, float u, float v)
 //     vec3 x_dpdv(XShape s, float u, float v)
 //
+//     CANDELA_PARAMETRIC_SHAPE_PLUGIN(x, XShape, k_topology, k_fields, {.title = …})
+//
 // Any other shape derives from candela::Shape, fills the arrays of a MeshSink, and ends with
 //
 //     CANDELA_PLUGIN(shape, MyShape, k_fields, {.title = …})
@@ -123,6 +125,23 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
     }
 }
 
+/// A shape with a member `segments` in its parameters: that many faces along u, half as many along v.
+template <class Params, auto position, auto dpdu, auto dpdv, Topology topology>
+class ParametricShape final : public Shape {
+  public:
+    explicit ParametricShape(const Params& params) : params_(params) {}
+
+    void tessellate(const MeshRequest&, MeshSink& sink) const override {
+        const auto columns = static_cast<std::size_t>(params_.segments);
+        const std::size_t fewest_rows = topology.v_is_periodic ? 3 : 2;
+        tessellate_surface<Params, position, dpdu, dpdv>(params_, topology, columns,
+                                                         std::max(columns / 2, fewest_rows), sink);
+    }
+
+  private:
+    Params params_;
+};
+
 /// Puts vertices at one position, to the last bit, into one smooth group.
 inline void weld_by_position(ConstVec3Span position, std::size_t count,
                              std::span<std::uint32_t> smooth_group) {
@@ -148,3 +167,12 @@ inline void weld_by_position(ConstVec3Span position, std::size_t count,
 }
 
 }  // namespace candela::sdk
+
+/// A plugin from the kernel functions `prefix_position`, `prefix_dpdu` and `prefix_dpdv`; `Params` is their
+/// first argument and has a member `segments`; `topology` is a constant of type candela::sdk::Topology.
+#define CANDELA_PARAMETRIC_SHAPE_PLUGIN(prefix, Params, topology, fields, ...)                 \
+    CANDELA_PLUGIN(shape,                                                                      \
+                   (candela::sdk::ParametricShape<Params, &candela::kernel::prefix##_position, \
+                                                  &candela::kernel::prefix##_dpdu,             \
+                                                  &candela::kernel::prefix##_dpdv, topology>), \
+                   fields, __VA_ARGS__)
