@@ -24,8 +24,8 @@ constexpr candela::Property k_properties[] = {{"closed"}, {"euler-characteristic
 
 }  // namespace
 
-CANDELA_PLUGIN(
-    shape, Torus, k_fields,
+CANDELA_PARAMETRIC_SHAPE_PLUGIN(
+    torus, TorusShape, k_topology, k_fields,
     {.title = "Torus",
      .summary = "A ring that lies flat around the object's position.",
      .formula = "p(u, v) = ((R + r cos(2 pi v)) sin(2 pi u), r sin(2 pi v), (R + r cos(2 pi v)) cos(2 pi u))",
