@@ -28,7 +28,7 @@ look_at    = [0.0, 0.0, 0.0]
 projection = "orthographic"
 height     = 4.5
 [image]
-width      = 1000
+width      = 1040
 height     = 450
 samples    = 16
 background = [24, 26, 32]
@@ -49,14 +49,14 @@ TOML
     for shading in flat gouraud phong; do
         column=0
         for reflection in lambert half-lambert phong blinn-phong; do
-            x=$(awk "BEGIN { print -3.75 + 2.5 * $column }")
+            x=$(awk "BEGIN { print -3.9 + 2.6 * $column }")
             y=$(awk "BEGIN { print 1.5 - 1.5 * $row }")
             material=
             case $reflection in *phong) material='material = { kd = 0.6, ks = 0.4, shininess = 30.0 }' ;; esac
             object 'type = "sphere"; radius = 0.48; segments = 16; rotation = [12.0, 20.0, 0.0]; color = [200, 96, 48]' \
-                "$(awk "BEGIN { print $x - 0.7 }")" "$y" "$shading" "$reflection" "$material"
+                "$(awk "BEGIN { print $x - 0.74 }")" "$y" "$shading" "$reflection" "$material"
             object 'type = "teapot"; size = 0.72; segments = 3; rotation = [24.0, 20.0, 0.0]; color = [70, 130, 190]' \
-                "$(awk "BEGIN { print $x + 0.38 }")" "$y" "$shading" "$reflection" "$material"
+                "$(awk "BEGIN { print $x + 0.42 }")" "$y" "$shading" "$reflection" "$material"
             column=$((column + 1))
         done
         row=$((row + 1))
