@@ -52,6 +52,14 @@ struct FileFormat {
     PixelType pixels = PixelType::byte;
 };
 
+/// The mathematics of a plugin as text, for programs that are generated from it.
+struct KernelText {
+    const char* text = nullptr;    // the whole .kernel file; null where there is none
+    const char* prefix = nullptr;  // its functions are called <prefix>_reflect, <prefix>_normal, …
+    const char* parameters =
+        "";  // the struct that they take first, whose members are called as the parameters
+};
+
 /// All about one plugin. Plain data with static lifetime in the plugin's library.
 struct PluginDescriptor {
     PluginKind kind = PluginKind::light;
@@ -65,7 +73,7 @@ struct PluginDescriptor {
     std::span<const RelationSpec> relations{};
     std::span<const Property> properties{};
     std::span<const FileFormat> formats{};  // image plugins only
-    const char* kernel = nullptr;           // the text of its .kernel file, or null
+    KernelText kernel{};
 
     /// Makes an instance; `values` are in the order of `parameters`. May throw std::exception: bad files, bad
     /// values. The result is of the kind's interface class. Any thread.

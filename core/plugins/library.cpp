@@ -80,7 +80,9 @@ std::string differences(const Manifest& written, const Manifest& actual) {
     compare("relations", written.relations == actual.relations);
     compare("properties", written.properties == actual.properties);
     compare("formats", written.formats == actual.formats);
-    compare("kernel", written.has_kernel == actual.has_kernel);
+    compare("kernel", written.has_kernel == actual.has_kernel &&
+                          written.kernel_prefix == actual.kernel_prefix &&
+                          written.kernel_parameters == actual.kernel_parameters);
     return parts;
 }
 

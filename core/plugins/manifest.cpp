@@ -93,7 +93,7 @@ Json json_of(const Manifest& m) {
                                        {"pixels", f.pixels == PixelType::byte ? "byte" : "real"}});
         }
     }
-    json["kernel"] = m.has_kernel;
+    if (m.has_kernel) json["kernel"] = {{"prefix", m.kernel_prefix}, {"parameters", m.kernel_parameters}};
     return json;
 }
 
@@ -167,7 +167,11 @@ Manifest manifest_from(const Json& json) {
                 {f.at("extension").get<std::string>(), f.at("title").get<std::string>(), pixels});
         }
     }
-    m.has_kernel = json.at("kernel").get<bool>();
+    m.has_kernel = json.contains("kernel");
+    if (m.has_kernel) {
+        m.kernel_prefix = json["kernel"].at("prefix").get<std::string>();
+        m.kernel_parameters = json["kernel"].at("parameters").get<std::string>();
+    }
     return m;
 }
 
@@ -198,7 +202,11 @@ Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
     for (const RelationSpec& spec : d.relations) m.relations.push_back(relation_of(spec));
     for (const Property& p : d.properties) m.properties.emplace_back(p.name, p.value);
     for (const FileFormat& f : d.formats) m.formats.push_back({f.extension, f.title, f.pixels});
-    m.has_kernel = d.kernel != nullptr;
+    m.has_kernel = d.kernel.text != nullptr && d.kernel.prefix != nullptr;
+    if (m.has_kernel) {
+        m.kernel_prefix = d.kernel.prefix;
+        m.kernel_parameters = d.kernel.parameters;
+    }
     return m;
 }
 

@@ -49,7 +49,9 @@ struct CANDELA_API Manifest {
     std::vector<Relation> relations;
     std::vector<std::pair<std::string, std::string>> properties;
     std::vector<ManifestFormat> formats;
-    bool has_kernel = false;
+    bool has_kernel = false;    // its mathematics can be exported; the text itself is in the library
+    std::string kernel_prefix;  // see KernelText
+    std::string kernel_parameters;
 
     /// "reflection/phong"
     std::string id() const;

@@ -58,6 +58,8 @@ candela::Manifest sample_manifest() {
     m.properties = {{"closed", "true"}, {"euler", "2"}};
     m.formats = {{"foo", "Foo", candela::PixelType::real}};
     m.has_kernel = true;
+    m.kernel_prefix = "lamp";
+    m.kernel_parameters = "LampLight";
     return m;
 }
 

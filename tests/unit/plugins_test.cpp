@@ -87,6 +87,27 @@ TEST_CASE("every shipped plugin agrees with its manifest, and every default fits
     }
 }
 
+TEST_CASE("a plugin made of kernel functions carries their text, and says how they are called") {
+    Registry registry({k_shipped});
+    int kernels = 0;
+    for (const candela::PluginFile* file : registry.list()) {
+        const candela::Manifest& m = file->manifest;
+        INFO(m.id());
+        const candela::KernelText& kernel = candela::load_plugin(file->library, &m).kernel;
+        CHECK(m.has_kernel == (kernel.text != nullptr));
+        if (!m.has_kernel) continue;
+        ++kernels;
+        const std::string text = kernel.text;
+        CHECK(holds(text, "KERNEL"));
+        CHECK(holds(text, " " + m.kernel_prefix + "_"));
+        CHECK(m.kernel_parameters.empty() == m.parameters.empty());
+        // The members of the struct are called as the parameters.
+        if (!m.kernel_parameters.empty()) CHECK(holds(text, "struct " + m.kernel_parameters + " {"));
+        for (const candela::Parameter& p : m.parameters) CHECK(holds(text, " " + p.name + ";"));
+    }
+    CHECK(kernels == 13);
+}
+
 TEST_CASE("the first directory of the search path wins") {
     const fs::path first = directory_with(k_shipped / "reflection-phong.so", "phong");
     Registry registry({first, k_shipped});

@@ -100,12 +100,12 @@ class KernelAmbientLight final : public Light {
 }  // namespace candela::sdk
 
 /// A plugin from the kernel function `prefix_illuminate`; `Params` is its first argument.
-#define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                             \
-    CANDELA_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), \
-                   fields, __VA_ARGS__)
+#define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                                    \
+    CANDELA_KERNEL_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), \
+                          prefix, Params, fields, __VA_ARGS__)
 
 /// A plugin from the kernel function `prefix_illuminate_ambient`; `Params` is its first argument.
 #define CANDELA_AMBIENT_LIGHT_PLUGIN(prefix, Params, fields, ...)                                         \
-    CANDELA_PLUGIN(                                                                                       \
+    CANDELA_KERNEL_PLUGIN(                                                                                \
         light, (candela::sdk::KernelAmbientLight<Params, &candela::kernel::prefix##_illuminate_ambient>), \
-        fields, __VA_ARGS__)
+        prefix, Params, fields, __VA_ARGS__)

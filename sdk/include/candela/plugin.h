@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 
@@ -167,6 +168,15 @@ struct About {
 struct NoParams {};
 inline constexpr std::array<Field<NoParams>, 0> k_no_fields{};
 
+/// What a descriptor says of a plugin's kernel; `parameters` is the name of `Params`, as its author wrote it.
+template <class Params>
+KernelText kernel_text(const char* prefix, const char* parameters) {
+    const std::string_view qualified = parameters;
+    const auto colon = qualified.rfind(':');
+    const bool takes_none = std::is_same_v<Params, NoParams>;
+    return {k_kernel_text, prefix, takes_none ? "" : parameters + (colon == qualified.npos ? 0 : colon + 1)};
+}
+
 template <std::size_t count, class Params>
 constexpr std::array<ParamSpec, count> specs_of(const std::array<Field<Params>, count>& fields) {
     std::array<ParamSpec, count> specs{};
@@ -191,9 +201,20 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 
 }  // namespace candela::sdk
 
-/// Exports a plugin of `kind` whose instances are made by `new Model(params)`, `params` filled through
+#define CANDELA_EXPORT __attribute__((visibility("default")))
+
+/// Exports a plugin of `kind_` whose instances are made by `new Model(params)`, `params` filled through
 /// `fields_`, an array of candela::sdk::Field. The rest is a candela::sdk::About.
-#define CANDELA_PLUGIN(kind_, Model, fields_, ...)                                            \
+#define CANDELA_PLUGIN(kind_, Model, fields_, ...) \
+    CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::KernelText{}, __VA_ARGS__)
+
+/// The same for a plugin made of kernel functions: `prefix_` begins their names, `Params_` is their first
+/// argument.
+#define CANDELA_KERNEL_PLUGIN(kind_, Model, prefix_, Params_, fields_, ...)                              \
+    CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::sdk::kernel_text<Params_>(#prefix_, #Params_), \
+                          __VA_ARGS__)
+
+#define CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, kernel_, ...)                            \
     extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }        \
     extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {  \
         static constexpr auto specs = candela::sdk::specs_of(fields_);                        \
@@ -210,11 +231,9 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
             .relations = about.relations,                                                     \
             .properties = about.properties,                                                   \
             .formats = about.formats,                                                         \
-            .kernel = candela::sdk::k_kernel_text,                                            \
+            .kernel = kernel_,                                                                \
             .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* { \
                 return new Model(candela::sdk::params_from(fields_, values));                 \
             }};                                                                               \
         return &descriptor;                                                                   \
     }
-
-#define CANDELA_EXPORT __attribute__((visibility("default")))

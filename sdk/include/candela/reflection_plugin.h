@@ -109,8 +109,8 @@ class KernelReflection final : public ReflectionModel {
 
 /// A plugin from the kernel functions `prefix_reflect` and `prefix_reflect_ambient`; `Material` is their
 /// first argument.
-#define CANDELA_REFLECTION_PLUGIN(prefix, Material, fields, ...)                                 \
-    CANDELA_PLUGIN(reflection,                                                                   \
-                   (candela::sdk::KernelReflection<Material, &candela::kernel::prefix##_reflect, \
-                                                   &candela::kernel::prefix##_reflect_ambient>), \
-                   fields, __VA_ARGS__)
+#define CANDELA_REFLECTION_PLUGIN(prefix, Material, fields, ...)                                        \
+    CANDELA_KERNEL_PLUGIN(reflection,                                                                   \
+                          (candela::sdk::KernelReflection<Material, &candela::kernel::prefix##_reflect, \
+                                                          &candela::kernel::prefix##_reflect_ambient>), \
+                          prefix, Material, fields, __VA_ARGS__)

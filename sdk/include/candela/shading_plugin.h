@@ -54,8 +54,8 @@ class KernelShading final : public ShadingModel {
 }  // namespace candela::sdk
 
 /// A plugin from the kernel function `prefix_normal`; `rate` is face, vertex or fragment.
-#define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                    \
-    CANDELA_PLUGIN(shading,                                                          \
-                   (candela::sdk::KernelShading<Params, candela::LightingRate::rate, \
-                                                &candela::kernel::prefix##_normal>), \
-                   fields, __VA_ARGS__)
+#define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
+    CANDELA_KERNEL_PLUGIN(shading,                                                          \
+                          (candela::sdk::KernelShading<Params, candela::LightingRate::rate, \
+                                                       &candela::kernel::prefix##_normal>), \
+                          prefix, Params, fields, __VA_ARGS__)

@@ -170,9 +170,9 @@ inline void weld_by_position(ConstVec3Span position, std::size_t count,
 
 /// A plugin from the kernel functions `prefix_position`, `prefix_dpdu` and `prefix_dpdv`; `Params` is their
 /// first argument and has a member `segments`; `topology` is a constant of type candela::sdk::Topology.
-#define CANDELA_PARAMETRIC_SHAPE_PLUGIN(prefix, Params, topology, fields, ...)                 \
-    CANDELA_PLUGIN(shape,                                                                      \
-                   (candela::sdk::ParametricShape<Params, &candela::kernel::prefix##_position, \
-                                                  &candela::kernel::prefix##_dpdu,             \
-                                                  &candela::kernel::prefix##_dpdv, topology>), \
-                   fields, __VA_ARGS__)
+#define CANDELA_PARAMETRIC_SHAPE_PLUGIN(prefix, Params, topology, fields, ...)                        \
+    CANDELA_KERNEL_PLUGIN(shape,                                                                      \
+                          (candela::sdk::ParametricShape<Params, &candela::kernel::prefix##_position, \
+                                                         &candela::kernel::prefix##_dpdu,             \
+                                                         &candela::kernel::prefix##_dpdv, topology>), \
+                          prefix, Params, fields, __VA_ARGS__)
