@@ -5,6 +5,7 @@ module;
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@ import candela.document;
 import candela.math;
 import candela.params;
 import candela.plugins;
+import candela.validation;
 
 export namespace candela {
 
@@ -115,14 +117,89 @@ CANDELA_API std::span<const TableSchema> scene_schema();
 
 }  // namespace candela
 
-// What the files, the includes and the settings say together; shared by this module's own units.
+// What this module's own units share.
 namespace candela {
 
+/// What the files, the includes and the settings say together.
 struct MergedDocument {
     SourcePlace place;  // of the first file
     TableNode root;     // as if all stood in one file, `include` followed
 };
 
 std::optional<MergedDocument> gather(const SceneRequest& request, Diagnostics& diagnostics);
+
+/// The schema of one of the scene's own tables.
+const TableSchema& schema_of(std::string_view table);
+
+/// `keys`, and the names of the parameters.
+std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys = {});
+
+// Values of a set that has them, by name.
+float real(const ParamSet& set, std::string_view name);
+int integer(const ParamSet& set, std::string_view name);
+Vec3 vector(const ParamSet& set, std::string_view name);
+const std::string& text(const ParamSet& set, std::string_view name);
+bool has(const ParamSet& set, std::string_view name);
+
+/// The tables of a document, and what is asked of all of them.
+class SceneTables {
+  public:
+    SceneTables(const MergedDocument& document, Registry& registry, Diagnostics& diagnostics);
+
+    const TableNode& root() const { return root_; }
+    const SourcePlace& whole() const { return whole_; }
+    Registry& registry() { return registry_; }
+    Diagnostics& diagnostics() { return diagnostics_; }
+
+    /// A table that may stand once; null where it is missing or is something else, which is reported the
+    /// first time.
+    const TableNode* single(const std::string& name);
+    TableContext context_of(const std::string& name) const;
+    /// All values of a table that has no plugin behind it.
+    ParamSet read_plain(const std::string& name);
+    /// The installed plugin of that name, or null, with a message at `place`.
+    const PluginFile* known(PluginKind kind, const std::string& name, const SourcePlace& place);
+    /// A plugin's parameters, and what must hold between them.
+    ParamSet read_plugin(const TableNode& table, const PluginFile& plugin, const TableContext& context);
+
+  private:
+    const TableNode& root_;
+    SourcePlace whole_;
+    Registry& registry_;
+    Diagnostics& diagnostics_;
+    std::map<std::string, const TableNode*> singles_;
+};
+
+/// Which shading and which reflection model each object gets: the command line's, its own, the scene's, or
+/// (R12, R13) the default, if somebody agrees.
+class ModelChooser {
+  public:
+    ModelChooser(const SceneRequest& request, SceneTables& tables);
+
+    /// Without a name where there is none, which has been reported.
+    Model shading_for(const TableNode& object);
+    Model reflection_for(const TableNode& object, const std::string& label, const SourcePlace& place);
+
+  private:
+    /// A model that is named somewhere.
+    struct Named {
+        std::string name;
+        SourcePlace place;
+    };
+    std::optional<Named> named(const std::string& table, const std::optional<std::string>& flag);
+    std::optional<Named> named_by(const TableNode& object, const std::string& key,
+                                  const std::optional<std::string>& flag) const;
+    bool is_missing(const std::string& table) const;
+    void use_defaults_if_agreed();
+    void read_shading_table();
+    void report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
+                                      const TableContext& context);
+    std::vector<std::string> models_with(const std::string& key);
+
+    const SceneRequest& request_;
+    SceneTables& tables_;
+    std::optional<Named> shading_, reflection_;
+    std::optional<ParamSet> shading_parameters_;
+};
 
 }  // namespace candela

@@ -247,6 +247,21 @@ TEST_CASE("an unknown plugin is an error with a suggestion") {
                 6, 9, "no shading plugin is called 'smooth'");
 }
 
+TEST_CASE("an empty name is no model, and no way to ask for the default") {
+    check_error(whole() + "shading = \"\"\n", 15, 11, "no shading plugin is called ''");
+    check_error(whole() + "reflection = \"\"\n", 15, 14, "no reflection plugin is called ''");
+    candela::SceneRequest request;
+    request.reflection = "";
+    CHECK(read(whole(), request).text.find("--reflection: error: no reflection plugin is called ''") !=
+          std::string::npos);
+}
+
+TEST_CASE("what should be a table is reported once, and not for what it lacks as well") {
+    check_error("version = 1\nobserver = 3\n", 2, 1, "expected the table [observer]");
+    check_error("version = 1\n[[observer]]\nposition = [0, 0, 1]\n", 2, 3, "there may be only one");
+    check_error(std::string("version = 1\nshading = 3\n") + k_observer, 2, 1, "expected the table [shading]");
+}
+
 TEST_CASE("observers that see nothing definite are errors") {
     check_error("version = 1\n[observer]\nposition = [1, 1, 1]\nlook_at = [1, 1, 1]\n", 4, 11, "must differ");
     check_error("version = 1\n[observer]\nposition = [0, 3, 0]\nlook_at = [0, 0, 0]\n", 4, 11, "'up'");
