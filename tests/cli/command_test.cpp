@@ -191,6 +191,15 @@ TEST_CASE("colour is for terminals, unless NO_COLOR says otherwise") {
     CHECK_FALSE(holds(run_candela_on_terminal({"redner"}, "", plain).out, "\x1b["));
 }
 
+TEST_CASE("the command itself needs neither OpenImageIO nor assimp") {
+    const CommandResult libraries = run_program({"ldd", CANDELA_TEST_COMMAND});
+    REQUIRE(libraries.exit_code == 0);
+    CHECK(holds(libraries.out, "libcandela_core.so"));
+    for (const char* const heavy : {"OpenImageIO", "assimp", "OpenEXR", "libpng", "libspng"}) {
+        CHECK_FALSE(holds(libraries.out, heavy));
+    }
+}
+
 TEST_CASE("list and describe tell what manifests tell") {
     const CommandResult all = run_candela({"list"});
     CHECK(all.exit_code == 0);

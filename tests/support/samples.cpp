@@ -26,9 +26,9 @@ Vec3Arrays zeros(std::size_t count) {
     return arrays;
 }
 
-/// For each instruction set of the machine and each batch size.
-template <class Check>
-void each_way(Check check) {
+}  // namespace
+
+void each_way(const std::function<void(std::size_t)>& check) {
     const candela::InstructionSet before = candela::instruction_set();
     for (const candela::InstructionSet set : machine_instruction_sets()) {
         REQUIRE(candela::use_instruction_set(set));
@@ -39,8 +39,6 @@ void each_way(Check check) {
     }
     candela::use_instruction_set(before);
 }
-
-}  // namespace
 
 Vec3 Random::direction() {
     for (;;) {

@@ -39,6 +39,9 @@ class Random {
     std::mt19937 engine_;
 };
 
+/// Runs `check(batch size)` for each instruction set of the machine and each of k_batch_sizes.
+void each_way(const std::function<void(std::size_t)>& check);
+
 /// A surface point, a light's sample and the observer, as a reflection model is given them.
 struct ReflectionSample {
     candela::Vec3 normal, to_observer, to_light;

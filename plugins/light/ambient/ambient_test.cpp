@@ -11,13 +11,13 @@ TEST_CASE("light/ambient is colour times intensity everywhere, and comes from no
     CHECK(light->sample_count() == 0);
     CHECK(light->has_ambient());
     Random random(3);
-    for (const std::size_t size : k_batch_sizes) {
+    each_way([&](std::size_t size) {
         std::vector<Vec3> positions;
         for (std::size_t i = 0; i < size; ++i) positions.push_back(random.point(5));
         for (const Vec3 intensity : illuminate_ambient(*light, positions)) {
             REQUIRE(agree(intensity, Double3{0.5, 0.1, 0}, 1e-6));
         }
-    }
+    });
 }
 
 TEST_CASE("a light's colour is decoded from sRGB where colours are managed (IEC 61966-2-1)") {

@@ -22,13 +22,13 @@ TEST_CASE("every reflection model reflects k_a C_o I_ambient, whatever the direc
         INFO(name);
         const auto model = instance<ReflectionModel>(name, {{"ka", Vec3{0.1f, 0.2f, 0.3f}}});
         Random random(1);
-        for (const std::size_t size : k_batch_sizes) {
+        each_way([&](std::size_t size) {
             std::vector<ReflectionSample> samples(size);
             for (ReflectionSample& s : samples) s = {random.direction(), random.direction(), {}, {}, {}};
             for (const Vec3 reflected : reflect_ambient(*model, samples, {0.5f, 0.25f, 1}, {2, 4, 8})) {
                 REQUIRE(agree(reflected, Double3{0.1 * 0.5 * 2, 0.2 * 0.25 * 4, 0.3 * 1 * 8}, 1e-6));
             }
-        }
+        });
     }
 }
 

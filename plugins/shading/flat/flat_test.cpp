@@ -11,7 +11,7 @@ TEST_CASE("shading/flat takes the face's normal, once a face (DD8)") {
     const auto model = instance<ShadingModel>("flat");
     CHECK(model->lighting_rate() == candela::LightingRate::face);
     Random random(5);
-    for (const std::size_t size : k_batch_sizes) {
+    each_way([&](std::size_t size) {
         Vec3Arrays face, vertex, weight, result;
         for (Vec3Arrays* arrays : {&face, &vertex, &weight, &result}) arrays->resize(size);
         for (std::size_t i = 0; i < size; ++i) {
@@ -20,5 +20,5 @@ TEST_CASE("shading/flat takes the face's normal, once a face (DD8)") {
         }
         model->normals({size, face.span(), vertex.span(), weight.span(), {}, {}, {}}, result.span());
         for (std::size_t i = 0; i < size; ++i) REQUIRE(result.span()[i] == face.span()[i]);
-    }
+    });
 }

@@ -7,8 +7,19 @@ using candela::ShadingModel;
 using candela::Vec3;
 using candela::Vec3Arrays;
 
-TEST_CASE("shading/gouraud lights vertices") {
-    CHECK(instance<ShadingModel>("gouraud")->lighting_rate() == candela::LightingRate::vertex);
+TEST_CASE("shading/gouraud lights vertices, with their normals") {
+    const auto model = instance<ShadingModel>("gouraud");
+    CHECK(model->lighting_rate() == candela::LightingRate::vertex);
+    Random random(7);
+    each_way([&](std::size_t size) {
+        Vec3Arrays face, vertex, weight, result;
+        for (Vec3Arrays* arrays : {&face, &vertex, &weight, &result}) arrays->resize(size);
+        for (std::size_t i = 0; i < size; ++i) vertex.span().set(i, random.direction());
+        model->normals({size, face.span(), vertex.span(), weight.span(), {}, {}, {}}, result.span());
+        for (std::size_t i = 0; i < size; ++i) {
+            REQUIRE(agree(result.span()[i], vertex.span()[i], 1e-6, 1e-6));
+        }
+    });
 }
 
 TEST_CASE("vertex normals are the normalised sum of the normals of the faces that share the vertex (DD9)") {

@@ -10,7 +10,7 @@ TEST_CASE("shading/phong normalises the interpolated vertex normal at every frag
     const auto model = instance<ShadingModel>("phong");
     CHECK(model->lighting_rate() == candela::LightingRate::fragment);
     Random random(6);
-    for (const std::size_t size : k_batch_sizes) {
+    each_way([&](std::size_t size) {
         Vec3Arrays face, vertex, weight, result;
         for (Vec3Arrays* arrays : {&face, &vertex, &weight, &result}) arrays->resize(size);
         for (std::size_t i = 0; i < size; ++i) {
@@ -21,5 +21,5 @@ TEST_CASE("shading/phong normalises the interpolated vertex normal at every frag
         for (std::size_t i = 0; i < size; ++i) {
             REQUIRE(agree(result.span()[i], unit(exact(vertex.span()[i])), 1e-6, 1e-6));
         }
-    }
+    });
 }
