@@ -20,7 +20,7 @@ int run_check(const std::vector<std::string>& arguments) {
     candela::Diagnostics diagnostics;
     const auto scene = candela::read_scene(scene_request_from(line), registry, diagnostics);
     std::cerr << diagnostics.text(stderr_takes_color());
-    if (!scene) return static_cast<int>(candela::ExitCode::invalid_scene);
+    if (!scene) return static_cast<int>(diagnostics.exit_code());
     const auto count = [](std::size_t n, const char* what) {
         return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };

@@ -69,8 +69,7 @@ int run_render(const std::vector<std::string>& arguments) {
     const auto compiled = scene ? candela::compile(*scene, registry, diagnostics) : std::nullopt;
     const double compile_ms = milliseconds_since(compile_begin);
     std::cerr << diagnostics.text(stderr_takes_color());
-    if (!scene) return static_cast<int>(ExitCode::invalid_scene);
-    if (!compiled) return static_cast<int>(ExitCode::failure);
+    if (!compiled) return static_cast<int>(diagnostics.exit_code());
 
     candela::Film film(scene->image.width, scene->image.height, format.pixels, scene->image.color_management);
     candela::RenderStatistics statistics;

@@ -3,6 +3,7 @@ module;
 
 #include "candela/api.h"
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <span>
@@ -51,25 +52,37 @@ struct Diagnostic {
 /// All that was found in one run. Not thread safe.
 class CANDELA_API Diagnostics {
   public:
+    /// The scene is wrong.
     void error(SourcePlace place, std::string message, std::string hint = {});
+    /// Something that the scene needs fails: a file that cannot be read, a plugin. An error, too.
+    void failure(SourcePlace place, std::string message, std::string hint = {});
     void warning(SourcePlace place, std::string message, std::string hint = {});
 
     /// Keeps a file's text, so that the offending line can be shown.
     void remember_source(const std::string& file, std::string text);
 
-    bool has_errors() const noexcept;
+    bool has_errors() const noexcept { return exit_code_ != ExitCode::ok; }
+    /// `invalid_scene` where the scene is wrong; else `failure` where something failed; else `ok`.
+    ExitCode exit_code() const noexcept { return exit_code_; }
     /// Sorted by file (in the order in which the files were read), line and column.
     std::vector<Diagnostic> sorted() const;
     /// Line `place.line` of a remembered file, or nothing.
     std::optional<std::string> source_line(const SourcePlace& place) const;
 
-    /// Every diagnostic as text, each with its line and a mark below the place.
-    std::string text(bool in_color) const;
+    /// The first `most` diagnostics as text, each with its line and a mark below the place, and how many more
+    /// there are.
+    std::string text(bool in_color, std::size_t most = k_most_shown) const;
+    /// All of them, for programs: an array of objects with severity, file, line, column, length, message,
+    /// hint.
+    std::string json() const;
+
+    static constexpr std::size_t k_most_shown = 50;
 
   private:
     std::vector<Diagnostic> all_;
     std::vector<std::string> files_;  // in reading order
     std::map<std::string, std::string, std::less<>> sources_;
+    ExitCode exit_code_ = ExitCode::ok;
 };
 
 /// The candidate that `name` was most likely meant to be, if one is near enough: at most a third of its

@@ -90,7 +90,11 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
                                         Diagnostics& diagnostics) {
     const SourcePlace place{shown_name, 0, 0, 0};
     const auto fail = [&](const std::string& message, const std::string& hint = {}) {
-        diagnostics.error(place, message, hint);
+        diagnostics.failure(place, message, hint);
+        return std::nullopt;
+    };
+    const auto no_scene = [&](const std::string& message) {
+        diagnostics.error(place, message);
         return std::nullopt;
     };
     std::error_code problem;
@@ -110,8 +114,8 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     if (!in) return fail(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
     std::string text{std::istreambuf_iterator<char>(in), {}};
     if (in.bad()) return fail(fmt::format("the file cannot be read: {}", std::strerror(errno)));
-    if (text.find_first_not_of(" \t\r\n") == std::string::npos) return fail("the file is empty");
-    if (text.find('\0') != std::string::npos) return fail("this is a binary file; a scene is text (TOML)");
+    if (text.find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");
+    if (text.find('\0') != std::string::npos) return no_scene("this is a binary file; a scene is text (TOML)");
     return text;
 }
 

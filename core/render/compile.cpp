@@ -52,7 +52,7 @@ class Compiler {
     }
 
     std::optional<CompiledScene> take() {
-        if (failed_) return std::nullopt;
+        if (diagnostics_.has_errors()) return std::nullopt;
         return std::move(compiled_);
     }
 
@@ -62,8 +62,7 @@ class Compiler {
         try {
             work();
         } catch (const Error& problem) {
-            diagnostics_.error(place, fmt::format("{}: {}", whose, problem.what()));
-            failed_ = true;
+            diagnostics_.failure(place, fmt::format("{}: {}", whose, problem.what()));
         }
     }
 
@@ -97,7 +96,6 @@ class Compiler {
     Registry& registry_;
     Diagnostics& diagnostics_;
     CompiledScene compiled_;
-    bool failed_ = false;
 };
 
 }  // namespace

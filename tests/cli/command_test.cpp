@@ -118,7 +118,7 @@ TEST_CASE("an invalid scene has exit code 3, and no picture is written") {
     CHECK(holds(result.err, file + ":18:2: error: unknown key 'image2' in the scene"));
     CHECK_FALSE(fs::exists(directory / "a.png"));
     CHECK(run_candela({"check", file}).exit_code == 3);
-    CHECK(run_candela({"render", (directory / "none.toml").string()}).exit_code == 3);
+    CHECK(run_candela({"render", (directory / "none.toml").string()}).exit_code == 1);
 }
 
 TEST_CASE("check says that a valid scene is valid, on standard output") {

@@ -166,14 +166,3 @@ TEST_CASE("suggestions are near, and absent where nothing is") {
     CHECK_FALSE(candela::closest("wavelength", words));
     CHECK_FALSE(candela::closest("x", std::vector<std::string>{}));
 }
-
-TEST_CASE("a diagnostic shows its line with a mark below the place") {
-    candela::Diagnostics diagnostics;
-    diagnostics.remember_source("a.toml", "one\n\tkey = 3\n");
-    diagnostics.error({"a.toml", 2, 2, 3}, "wrong", "try this");
-    CHECK(diagnostics.text(false) == "a.toml:2:2: error: wrong\n    2 | \tkey = 3\n      | \t^^^ try this\n");
-    CHECK(diagnostics.text(true).find("\x1b[1;31m") != std::string::npos);
-    candela::Diagnostics whole;
-    whole.warning({"b.toml", 0, 0, 0}, "odd");
-    CHECK(whole.text(false) == "b.toml: warning: odd\n");
-}
