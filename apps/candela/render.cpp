@@ -63,15 +63,16 @@ int run_render(const std::vector<std::string>& arguments) {
     const candela::PictureFormat format = candela::format_of(output, registry);
 
     candela::Diagnostics diagnostics;
-    const auto scene = candela::read_scene(scene_request_from(line), registry, diagnostics);
+    const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
     const double read_ms = milliseconds_since(begin);
     const auto compile_begin = Clock::now();
-    const auto compiled = scene ? candela::compile(*scene, registry, diagnostics) : std::nullopt;
+    const auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
     const double compile_ms = milliseconds_since(compile_begin);
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!compiled) return static_cast<int>(diagnostics.exit_code());
 
-    candela::Film film(scene->image.width, scene->image.height, format.pixels, scene->image.color_management);
+    const candela::ImageSettings& image = compiled->image;
+    candela::Film film(image.width, image.height, format.pixels, image.color_management);
     candela::RenderStatistics statistics;
     {
         ProgressBar bar("rendering");

@@ -115,7 +115,8 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     std::string text{std::istreambuf_iterator<char>(in), {}};
     if (in.bad()) return fail(fmt::format("the file cannot be read: {}", std::strerror(errno)));
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");
-    if (text.find('\0') != std::string::npos) return no_scene("this is a binary file; a scene is text (TOML)");
+    if (text.find('\0') != std::string::npos)
+        return no_scene("this is a binary file; a scene is text (TOML)");
     return text;
 }
 

@@ -40,8 +40,11 @@ struct CompiledScene {
     std::vector<SolidObject> objects;
 };
 
-/// Loads what the scene names, and nothing else. Reports what fails, with the light or object that wanted it,
-/// and returns nothing then; reports meshes that are not closed.
+/// Loads what the scene names, and nothing else, tessellates its objects and checks what only triangles can
+/// tell. Reports what fails, with the light or object that wanted it, and returns nothing then, or where
+/// errors were reported before; reports meshes that are not closed.
+CANDELA_API std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
+                                                 Diagnostics& diagnostics);
 CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
                                                  Diagnostics& diagnostics);
 
