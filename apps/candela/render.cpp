@@ -81,6 +81,9 @@ int run_render(const std::vector<std::string>& arguments) {
             .progress = [&](std::size_t done, std::size_t all) { bar.update(done, all); }};
         statistics = candela::render(*compiled, film, options);
     }
+    const std::string darkness = candela::why_black(*compiled, film, statistics);
+    if (!darkness.empty())
+        std::cerr << fmt::format("candela: warning: nothing in the picture is lit: {}\n", darkness);
     const auto write_begin = Clock::now();
     candela::write_picture(film, format, output, registry);
     const double write_ms = milliseconds_since(write_begin);
