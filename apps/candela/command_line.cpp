@@ -54,7 +54,8 @@ std::vector<std::string> CommandLine::all(const std::string& name) const {
 
 void add_plugin_options(CommandLine& line) {
     line.options()("plugin-dir", po::value<std::vector<std::string>>()->value_name("DIR"),
-                   "look for plugins here first; may be repeated");
+                   "look for plugins here first; may be repeated")(
+        "allow-untrusted-plugins", "also use plugins that other users can change");
 }
 
 candela::Registry registry_from(const CommandLine& line) {
@@ -65,7 +66,9 @@ candela::Registry registry_from(const CommandLine& line) {
         }
         first.emplace_back(directory);
     }
-    return candela::Registry(candela::plugin_search_path(first));
+    return candela::Registry(candela::plugin_search_path(first), line.has("allow-untrusted-plugins")
+                                                                     ? candela::PluginTrust::any
+                                                                     : candela::PluginTrust::own_and_system);
 }
 
 void add_scene_options(CommandLine& line) {

@@ -109,13 +109,21 @@ inline constexpr PluginKind k_kind_of<Shape> = PluginKind::shape;
 template <>
 inline constexpr PluginKind k_kind_of<ImageFormat> = PluginKind::image;
 
+/// Whose plugins are used. A plugin is code that runs with all the rights of who renders.
+enum class PluginTrust : int {
+    own_and_system,  // of this user and of root, in folders and files that nobody else can write to
+    any,
+};
+
 /// The plugins of a search path. Reads a manifest when it is asked for, loads a library when an instance is
 /// wanted. Any thread; returned pointers live as long as the registry.
 class CANDELA_API Registry {
   public:
-    explicit Registry(std::vector<std::filesystem::path> search_path);
+    explicit Registry(std::vector<std::filesystem::path> search_path,
+                      PluginTrust trust = PluginTrust::own_and_system);
 
     const std::vector<std::filesystem::path>& search_path() const noexcept { return search_path_; }
+    PluginTrust trust() const noexcept { return trust_; }
 
     /// The first usable plugin of that name on the search path, or null.
     const PluginFile* find(PluginKind kind, std::string_view name);
@@ -158,6 +166,7 @@ class CANDELA_API Registry {
     const PluginDescriptor& load(const PluginFile& file);
 
     std::vector<std::filesystem::path> search_path_;
+    PluginTrust trust_;
     mutable std::recursive_mutex mutex_;
     bool scanned_ = false;
     std::map<std::string, std::unique_ptr<PluginFile>, std::less<>>

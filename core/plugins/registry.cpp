@@ -3,6 +3,8 @@ module;
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <boost/dll/runtime_symbol_info.hpp>
@@ -60,6 +62,17 @@ std::string_view environment(const char* name) {
     return value != nullptr ? value : "";
 }
 
+/// "belongs to …" or "can be written to by everybody"; empty where only this user and root can change a file
+/// or folder.
+std::string who_else_can_write(const fs::path& path) {
+    struct stat status{};
+    if (::stat(path.c_str(), &status) != 0) return {};
+    if (status.st_uid != 0 && status.st_uid != ::geteuid())
+        return fmt::format("belongs to user {}", status.st_uid);
+    if ((status.st_mode & S_IWOTH) != 0) return "can be written to by every user";
+    return {};
+}
+
 }  // namespace
 
 std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
@@ -71,11 +84,13 @@ std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
         directories.push_back(fs::path(home) / ".local/share/candela/plugins");
     }
     // Where this library is: lib/libcandela_core.so, so lib/candela/plugins.
-    directories.push_back(boost::dll::this_line_location().parent_path() / "candela/plugins");
+    directories.push_back(
+        (boost::dll::this_line_location().parent_path() / "candela/plugins").lexically_normal());
     return directories;
 }
 
-Registry::Registry(std::vector<fs::path> search_path) : search_path_(std::move(search_path)) {}
+Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust)
+    : search_path_(std::move(search_path)), trust_(trust) {}
 
 const PluginFile* Registry::look_at(const fs::path& directory, const std::string& id, PluginKind kind,
                                     std::string_view name) {
@@ -95,6 +110,16 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
                    : nullptr;
     }
     if (!has_library) return refuse("its manifest is there, the library is not");
+    if (trust_ != PluginTrust::any) {
+        for (const fs::path& part : {directory, library}) {
+            if (const std::string who = who_else_can_write(part); !who.empty()) {
+                return refuse(
+                    fmt::format("'{}' {}, so that anybody's code could run here; change that, or use "
+                                "--allow-untrusted-plugins",
+                                part.string(), who));
+            }
+        }
+    }
     auto file = std::make_unique<PluginFile>();
     try {
         file->manifest = manifest_from_json(*text);

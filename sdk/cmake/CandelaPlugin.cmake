@@ -106,3 +106,17 @@ function(candela_install_plugin id)
     install(TARGETS ${target} LIBRARY DESTINATION ${PLUGIN_DESTINATION})
     install(FILES $<TARGET_FILE_DIR:${target}>/${manifest} DESTINATION ${PLUGIN_DESTINATION})
 endfunction()
+
+# candela_add_plugin_test(<kind>/<name> SOURCES <file>...): a program that is given the folder of the built plugin, and whose
+# exit code 0 means that all is well.
+function(candela_add_plugin_test id)
+    cmake_parse_arguments(PARSE_ARGV 1 TEST "" "" "SOURCES;LIBRARIES")
+    string(REPLACE "/" "_" suffix ${id})
+    set(target candela_${suffix})
+    add_executable(${target}_test ${TEST_SOURCES})
+    target_compile_features(${target}_test PRIVATE cxx_std_20)
+    set_target_properties(${target}_test PROPERTIES CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF CXX_SCAN_FOR_MODULES ON)
+    target_link_libraries(${target}_test PRIVATE candela::core ${TEST_LIBRARIES})
+    add_dependencies(${target}_test ${target}_manifest)
+    add_test(NAME "${id}" COMMAND ${target}_test $<TARGET_FILE_DIR:${target}>)
+endfunction()

@@ -1,0 +1,101 @@
+// candela plugin doctor: what is found where, and what is refused.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command_line.h"
+#include "plugin.h"
+
+namespace fs = std::filesystem;
+using candela::ExitCode;
+
+namespace {
+
+/// Why a library cannot be loaded; empty if it can. In a child: what a library does when it is loaded may end
+/// the process.
+std::string loading_problem(const candela::PluginFile& file) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) return std::strerror(errno);
+    const pid_t child = ::fork();
+    if (child < 0) return std::strerror(errno);
+    if (child == 0) {
+        std::string problem;
+        try {
+            candela::load_plugin(file.library, &file.manifest);
+        } catch (const std::exception& refusal) {
+            problem = refusal.what();
+        }
+        const bool told =
+            ::write(ends[1], problem.data(), problem.size()) == static_cast<ssize_t>(problem.size());
+        ::_exit(told ? 0 : 1);
+    }
+    ::close(ends[1]);
+    std::string problem;
+    std::array<char, 4096> buffer{};
+    for (ssize_t count = 0; (count = ::read(ends[0], buffer.data(), buffer.size())) > 0;)
+        problem.append(buffer.data(), static_cast<std::size_t>(count));
+    ::close(ends[0]);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (WIFSIGNALED(status))
+        return fmt::format("loading it ends the process with signal {}", ::strsignal(WTERMSIG(status)));
+    if (WEXITSTATUS(status) != 0)
+        return fmt::format("loading it ends the process with exit code {}", WEXITSTATUS(status));
+    return problem;
+}
+
+/// "refused: …" without the path, which is said already.
+std::string short_reason(std::string reason, const fs::path& library) {
+    const std::string begin = fmt::format("plugin '{}' is refused: ", library.string());
+    if (reason.starts_with(begin)) reason.erase(0, begin.size());
+    return reason;
+}
+
+}  // namespace
+
+int run_plugin_doctor(const std::vector<std::string>& arguments) {
+    CommandLine line("candela plugin doctor [options]",
+                     "Looks at every folder that is searched and loads every plugin there: says which are "
+                     "used, which are\n"
+                     "hidden by another of the same name, which are refused, and why.");
+    add_plugin_options(line);
+    if (!line.parse(arguments)) return 0;
+    std::map<std::string, fs::path> used;
+    bool all_well = true;
+    const candela::Registry registry = registry_from(line);
+    for (const fs::path& folder : registry.search_path()) {
+        const bool exists = fs::is_directory(folder);
+        std::cout << folder.string() << (exists ? "\n" : "  (not there)\n");
+        const auto say = [](const fs::path& library, const std::string& what) {
+            std::cout << fmt::format("  {:<30} {}\n", library.filename().string(), what);
+        };
+        candela::Registry here({folder}, registry.trust());
+        for (const candela::PluginFile* file : here.list()) {
+            const std::string id = file->manifest.id();
+            if (const std::string problem = loading_problem(*file); !problem.empty()) {
+                say(file->library, "refused: " + short_reason(problem, file->library));
+                all_well = false;
+            } else if (const auto [first, is_new] = used.try_emplace(id, file->library); !is_new) {
+                say(file->library, "hidden by " + first->second.string());
+            } else {
+                say(file->library, fmt::format("in use: {} {}", id, file->manifest.version));
+            }
+        }
+        for (const candela::Refusal& refusal : here.refusals()) {
+            say(refusal.file, "refused: " + short_reason(refusal.reason, refusal.file));
+            all_well = false;
+        }
+    }
+    std::cout << (all_well ? "All is well.\n" : "Some plugins cannot be used.\n");
+    return static_cast<int>(all_well ? ExitCode::ok : ExitCode::failure);
+}

@@ -1,0 +1,103 @@
+// candela plugin new: a project for a plugin, from the installed template.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "plugin.h"
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ExitCode;
+
+namespace {
+
+std::string replaced(std::string text, const std::map<std::string, std::string>& values) {
+    for (const auto& [from, to] : values) {
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+            text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
+/// "my-model" as my_model, MyModel and My model.
+std::map<std::string, std::string> names_of(const std::string& name) {
+    std::string ident, type, title;
+    bool begins_word = true;
+    for (const char c : name) {
+        const char upper = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+        ident += c == '-' ? '_' : c;
+        if (c != '-') type += begins_word ? upper : c;
+        title += c == '-' ? ' ' : (title.empty() ? upper : c);
+        begins_word = c == '-';
+    }
+    return {{"@NAME@", name}, {"@IDENT@", ident}, {"@TYPE@", type}, {"@TITLE@", title}};
+}
+
+void check_name(const std::string& name) {
+    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+    const auto is_allowed = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
+    bool good = !name.empty() && is_letter(name.front()) && name.back() != '-' &&
+                name.find("--") == std::string::npos;
+    for (const char c : name) good = good && is_allowed(c);
+    if (!good) {
+        throw Error(ExitCode::usage, fmt::format("'{}' cannot be a plugin's name: lower-case letters, digits "
+                                                 "and single hyphens, a letter first",
+                                                 name));
+    }
+}
+
+}  // namespace
+
+int run_plugin_new(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela plugin new KIND NAME [DIR]",
+        "Makes a project for a plugin of yours: kernel, source, CMakeLists.txt, test and README, in DIR (or\n"
+        "NAME). KIND is light, reflection, shading or shape. It builds and passes its tests as it stands.");
+    line.positional("arguments", 3);
+    if (!line.parse(arguments)) return 0;
+    const std::vector<std::string> words = line.all("arguments");
+    if (words.size() < 2)
+        throw Error(ExitCode::usage, "candela plugin new needs a kind and a name, such as: reflection toon");
+    const std::vector<std::string> kinds{"light", "reflection", "shading", "shape"};
+    if (std::ranges::find(kinds, words[0]) == kinds.end()) {
+        const auto near = candela::closest(words[0], kinds);
+        throw Error(ExitCode::usage, fmt::format("there is no template for '{}'{} (kinds: {})", words[0],
+                                                 near ? fmt::format("; did you mean '{}'?", *near) : "",
+                                                 fmt::join(kinds, ", ")));
+    }
+    check_name(words[1]);
+    const fs::path target = words.size() > 2 ? words[2] : words[1];
+    const fs::path source = beside_command("share/candela/template") / words[0];
+    if (!fs::is_directory(source))
+        throw Error(ExitCode::failure,
+                    fmt::format("the templates are not installed: there is no '{}'", source.string()));
+    if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
+        throw Error(ExitCode::failure, fmt::format("'{}' is already there", target.string()));
+    const auto values = names_of(words[1]);
+    fs::create_directories(target);
+    for (const fs::directory_entry& entry : fs::directory_iterator(source)) {
+        std::ifstream in(entry.path(), std::ios::binary);
+        const std::string text = replaced(std::string(std::istreambuf_iterator<char>(in), {}), values);
+        const fs::path file = target / replaced(entry.path().filename().string(), values);
+        std::ofstream out(file, std::ios::binary);
+        if (!in || !(out << text) || !out.flush())
+            throw Error(ExitCode::failure,
+                        fmt::format("'{}' cannot be written: {}", file.string(), std::strerror(errno)));
+    }
+    std::cout << fmt::format(
+        "Made {0}. Next:\n  cd {0}\n  cmake -G Ninja -B build -DCMAKE_BUILD_TYPE=Release "
+        "-DCMAKE_CXX_COMPILER=clang++-19\n  cmake --build build && ctest --test-dir build\n",
+        target.string());
+    return 0;
+}

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# With an installed Candela alone: a new plugin of each kind is made, built, tested, listed, rendered with, installed and
+# removed.
+#   templates.sh BUILD_DIR SCRATCH_DIR CMAKE CXX      installs the build first
+#   templates.sh --installed PREFIX SCRATCH_DIR CMAKE CXX
+set -euo pipefail
+say() { printf '== %s\n' "$*"; }
+fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
+quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
+
+if [ "$1" = --installed ]; then
+    prefix=$2 scratch=$3 cmake=$4 cxx=$5
+    rm -rf "$scratch"
+    mkdir -p "$scratch"
+else
+    build=$1 scratch=$2 cmake=$3 cxx=$4
+    rm -rf "$scratch"
+    mkdir -p "$scratch"
+    "$cmake" --install "$build" --prefix "$scratch/first" >/dev/null
+    mv "$scratch/first" "$scratch/prefix"
+    prefix=$scratch/prefix
+fi
+export PATH=$prefix/bin:$PATH HOME=$scratch/home XDG_DATA_HOME=$scratch/home/data
+mkdir -p "$HOME"
+cd "$scratch"
+
+for kind in light reflection shading shape; do
+    name=try-$kind
+    say "$kind: new, build, test"
+    quiet candela plugin new "$kind" "$name"
+    quiet "$cmake" -G Ninja -S "$name" -B "$name/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$cxx" \
+        -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_INSTALL_PREFIX="$scratch/installed"
+    quiet "$cmake" --build "$name/build"
+    (cd "$name/build" && quiet "$(dirname "$cmake")/ctest" --output-on-failure)
+    grep -q "$kind/$name conforms .*Passed" "$scratch/log" || { cat "$scratch/log" >&2; fail "$name was not put to the kit"; }
+    [ "$(grep -c Passed "$scratch/log")" -eq 2 ] || { cat "$scratch/log" >&2; fail "$name has not two tests"; }
+
+    say "$kind: list, describe, render, for this user alone"
+    mkdir -p "$XDG_DATA_HOME/candela/plugins"
+    cp "$name/build/$kind-$name".{so,json} "$XDG_DATA_HOME/candela/plugins"
+    candela list "$kind" | grep -q "  $name " || fail "$name is not listed"
+    candela describe "$kind/$name" >/dev/null
+    plugins=$(candela plugin doctor)
+    grep -q "in use: $kind/$name 0.1.0" <<<"$plugins" || fail "the doctor does not know $name"
+    case $kind in
+        # The default cube's size is no parameter of another shape.
+        shape) printf 'version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[[light]]\ntype = "point"\nposition = [2, 2, 3]\n[[object]]\ntype = "%s"\n' "$name" >shape.toml
+               quiet candela render shape.toml --defaults -o "$name.png" ;;
+        light) quiet candela render --set "light.lamp.type=$name" -o "$name.png" ;;
+        *) quiet candela render "--$kind" "$name" -o "$name.png" ;;
+    esac
+    if grep -q warning "$scratch/log"; then cat "$scratch/log" >&2; fail "rendering with $name warns"; fi
+    [ -s "$name.png" ] || fail "no picture"
+
+    say "$kind: uninstall"
+    rm "$XDG_DATA_HOME/candela/plugins/$kind-$name".*
+    if candela describe "$kind/$name" 2>/dev/null; then fail "$name is still there"; fi
+done
+
+say "what goes wrong is said"
+for wrong in 'plugin new reflection Bad_Name' 'plugin new lihgt x' 'plugin new' 'plugin nwe'; do
+    code=0
+    # shellcheck disable=SC2086
+    candela $wrong 2>"$scratch/log" || code=$?
+    [ "$code" -eq 2 ] || fail "exit code $code for candela $wrong"
+done
+code=0
+candela plugin new light try-light 2>"$scratch/log" || code=$?
+{ [ "$code" -eq 1 ] && grep -q 'already there' "$scratch/log"; } || fail "a project was written over"
+code=0
+candela plugin test "$scratch/none.so" 2>"$scratch/log" || code=$?
+[ "$code" -eq 1 ] || fail "exit code $code for a plugin that is not there"
+say "all well"
