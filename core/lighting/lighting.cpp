@@ -3,13 +3,22 @@ module;
 #include "candela/kernel.h"
 #include "candela/multiversion.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 module candela.lighting;
 
+import candela.diagnostics;
 import candela.plugins;
 
 namespace candela {
@@ -74,6 +83,36 @@ struct SumLoop {
     }
 };
 
+/// The largest magnitude among many numbers; what is no finite number counts as larger than all that are.
+/// Without their sign, the bits of floats are integers in the same order, and integers have a maximum that is
+/// vectorised.
+struct LargestLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span v, std::size_t count, std::int32_t* bits) {
+        constexpr std::int32_t k_magnitude = 0x7fff'ffff;
+        std::int32_t largest = *bits;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int32_t x = std::bit_cast<std::int32_t>(v.x[i]) & k_magnitude;
+            const std::int32_t y = std::bit_cast<std::int32_t>(v.y[i]) & k_magnitude;
+            const std::int32_t z = std::bit_cast<std::int32_t>(v.z[i]) & k_magnitude;
+            const std::int32_t xy = x > y ? x : y;
+            const std::int32_t xyz = xy > z ? xy : z;
+            largest = largest > xyz ? largest : xyz;
+        }
+        *bits = largest;
+    }
+};
+
+float largest_of(ConstVec3Span v, std::size_t count) {
+    std::int32_t bits = 0;
+    multiversion<LargestLoop>(v, count, &bits);
+    return std::bit_cast<float>(bits);
+}
+
+/// After the batch arrays' last element, a stretch that nobody may write to.
+constexpr std::size_t k_guard = 16;
+constexpr float k_mark = -1.2345e30f;
+
 void clear(const Vec3Span& span, std::size_t count) {
     for (float* const channel : {span.x, span.y, span.z}) std::fill_n(channel, count, 0.0f);
 }
@@ -97,9 +136,44 @@ PointNeeds SurfaceModels::needs() const {
 
 Lighting::Lighting(std::span<const LitSource> lights, const Camera& camera)
     : lights_(lights), camera_(camera) {
-    for (Vec3Arrays* const arrays : {&normal_, &to_observer_, &tangent_, &to_light_, &light_diffuse_,
-                                     &light_specular_, &ambient_, &diffuse_, &specular_}) {
-        arrays->resize(k_batch_size);
+    for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
+    for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard);
+    mark_ends();
+}
+
+std::vector<Vec3Arrays*> Lighting::written_by_plugins() {
+    return {&normal_, &to_light_, &light_diffuse_, &light_specular_, &ambient_, &diffuse_, &specular_};
+}
+
+void Lighting::mark_ends() {
+    for (Vec3Arrays* const arrays : written_by_plugins()) {
+        for (std::vector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
+            std::fill(array->begin() + k_batch_size, array->end(), k_mark);
+    }
+}
+
+bool Lighting::are_ends_intact() {
+    const auto is_intact = [](const std::vector<float>& array) {
+        return std::all_of(array.begin() + k_batch_size, array.end(), [](float x) { return x == k_mark; });
+    };
+    return std::ranges::all_of(written_by_plugins(), [&](const Vec3Arrays* arrays) {
+        return is_intact(arrays->x) && is_intact(arrays->y) && is_intact(arrays->z);
+    });
+}
+
+void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
+                             std::initializer_list<const Vec3Arrays*> results) {
+    const auto fail = [&](const char* what) {
+        throw Error(ExitCode::failure, fmt::format("plugin {}/{} {}; candela plugin test tells more",
+                                                   name_of(kind), plugin, what));
+    };
+    if (!are_ends_intact()) {
+        mark_ends();
+        fail("writes beyond the batch that it is given");
+    }
+    for (const Vec3Arrays* arrays : results) {
+        if (!std::isfinite(largest_of(arrays->span(), count)))
+            fail("gives a result that is no finite number");
     }
 }
 
@@ -118,9 +192,24 @@ void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& p
     multiversion<FlipLoop>(points.facing.data(), points.count, normal_.span());
 }
 
-void Lighting::light(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& intensity) {
+float Lighting::light(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& intensity) {
+    add_up(surface, points, Scrutiny::none);
+    multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
+                          std::as_const(specular_).span(), points.count, intensity);
+    const float largest = largest_of(ConstVec3Span(intensity), points.count);
+    if (!std::isfinite(largest) || !are_ends_intact()) add_up(surface, points, Scrutiny::each_step);
+    return largest;
+}
+
+void Lighting::add_up(const SurfaceModels& surface, const SurfacePoints& points, Scrutiny scrutiny) {
     const std::size_t count = points.count;
+    const auto look_at = [&](PluginKind kind, const std::string& plugin,
+                             std::initializer_list<const Vec3Arrays*> results) {
+        if (scrutiny == Scrutiny::each_step) require_sound(kind, plugin, count, results);
+    };
+    if (scrutiny == Scrutiny::each_step) mark_ends();
     find_normals(surface, points);
+    look_at(PluginKind::shading, surface.shading_plugin, {&normal_});
     const ConstVec3Span normal = std::as_const(normal_).span();
     multiversion<ToObserverLoop>(camera_, points.position.span(), count, to_observer_.span());
     const bool needs_tangent = surface.reflection->needs_tangent();
@@ -141,20 +230,22 @@ void Lighting::light(const SurfaceModels& surface, const SurfacePoints& points, 
                 source.light->illuminate(sample, receivers,
                                          {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
             });
+            look_at(PluginKind::light, source.plugin, {&to_light_, &light_diffuse_, &light_specular_});
             guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
                 surface.reflection->reflect(
                     batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
             });
+            look_at(PluginKind::reflection, surface.reflection_plugin, {&diffuse_, &specular_});
         }
         if (source.light->has_ambient()) {
             guarded(PluginKind::light, source.plugin,
                     [&] { source.light->illuminate_ambient(receivers, light_diffuse_.span()); });
+            look_at(PluginKind::light, source.plugin, {&light_diffuse_});
             guarded(PluginKind::reflection, surface.reflection_plugin,
                     [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
+            look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
         }
     }
-    multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
-                          std::as_const(specular_).span(), count, intensity);
 }
 
 }  // namespace candela

@@ -4,6 +4,8 @@ module;
 
 #include "candela/api.h"
 
+#include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,11 +46,20 @@ class CANDELA_API Lighting {
     Lighting(std::span<const LitSource> lights, const Camera& camera);
 
     /// Writes the intensity that `points` send to the observer: I_a + sum of I_d + I_s over the lights (CA
-    /// DD6). Throws Error where a plugin throws.
-    void light(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& intensity);
+    /// DD6). Returns the largest of them. Throws Error, naming the plugin, where one throws, gives what is no
+    /// finite number, or writes beyond its batch.
+    float light(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& intensity);
 
   private:
+    /// Looks at what each plugin gave right after its turn, instead of once at the end.
+    enum class Scrutiny : bool { none, each_step };
+    void add_up(const SurfaceModels& surface, const SurfacePoints& points, Scrutiny scrutiny);
     void find_normals(const SurfaceModels& surface, const SurfacePoints& points);
+    std::vector<Vec3Arrays*> written_by_plugins();
+    void mark_ends();
+    bool are_ends_intact();
+    void require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
+                       std::initializer_list<const Vec3Arrays*> results);
 
     std::span<const LitSource> lights_;
     Camera camera_;

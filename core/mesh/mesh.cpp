@@ -172,7 +172,11 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
         std::iota(group.begin(), group.end(), 0u);
     }
     Vec3Arrays normal;
-    normal.resize(mesh.vertex_count());
+    constexpr std::size_t k_guard = 16;
+    constexpr float k_mark = -1.2345e30f;
+    normal.resize(mesh.vertex_count() + k_guard);
+    for (std::size_t i = 0; i < k_guard; ++i)
+        normal.span().set(mesh.vertex_count() + i, {k_mark, k_mark, k_mark});
     const MeshView view{.position = std::as_const(mesh.position).span(),
                         .corners = mesh.corners,
                         .face_normal = std::as_const(mesh.face_normal).span(),
@@ -183,9 +187,17 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
                                                ? ConstVec3Span{}
                                                : std::as_const(placed.authored_normal).span()};
     shading.vertex_normals(view, normal.span());
+    for (std::size_t i = 0; i < k_guard; ++i) {
+        if (normal.span()[mesh.vertex_count() + i] != Vec3{k_mark, k_mark, k_mark})
+            throw std::invalid_argument("it writes more vertex normals than there are vertices");
+    }
     mesh.vertex_normal.resize(mesh.vertex_count());
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        mesh.vertex_normal.span().set(i, std::as_const(normal).span()[group[i]]);
+        const Vec3 n = std::as_const(normal).span()[group[i]];
+        if (!std::isfinite(n.x + n.y + n.z))
+            throw std::invalid_argument(
+                fmt::format("the normal that it gives vertex {} is no finite number", i));
+        mesh.vertex_normal.span().set(i, n);
     }
 }
 

@@ -1,0 +1,129 @@
+// The renderer survives what a host can: a plugin's fault is an error that names the plugin, and no picture
+// is left.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Survived {
+    std::vector<std::string> use;
+    const char* message;
+};
+
+CommandResult rendered(const std::vector<std::string>& use, const fs::path& picture) {
+    std::vector<std::string> words{"render", "--plugin-dir", CANDELA_TEST_MUSEUM, "-o", picture.string()};
+    words.insert(words.end(), use.begin(), use.end());
+    return run_candela(words);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "what plugins throw, write where they may not, or give that is no number, ends in an error that names "
+    "them") {
+    const fs::path picture = scratch_directory() / "a.png";
+    const std::vector<Survived> faults = {
+        {{"--reflection=throws-on-create"},
+         "object 'cube': plugin reflection/throws-on-create: out of paint"},
+        {{"--reflection=throws-a-number"},
+         "plugin reflection/throws-a-number threw something that is no std::exception"},
+        {{"--reflection=not-a-number", "--set", "light.lamp.position=[0, -0.9, -4]"},
+         "plugin reflection/not-a-number gives a result that is no finite number"},
+    };
+    for (const Survived& fault : faults) {
+        const CommandResult result = rendered(fault.use, picture);
+        INFO(fault.use.front() << "\n" << result.err);
+        CHECK(result.err.find(fault.message) != std::string::npos);
+        CHECK(result.exit_code == 1);
+        CHECK_FALSE(fs::exists(picture));
+    }
+    const fs::path scene = write_file(scratch_directory() / "ambient.toml",
+                                      "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+                                      "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n");
+    const CommandResult ambient =
+        rendered({scene.string(), "--shading=flat", "--reflection=throws-in-ambient"}, picture);
+    INFO(ambient.err);
+    CHECK(ambient.exit_code == 1);
+    CHECK(ambient.err.find("plugin reflection/throws-in-ambient: no ambience") != std::string::npos);
+}
+
+TEST_CASE("a plugin that writes past its batch, wherever that ends, is found or harmless; it never crashes") {
+    const fs::path directory = scratch_directory();
+    for (const char* const size : {"16", "64", "300"}) {
+        const fs::path picture = directory / "a.png";
+        const CommandResult result =
+            rendered({"--reflection=writes-past-the-end", "--width", size, "--height", size}, picture);
+        INFO(size << "\n" << result.err);
+        CHECK((result.exit_code == 0 || result.exit_code == 1));
+        if (result.exit_code == 1)
+            CHECK(result.err.find("plugin reflection/writes-past-the-end writes beyond the batch") !=
+                  std::string::npos);
+    }
+    // 512 pixels a side fill whole batches: there it is found.
+    CHECK(rendered({"--reflection=writes-past-the-end"}, directory / "b.png").exit_code == 1);
+}
+
+TEST_CASE("listing, checking and using other plugins never loads one that traps") {
+    CHECK(run_candela({"list", "--plugin-dir", CANDELA_TEST_MUSEUM}).exit_code == 0);
+    CHECK(run_candela({"describe", "reflection/traps-on-load", "--plugin-dir", CANDELA_TEST_MUSEUM})
+              .exit_code == 0);
+    CHECK(rendered({}, scratch_directory() / "a.png").exit_code == 0);
+}
+
+TEST_CASE("the doctor survives a plugin that traps, and names what is wrong with each") {
+    const fs::path directory = scratch_directory();
+    for (const char* const name : {"reflection-traps-on-load", "reflection-faultless"}) {
+        for (const char* const extension : {".so", ".json"}) {
+            const std::string file = std::string(name) + extension;
+            fs::copy_file(fs::path(CANDELA_TEST_MUSEUM) / file, directory / file);
+        }
+    }
+    write_file(directory / "light-text.so", "no library");
+    write_file(directory / "shape-alone.json", "{}");
+    fs::create_directory(directory / "second");
+    for (const char* const file : {"reflection-faultless.so", "reflection-faultless.json"})
+        fs::copy_file(fs::path(CANDELA_TEST_MUSEUM) / file, directory / "second" / file);
+    const CommandResult result =
+        run_candela({"plugin", "doctor", "--plugin-dir", directory.string(), "--plugin-dir",
+                     (directory / "second").string(), "--plugin-dir", directory.string()});
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 1);
+    for (const char* const part :
+         {"reflection-traps-on-load.so    refused: loading it ends the process with signal",
+          "in use: reflection/faultless 1.0.0", "hidden by",
+          "light-text.so                  refused: its manifest light-text.json is not beside it",
+          "shape-alone.so                 refused: its manifest is there, the library is not",
+          "in use: light/point"}) {
+        INFO(part);
+        CHECK(result.out.find(part) != std::string::npos);
+    }
+}
+
+TEST_CASE("plugins that every user can change are refused, unless one says otherwise") {
+    const fs::path directory = scratch_directory();
+    for (const char* const file : {"reflection-faultless.so", "reflection-faultless.json"})
+        fs::copy_file(fs::path(CANDELA_TEST_MUSEUM) / file, directory / file);
+    const std::vector<std::string> words{"describe", "reflection/faultless", "--plugin-dir",
+                                         directory.string()};
+    CHECK(run_candela(words).exit_code == 0);
+    const auto refused = [&] {
+        const CommandResult result = run_candela(words);
+        CHECK(result.err.find("can be written to by every user, so that anybody's code could run here") !=
+              std::string::npos);
+        CHECK(result.exit_code == 1);
+        std::vector<std::string> trusting = words;
+        trusting.emplace_back("--allow-untrusted-plugins");
+        CHECK(run_candela(trusting).exit_code == 0);
+    };
+    fs::permissions(directory / "reflection-faultless.so", fs::perms::others_write, fs::perm_options::add);
+    refused();
+    fs::permissions(directory / "reflection-faultless.so", fs::perms::others_write, fs::perm_options::remove);
+    fs::permissions(directory, fs::perms::others_write, fs::perm_options::add);
+    refused();
+}
