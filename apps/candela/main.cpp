@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "signals.h"
 #include "terminal.h"
 #include "verbs.h"
 
@@ -92,6 +93,7 @@ int fail(ExitCode code, const std::string& message) {
 std::span<const Verb> verbs() { return k_verbs; }
 
 int main(int argc, char** argv) {
+    prepare_for_signals();
     try {
         const int code = run({argv + 1, argv + argc});
         std::cout.flush();
