@@ -21,6 +21,7 @@ using candela::Error;
 using candela::ExitCode;
 
 constexpr std::array k_verbs = {
+    Verb{"new", "write a scene to begin with", run_new},
     Verb{"render", "render a scene to a picture", run_render},
     Verb{"check", "read a scene and say what is wrong with it", run_check},
     Verb{"list", "list the installed plugins", run_list},
@@ -35,7 +36,8 @@ std::string help() {
     text +=
         "\n  candela VERB --help   the arguments of a verb\n"
         "  candela --version     the version\n\n"
-        "Try: candela render            the default scene, to candela.png\n";
+        "Try: candela new               a scene to begin with, to scene.toml\n"
+        "     candela render            the default scene, to candela.png\n";
     return text;
 }
 
