@@ -18,7 +18,11 @@ int run_check(const std::vector<std::string>& arguments) {
 
     candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
-    const auto scene = candela::read_scene(scene_request_from(line), registry, diagnostics);
+    candela::SceneRequest request = scene_request_from(line);
+    // A check says the same wherever it runs, and never waits: where `render` would ask, it says what is
+    // missing.
+    request.ask = nullptr;
+    const auto scene = candela::read_scene(request, registry, diagnostics);
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!scene) return static_cast<int>(diagnostics.exit_code());
     const auto count = [](std::size_t n, const char* what) {

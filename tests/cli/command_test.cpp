@@ -11,14 +11,11 @@ namespace {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string scene_without_models() {
+std::string scene() {
     return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight "
            "= 16\n"
-           "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"box\"\ntype = \"cube\"\n";
-}
-
-std::string scene() {
-    return scene_without_models() + "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
+           "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"box\"\ntype = \"cube\"\n"
+           "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
 }
 
 constexpr const char* k_png_signature = "\x89PNG\r\n\x1a\n";
@@ -163,23 +160,6 @@ TEST_CASE("the old picture keeps its place and its rights until the new one is w
     CHECK(read_file(file).starts_with(k_png_signature));
     CHECK(fs::status(file).permissions() == fs::perms::owner_all);
     CHECK(std::distance(fs::directory_iterator(directory), {}) == 2);
-}
-
-TEST_CASE("R13: nobody to ask is an error that names --defaults; a terminal is asked") {
-    const fs::path directory = scratch_directory();
-    const std::string file = write_file(directory / "scene.toml", scene_without_models()).string();
-    const std::string picture = (directory / "a.png").string();
-    const CommandResult nobody =
-        run_candela({"render", file, "-o", picture}, {.input = "y\n", .environment = {}, .directory = {}});
-    CHECK(nobody.exit_code == 3);
-    CHECK(holds(nobody.err, "--defaults"));
-    CHECK(run_candela({"render", file, "-o", picture, "--defaults"}).exit_code == 0);
-
-    const CommandResult yes = run_candela_on_terminal({"render", file, "-o", picture}, "\n");
-    CHECK(holds(yes.out, "Use phong shading and phong reflection? [Y/n]"));
-    CHECK(yes.exit_code == 0);
-    CHECK(run_candela_on_terminal({"render", file, "-o", picture}, "what\nn\n").exit_code == 3);
-    CHECK(run_candela_on_terminal({"render", file, "-o", picture}, "\x04").exit_code == 3);
 }
 
 TEST_CASE("colour is for terminals, unless NO_COLOR says otherwise") {

@@ -1,5 +1,6 @@
 // candela new: a scene to begin with.
 #include <catch2/catch_test_macros.hpp>
+#include <cstddef>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -40,12 +41,13 @@ TEST_CASE("the picture of the new scene shows lit things of several colours") {
     const CommandResult render = run_candela({"render", "mine.toml", "-o", "a.ppm"}, in(directory));
     INFO(render.err);
     REQUIRE(render.exit_code == 0);
+    constexpr std::size_t k_pixels = std::size_t{800} * 500;
     const std::string header = "P6\n800 500\n255\n";
     const std::string picture = read_file(directory / "a.ppm");
     REQUIRE(picture.starts_with(header));
-    REQUIRE(picture.size() == header.size() + 800 * 500 * 3);
+    REQUIRE(picture.size() == header.size() + 3 * k_pixels);
     std::set<std::string> colors;
-    int background = 0, red = 0, bright = 0;
+    std::size_t background = 0, red = 0, bright = 0;
     for (std::size_t i = header.size(); i < picture.size(); i += 3) {
         const std::string pixel = picture.substr(i, 3);
         const auto r = static_cast<unsigned char>(pixel[0]), g = static_cast<unsigned char>(pixel[1]),
@@ -55,7 +57,6 @@ TEST_CASE("the picture of the new scene shows lit things of several colours") {
         red += r > 2 * g && r > 2 * b && r > 100 ? 1 : 0;
         bright += r > 200 && g > 150 ? 1 : 0;
     }
-    constexpr int k_pixels = 800 * 500;
     CHECK(colors.size() > 1000);
     CHECK(background > k_pixels / 10);
     CHECK(background < k_pixels * 9 / 10);

@@ -1,7 +1,6 @@
 #include "support/command.h"
 
 #include <fcntl.h>
-#include <pty.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -46,9 +45,12 @@ CommandResult run_candela(const std::vector<std::string>& arguments, const Comma
     return run_program(words, setup);
 }
 
-namespace {
+int exit_code_of(pid_t child) {
+    int status = 0;
+    if (::waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for a child");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
 
-/// Becomes the program; only called in a child.
 [[noreturn]] void become(const std::vector<std::string>& words, const CommandSetup& setup) {
     if (!setup.directory.empty() && ::chdir(setup.directory.c_str()) != 0) ::_exit(126);
     for (const auto& [name, value] : setup.environment) ::setenv(name.c_str(), value.c_str(), 1);
@@ -58,36 +60,6 @@ namespace {
     if (setup.prepare) setup.prepare();
     ::execvp(argv[0], argv.data());
     ::_exit(127);
-}
-
-int exit_code_of(pid_t child) {
-    int status = 0;
-    if (::waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for a child");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-}  // namespace
-
-CommandResult run_candela_on_terminal(const std::vector<std::string>& arguments, const std::string& typed,
-                                      const CommandSetup& setup) {
-    std::vector<std::string> words = {CANDELA_TEST_COMMAND};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    int terminal = -1;
-    const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
-    if (child < 0) throw std::runtime_error("cannot make a terminal");
-    if (child == 0) become(words, setup);
-    if (::write(terminal, typed.data(), typed.size()) != static_cast<ssize_t>(typed.size())) {
-        throw std::runtime_error("cannot type");
-    }
-    CommandResult result;
-    char buffer[4096];
-    // Reading fails once the child's end is closed.
-    for (ssize_t count = 0; (count = ::read(terminal, buffer, sizeof buffer)) > 0;) {
-        result.out.append(buffer, static_cast<std::size_t>(count));
-    }
-    ::close(terminal);
-    result.exit_code = exit_code_of(child);
-    return result;
 }
 
 RunningProgram::RunningProgram(const std::vector<std::string>& words, const CommandSetup& setup) {

@@ -50,10 +50,33 @@ class RunningProgram {
     std::string in_, out_, err_;  // files
 };
 
-/// Runs `candela arguments…` on a terminal of its own, types `typed`, and returns what the terminal showed
-/// (as `out`).
+/// Which of a program's streams are the terminal; the others are a file, as with run_candela().
+struct OnTerminal {
+    bool in = true;
+    bool out = true;
+    bool err = true;
+};
+
+/// What a person waits for on the terminal, and types then.
+struct Exchange {
+    std::string wait_for;
+    std::string typed;  // "\x03" is Ctrl-C, "\x04" Ctrl-D
+};
+
+/// Runs `candela arguments…` on a terminal of its own, and returns what the terminal showed as `out`, with
+/// what else stdout got; `err` is stderr where that is no terminal. Throws where what is waited for does not
+/// come.
+CommandResult talk_to_candela(const std::vector<std::string>& arguments, const std::vector<Exchange>& talk,
+                              const CommandSetup& setup = {}, OnTerminal streams = {});
+
+/// Likewise, all typed at once.
 CommandResult run_candela_on_terminal(const std::vector<std::string>& arguments, const std::string& typed,
                                       const CommandSetup& setup = {});
+
+/// For a child: becomes the program.
+[[noreturn]] void become(const std::vector<std::string>& words, const CommandSetup& setup);
+/// Waits for a child; 128 + signal where a signal ended it.
+int exit_code_of(pid_t child);
 
 /// A new, empty directory of the running test; it stays for inspection until the same test runs again.
 std::filesystem::path scratch_directory();
