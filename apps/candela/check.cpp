@@ -12,6 +12,7 @@ int run_check(const std::vector<std::string>& arguments) {
         "candela check SCENE... [options]",
         "Reads a scene, or several files that together are one, and says all that is wrong with it.");
     add_scene_options(line);
+    line.options()("print", "print the scene as one file: includes, --set and all defaults put in");
     if (!line.parse(arguments)) return 0;
     if (!line.has("scene"))
         throw candela::Error(candela::ExitCode::usage, "candela check needs a scene file");
@@ -25,6 +26,10 @@ int run_check(const std::vector<std::string>& arguments) {
     const auto scene = candela::read_scene(request, registry, diagnostics);
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!scene) return static_cast<int>(diagnostics.exit_code());
+    if (line.has("print")) {
+        std::cout << candela::scene_text(*scene);
+        return 0;
+    }
     const auto count = [](std::size_t n, const char* what) {
         return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };

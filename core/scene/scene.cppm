@@ -29,6 +29,8 @@ struct Room {
     float height = 10;
     float width = 10;
     float depth = 10;
+
+    friend bool operator==(const Room&, const Room&) = default;
 };
 
 struct Observer {
@@ -37,7 +39,9 @@ struct Observer {
     Vec3 up{0, 1, 0};
     Projection projection = Projection::perspective;
     float fov = 40;    // perspective: full vertical angle, degrees
-    float height = 0;  // orthographic: metres that fit the picture's height
+    float height = 4;  // orthographic: metres that fit the picture's height
+
+    friend bool operator==(const Observer&, const Observer&) = default;
 };
 
 struct ImageSettings {
@@ -46,18 +50,27 @@ struct ImageSettings {
     int samples = 1;
     Vec3 background;  // 0-255
     ColorEncoding color_management = ColorEncoding::srgb;
+
+    friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
 
 /// A plugin, and values for its parameters.
 struct Model {
     std::string name;
     ParamSet parameters;
+
+    friend bool operator==(const Model&, const Model&) = default;
 };
 
 struct LightSource {
     std::string label;  // 'lamp', as the scene's author calls it, or number 2
     Model model;
     SourcePlace place;
+
+    /// Wherever they stand in their files.
+    friend inline bool operator==(const LightSource& a, const LightSource& b) {
+        return a.label == b.label && a.model == b.model;
+    }
 };
 
 struct Object {
@@ -68,6 +81,12 @@ struct Object {
     Model shading;
     Model reflection;
     SourcePlace place;
+
+    /// Wherever they stand in their files.
+    friend inline bool operator==(const Object& a, const Object& b) {
+        return a.label == b.label && a.shape == b.shape && a.placement == b.placement && a.color == b.color &&
+               a.shading == b.shading && a.reflection == b.reflection;
+    }
 };
 
 /// Every value has been checked; every plugin named is installed (none is loaded).
@@ -77,6 +96,8 @@ struct Scene {
     ImageSettings image;
     std::vector<LightSource> lights;
     std::vector<Object> objects;
+
+    friend bool operator==(const Scene&, const Scene&) = default;
 };
 
 /// A value given on the command line: it goes before what the files say.
@@ -99,6 +120,12 @@ struct SceneRequest {
 /// found.
 CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
                                             Diagnostics& diagnostics);
+
+/// A scene as one file; read again, it is the same scene. All that a scene holds is said, defaults too, and
+/// the paths of files are absolute. Throws Error (failure) where the format has no words for a scene that no
+/// file has brought about: texts that are not UTF-8, colours between whole numbers, labels that are no names
+/// in quotes, parameters of shading models that differ from object to object.
+CANDELA_API std::string scene_text(const Scene& scene);
 
 /// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection
 /// (R12, R14).

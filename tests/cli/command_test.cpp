@@ -126,6 +126,42 @@ TEST_CASE("check says that a valid scene is valid, on standard output") {
     CHECK(result.err.empty());
 }
 
+TEST_CASE("check --print prints what was read as one file, which is the same scene") {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "parts" / "lights.toml",
+               "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [1, 1, 3]\n");
+    write_file(directory / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string file = write_file(directory / "scene.toml",
+                                        "include = [\"parts/lights.toml\"]\nversion = "
+                                        "1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
+                                        "0]\n[image]\nwidth = 32\nheight = 32\n[[object]]\ntype = "
+                                        "\"cube\"\n[[object]]\ntype = \"mesh\"\nfile = "
+                                        "\"mesh.obj\"\n")
+                                 .string();
+    const std::vector<std::string> more = {"--defaults", "--set", "light.lamp.intensity=7", "--reflection",
+                                           "lambert"};
+    const auto with_more = [&](std::vector<std::string> words) {
+        words.insert(words.end(), more.begin(), more.end());
+        return run_candela(words);
+    };
+    const CommandResult printed = with_more({"check", file, "--print"});
+    INFO(printed.err << printed.out);
+    REQUIRE(printed.exit_code == 0);
+    CHECK(printed.out.starts_with("version = 1\n"));
+    CHECK_FALSE(holds(printed.out, "include"));
+    CHECK(holds(printed.out, "intensity          = 7.0\n"));
+    CHECK(holds(printed.out, "[shading]\nmodel = \"phong\"\n\n[reflection]\nmodel = \"lambert\"\n"));
+    CHECK(holds(printed.out, "\"" + (directory / "mesh.obj").string() + "\""));
+
+    // From another directory, and with nothing else said.
+    const std::string copy = write_file(directory / "elsewhere" / "copy.toml", printed.out).string();
+    REQUIRE(with_more({"render", file, "-o", (directory / "a.ppm").string()}).exit_code == 0);
+    REQUIRE(run_candela({"render", copy, "-o", (directory / "b.ppm").string()}).exit_code == 0);
+    CHECK((read_file(directory / "a.ppm") == read_file(directory / "b.ppm")));
+    CHECK(run_candela({"check", copy, "--print"}).out == printed.out);
+    CHECK(run_candela({"check", file, "--print"}).out.empty());  // no model
+}
+
 TEST_CASE("a picture that cannot be is an error before anything is rendered, and after") {
     const fs::path directory = scratch_directory();
     const CommandResult format = run_candela({"render", "-o", (directory / "a.pgn").string()});
