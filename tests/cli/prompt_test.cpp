@@ -206,8 +206,8 @@ TEST_CASE("a long render shows its progress on a terminal, and nowhere else") {
     std::string text = scene(
         "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\ntype = \"sphere\"\n");
     for (int i = 0; i < 500; ++i) {
-        text +=
-            fmt::format("[[light]]\ntype = \"point\"\nposition = [{}, 4, {}]\n", -4 + 0.016 * i, 4 - 0.008 * i);
+        text += fmt::format("[[light]]\ntype = \"point\"\nposition = [{}, 4, {}]\n", -4 + 0.016 * i,
+                            4 - 0.008 * i);
     }
     const Files files(text);
     const std::vector<std::string> words =
