@@ -2,10 +2,12 @@
 // instead.
 export module candela.core;
 
+export import candela.constraints;
 export import candela.diagnostics;
 export import candela.files;
 export import candela.film;
 export import candela.fragments;
+export import candela.geometry;
 export import candela.image;
 export import candela.light;
 export import candela.lighting;

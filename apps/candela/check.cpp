@@ -1,40 +1,133 @@
-// candela check: what is wrong with a scene.
+// candela check: what is wrong with a scene, and what was read.
 #include <fmt/format.h>
 
 #include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "command_line.h"
 #include "terminal.h"
 #include "verbs.h"
 
+using candela::CompiledScene;
+using candela::Diagnostics;
+using candela::Scene;
+
+namespace {
+
+std::string count(std::size_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// "2 point, 1 ambient"
+template <class Items, class NameOf>
+std::string tally(const Items& items, NameOf name_of) {
+    std::map<std::string, std::size_t> times;
+    for (const auto& item : items) ++times[name_of(item)];
+    std::string result;
+    for (const auto& [name, n] : times) result += fmt::format("{}{} {}", result.empty() ? "" : ", ", n, name);
+    return result;
+}
+
+std::string in_parentheses(const std::string& text) { return text.empty() ? "" : " (" + text + ")"; }
+
+std::size_t triangles_of(const CompiledScene& compiled) {
+    std::size_t all = 0;
+    for (const candela::SolidObject& object : compiled.objects) all += object.mesh.triangle_count();
+    return all;
+}
+
+void print_summary(const Scene& scene, const CompiledScene& compiled) {
+    const candela::Room& room = scene.room;
+    std::cout << "The scene is valid.\n"
+              << fmt::format("  room      {} m wide, {} m high, {} m deep\n", room.width, room.height,
+                             room.depth)
+              << fmt::format("  picture   {} x {} pixels, {} a pixel\n", scene.image.width,
+                             scene.image.height,
+                             count(static_cast<std::size_t>(scene.image.samples), "sample"))
+              << fmt::format("  lights    {}{}\n", scene.lights.size(),
+                             in_parentheses(tally(scene.lights, [](const auto& l) { return l.model.name; })))
+              << fmt::format("  objects   {}, {}\n", scene.objects.size(),
+                             count(triangles_of(compiled), "triangle"));
+    constexpr std::size_t k_most_lines = 50;
+    for (std::size_t i = 0; i < std::min(scene.objects.size(), k_most_lines); ++i) {
+        const candela::Object& object = scene.objects[i];
+        std::cout << fmt::format("    {:<12} {}, {}, {} shading, {} reflection\n", object.label,
+                                 object.shape.name,
+                                 count(compiled.objects[i].mesh.triangle_count(), "triangle"),
+                                 object.shading.name, object.reflection.name);
+    }
+    if (scene.objects.size() > k_most_lines) {
+        const auto rest = std::vector(scene.objects.begin() + k_most_lines, scene.objects.end());
+        std::cout << fmt::format("    and {} more{}\n", rest.size(),
+                                 in_parentheses(tally(rest, [](const auto& o) { return o.shape.name; })));
+    }
+}
+
+void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene,
+                const Diagnostics& diagnostics) {
+    using Json = nlohmann::ordered_json;
+    Json result = {{"valid", compiled.has_value()}, {"diagnostics", Json::parse(diagnostics.json())}};
+    if (compiled) {
+        Json objects = Json::array();
+        for (std::size_t i = 0; i < scene->objects.size(); ++i) {
+            const candela::Object& object = scene->objects[i];
+            objects.push_back({{"label", object.label},
+                               {"type", object.shape.name},
+                               {"triangles", compiled->objects[i].mesh.triangle_count()},
+                               {"closed", compiled->objects[i].mesh.closed},
+                               {"shading", object.shading.name},
+                               {"reflection", object.reflection.name}});
+        }
+        Json lights = Json::array();
+        for (const candela::LightSource& light : scene->lights)
+            lights.push_back({{"label", light.label}, {"type", light.model.name}});
+        result["scene"] = {{"width", scene->image.width},
+                           {"height", scene->image.height},
+                           {"samples", scene->image.samples},
+                           {"lights", std::move(lights)},
+                           {"objects", std::move(objects)}};
+    }
+    std::cout << result.dump(2) << '\n';
+}
+
+}  // namespace
+
 int run_check(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela check SCENE... [options]",
-        "Reads a scene, or several files that together are one, and says all that is wrong with it.");
+        "Reads a scene, or several files that together are one, and says all that is wrong with it, or what\n"
+        "was read.");
     add_scene_options(line);
-    line.options()("print", "print the scene as one file: includes, --set and all defaults put in");
+    line.options()("json", "the diagnostics and the summary as JSON, on standard output")(
+        "print", "print the scene as one file: includes, --set and all defaults put in");
     if (!line.parse(arguments)) return 0;
+    if (line.has("json") && line.has("print"))
+        throw candela::Error(candela::ExitCode::usage,
+                             "--json and --print both want standard output; choose one");
     if (!line.has("scene"))
         throw candela::Error(candela::ExitCode::usage, "candela check needs a scene file");
 
     candela::Registry registry = registry_from(line);
-    candela::Diagnostics diagnostics;
+    Diagnostics diagnostics;
     candela::SceneRequest request = scene_request_from(line);
     // A check says the same wherever it runs, and never waits: where `render` would ask, it says what is
     // missing.
     request.ask = nullptr;
-    const auto scene = candela::read_scene(request, registry, diagnostics);
-    std::cerr << diagnostics.text(stderr_takes_color());
-    if (!scene) return static_cast<int>(diagnostics.exit_code());
-    if (line.has("print")) {
-        std::cout << candela::scene_text(*scene);
-        return 0;
+    const auto draft = candela::draft_scene(request, registry, diagnostics);
+    const auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
+    if (line.has("json")) {
+        print_json(compiled, draft ? &draft->scene : nullptr, diagnostics);
+    } else {
+        std::cerr << diagnostics.text(stderr_takes_color());
+        if (compiled && line.has("print")) {
+            std::cout << candela::scene_text(draft->scene);
+        } else if (compiled) {
+            print_summary(draft->scene, *compiled);
+        }
     }
-    const auto count = [](std::size_t n, const char* what) {
-        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-    };
-    std::cout << fmt::format("The scene is valid: {}, {}, {} x {} pixels.\n",
-                             count(scene->lights.size(), "light"), count(scene->objects.size(), "object"),
-                             scene->image.width, scene->image.height);
-    return 0;
+    return static_cast<int>(diagnostics.exit_code());
 }

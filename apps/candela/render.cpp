@@ -63,15 +63,16 @@ int run_render(const std::vector<std::string>& arguments) {
     const candela::PictureFormat format = candela::format_of(output, registry);
 
     candela::Diagnostics diagnostics;
-    const auto scene = candela::read_scene(scene_request_from(line), registry, diagnostics);
+    const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
     const double read_ms = milliseconds_since(begin);
     const auto compile_begin = Clock::now();
-    const auto compiled = scene ? candela::compile(*scene, registry, diagnostics) : std::nullopt;
+    const auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
     const double compile_ms = milliseconds_since(compile_begin);
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!compiled) return static_cast<int>(diagnostics.exit_code());
 
-    candela::Film film(scene->image.width, scene->image.height, format.pixels, scene->image.color_management);
+    const candela::ImageSettings& image = compiled->image;
+    candela::Film film(image.width, image.height, format.pixels, image.color_management);
     candela::RenderStatistics statistics;
     {
         ProgressBar bar("rendering");
@@ -80,6 +81,9 @@ int run_render(const std::vector<std::string>& arguments) {
             .progress = [&](std::size_t done, std::size_t all) { bar.update(done, all); }};
         statistics = candela::render(*compiled, film, options);
     }
+    const std::string darkness = candela::why_black(*compiled, film, statistics);
+    if (!darkness.empty())
+        std::cerr << fmt::format("candela: warning: nothing in the picture is lit: {}\n", darkness);
     const auto write_begin = Clock::now();
     candela::write_picture(film, format, output, registry);
     const double write_ms = milliseconds_since(write_begin);

@@ -21,11 +21,13 @@ Error::~Error() = default;
 void Diagnostics::error(SourcePlace place, std::string message, std::string hint) {
     all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint)});
     exit_code_ = ExitCode::invalid_scene;
+    ++errors_;
 }
 
 void Diagnostics::failure(SourcePlace place, std::string message, std::string hint) {
     all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint)});
     if (exit_code_ == ExitCode::ok) exit_code_ = ExitCode::failure;
+    ++errors_;
 }
 
 void Diagnostics::warning(SourcePlace place, std::string message, std::string hint) {

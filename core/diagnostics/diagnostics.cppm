@@ -61,7 +61,8 @@ class CANDELA_API Diagnostics {
     /// Keeps a file's text, so that the offending line can be shown.
     void remember_source(const std::string& file, std::string text);
 
-    bool has_errors() const noexcept { return exit_code_ != ExitCode::ok; }
+    bool has_errors() const noexcept { return errors_ > 0; }
+    std::size_t error_count() const noexcept { return errors_; }
     /// `invalid_scene` where the scene is wrong; else `failure` where something failed; else `ok`.
     ExitCode exit_code() const noexcept { return exit_code_; }
     /// Sorted by file (in the order in which the files were read), line and column.
@@ -83,6 +84,7 @@ class CANDELA_API Diagnostics {
     std::vector<std::string> files_;  // in reading order
     std::map<std::string, std::string, std::less<>> sources_;
     ExitCode exit_code_ = ExitCode::ok;
+    std::size_t errors_ = 0;
 };
 
 /// The candidate that `name` was most likely meant to be, if one is near enough: at most a third of its

@@ -99,7 +99,8 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     };
     std::error_code problem;
     const fs::file_status status = fs::status(file, problem);
-    if (status.type() == fs::file_type::not_found) return fail("there is no such file");
+    if (status.type() == fs::file_type::not_found)
+        return fail("there is no such file", file_suggestion(file));
     if (status.type() == fs::file_type::none)
         return fail(fmt::format("it cannot be looked at: {}", problem.message()));
     if (status.type() == fs::file_type::directory) return fail("this is a directory; a scene is a file");
@@ -115,7 +116,8 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     std::string text{std::istreambuf_iterator<char>(in), {}};
     if (in.bad()) return fail(fmt::format("the file cannot be read: {}", std::strerror(errno)));
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");
-    if (text.find('\0') != std::string::npos) return no_scene("this is a binary file; a scene is text (TOML)");
+    if (text.find('\0') != std::string::npos)
+        return no_scene("this is a binary file; a scene is text (TOML)");
     return text;
 }
 

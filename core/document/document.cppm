@@ -58,6 +58,9 @@ CANDELA_API std::string description(const Node& node);
 CANDELA_API std::optional<TableNode> read_document(const std::filesystem::path& file,
                                                    const std::string& shown_name, Diagnostics& diagnostics);
 
+/// "did you mean 'scene.toml'?", from what lies where `missing` does not; or empty.
+CANDELA_API std::string file_suggestion(const std::filesystem::path& missing);
+
 /// Parses a text.
 CANDELA_API std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
                                                     Diagnostics& diagnostics);

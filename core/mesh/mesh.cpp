@@ -15,6 +15,8 @@ module;
 
 module candela.mesh;
 
+import candela.geometry;
+
 namespace candela {
 
 namespace {
@@ -93,6 +95,15 @@ Eigen::Matrix3f linear_part(const Placement& placement) {
     return rotation * Eigen::Vector3f(placement.scale.x, placement.scale.y, placement.scale.z).asDiagonal();
 }
 
+void check_finite(const Mesh& mesh) {
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        const Vec3 p = mesh.position.span()[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            throw std::invalid_argument(fmt::format("the position of vertex {} is not a finite number", i));
+        }
+    }
+}
+
 void check(const Collector& collected) {
     const Mesh& mesh = collected.mesh;
     if (mesh.corners.empty()) throw std::invalid_argument("the mesh has no triangles");
@@ -103,12 +114,7 @@ void check(const Collector& collected) {
                             mesh.vertex_count()));
         }
     }
-    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        const Vec3 p = mesh.position.span()[i];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-            throw std::invalid_argument(fmt::format("the position of vertex {} is not a finite number", i));
-        }
-    }
+    check_finite(mesh);
     for (const std::uint32_t group : collected.smooth_group) {
         if (group >= mesh.vertex_count()) {
             throw std::invalid_argument(
@@ -137,15 +143,7 @@ void make_face_normals(Mesh& mesh) {
 /// How many edges do not lie between two triangles that agree on what is outside. Vertices at one place count
 /// as one.
 std::size_t count_open_edges(const Mesh& mesh) {
-    std::vector<std::uint32_t> order(mesh.vertex_count());
-    std::iota(order.begin(), order.end(), 0u);
-    const ConstVec3Span position = mesh.position.span();
-    const auto key = [&](std::uint32_t i) { return std::array{position.x[i], position.y[i], position.z[i]}; };
-    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    std::vector<std::uint32_t> place(mesh.vertex_count());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
-    }
+    const std::vector<std::uint32_t> place = welded(mesh.position.span(), mesh.vertex_count());
     // Each edge once a triangle, with +1 or -1 for its direction: the sum over a closed surface is zero.
     std::vector<std::pair<std::uint64_t, int>> edges;
     edges.reserve(mesh.corners.size());
@@ -166,8 +164,9 @@ std::size_t count_open_edges(const Mesh& mesh) {
     return open;
 }
 
-void make_vertex_normals(Mesh& mesh, const Collector& collected, const ShadingModel& shading) {
-    std::vector<std::uint32_t> group = collected.smooth_group;
+void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
+    Mesh& mesh = placed.mesh;
+    std::vector<std::uint32_t>& group = placed.smooth_group;
     if (group.empty()) {
         group.resize(mesh.vertex_count());
         std::iota(group.begin(), group.end(), 0u);
@@ -180,9 +179,9 @@ void make_vertex_normals(Mesh& mesh, const Collector& collected, const ShadingMo
                         .smooth_group = group,
                         .vertex_count = mesh.vertex_count(),
                         .group_count = mesh.vertex_count(),
-                        .authored_normal = collected.authored_normal.empty()
+                        .authored_normal = placed.authored_normal.empty()
                                                ? ConstVec3Span{}
-                                               : collected.authored_normal.span()};
+                                               : std::as_const(placed.authored_normal).span()};
     shading.vertex_normals(view, normal.span());
     mesh.vertex_normal.resize(mesh.vertex_count());
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -192,8 +191,7 @@ void make_vertex_normals(Mesh& mesh, const Collector& collected, const ShadingMo
 
 }  // namespace
 
-Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Placement& placement,
-                const ShadingModel& shading) {
+PlacedShape place(const Shape& shape, const MeshRequest& request, const Placement& placement) {
     Collector collected;
     shape.tessellate(request, collected);
     check(collected);
@@ -203,19 +201,29 @@ Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Placement&
     transform(mesh.position, linear, {placement.position.x, placement.position.y, placement.position.z});
     transform(mesh.dpdu, linear, Eigen::Vector3f::Zero());
     transform(mesh.dpdv, linear, Eigen::Vector3f::Zero());
+    check_finite(mesh);
     if (!collected.authored_normal.empty()) {
         transform(collected.authored_normal, linear.inverse().transpose(), Eigen::Vector3f::Zero());
         normalize(collected.authored_normal);
     }
-    make_face_normals(mesh);
     if (collected.closedness == Closedness::closed) {
         mesh.closed = true;
     } else {
         mesh.open_edges = count_open_edges(mesh);
         mesh.closed = mesh.open_edges == 0;
     }
-    make_vertex_normals(mesh, collected, shading);
-    return mesh;
+    return {std::move(mesh), std::move(collected.authored_normal), std::move(collected.smooth_group)};
+}
+
+Mesh with_normals(PlacedShape placed, const ShadingModel& shading) {
+    make_face_normals(placed.mesh);
+    make_vertex_normals(placed, shading);
+    return std::move(placed.mesh);
+}
+
+Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Placement& placement,
+                const ShadingModel& shading) {
+    return with_normals(place(shape, request, placement), shading);
 }
 
 }  // namespace candela

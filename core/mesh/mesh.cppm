@@ -48,9 +48,22 @@ struct Mesh {
     inline std::size_t triangle_count() const { return corners.size() / 3; }
 };
 
-/// Tessellates `shape`, places it, and gives it the vertex normals of `shading`.
+/// A mesh before it has normals, and what a shading model makes them from.
+struct PlacedShape {
+    Mesh mesh;
+    Vec3Arrays authored_normal;               // a vertex each, unit, or empty
+    std::vector<std::uint32_t> smooth_group;  // a vertex each, or empty: each vertex is its own
+};
+
+/// Tessellates `shape` and places it in the world.
 /// Throws std::exception: what the shape throws; std::invalid_argument for a mesh without triangles, with a
 /// corner that is no vertex, or with a position that is no finite number.
+CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, const Placement& placement);
+
+/// Gives a mesh its face normals, and the vertex normals of `shading`. Throws what the shading model throws.
+CANDELA_API Mesh with_normals(PlacedShape placed, const ShadingModel& shading);
+
+/// Both in one.
 CANDELA_API Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Placement& placement,
                             const ShadingModel& shading);
 

@@ -199,13 +199,13 @@ std::optional<std::string> complaint(const Parameter& p, const Value& value) {
         if (!std::isfinite(x) || std::abs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
             return fmt::format("{} is too large (at most {:.3g})", x, std::numeric_limits<float>::max());
         }
-        if (p.type == ParamType::integer && std::abs(x) > std::numeric_limits<std::int32_t>::max()) {
-            return fmt::format("{} is too large (at most {})", text_of(value),
-                               std::numeric_limits<std::int32_t>::max());
-        }
         if (p.type == ParamType::color ? (x < 0 || x > 256) : (below(x, p) || above(x, p))) {
             const std::string allowed = p.type == ParamType::color ? "0 to 255" : range_text(p);
             return fmt::format("{} is outside its range: {}", text_of(value), allowed);
+        }
+        if (p.type == ParamType::integer && std::abs(x) > std::numeric_limits<std::int32_t>::max()) {
+            return fmt::format("{} is too large (at most {})", text_of(value),
+                               std::numeric_limits<std::int32_t>::max());
         }
     }
     if (p.type == ParamType::direction && std::get<Vec3>(value) == Vec3{}) {

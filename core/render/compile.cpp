@@ -3,17 +3,21 @@ module;
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <exception>
 #include <memory>
 #include <new>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 module candela.render;
 
+import candela.constraints;
 import candela.diagnostics;
 import candela.light;
+import candela.mesh;
 import candela.params;
 import candela.plugins;
 import candela.reflection;
@@ -25,33 +29,20 @@ namespace candela {
 
 namespace {
 
-Mesh mesh_of(const Object& object, const Shape& shape, const SurfaceModels& surface) {
-    const PointNeeds needs = surface.needs();
-    try {
-        return build_mesh(shape, {.uv = needs.uv, .derivatives = needs.derivatives}, object.placement,
-                          *surface.shading);
-    } catch (const std::bad_alloc&) {
-        throw Error(ExitCode::failure, "there is not enough memory for its triangles");
-    } catch (...) {
-        rethrow_as_plugin_error(PluginKind::shape, object.shape.name);
-    }
-}
-
 class Compiler {
   public:
-    Compiler(const Scene& scene, Registry& registry, Diagnostics& diagnostics)
-        : encoding_(scene.image.color_management), registry_(registry), diagnostics_(diagnostics) {
-        compiled_.observer = scene.observer;
-        compiled_.image = scene.image;
-        for (const LightSource& light : scene.lights) {
-            guarded(fmt::format("light {}", light.label), light.place, [&] { add(light); });
-        }
-        for (const Object& object : scene.objects) {
-            guarded(fmt::format("object {}", object.label), object.place, [&] { add(object); });
-        }
+    Compiler(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics)
+        : scene_(draft.scene), registry_(registry), diagnostics_(diagnostics) {
+        compiled_.observer = scene_.observer;
+        compiled_.image = scene_.image;
+        if (draft.is_complete) make_models();
+        place_shapes();
+        check(draft);
     }
 
     std::optional<CompiledScene> take() {
+        if (diagnostics_.has_errors()) return std::nullopt;
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) finish(i);
         if (diagnostics_.has_errors()) return std::nullopt;
         return std::move(compiled_);
     }
@@ -68,40 +59,91 @@ class Compiler {
 
     template <class Interface>
     std::unique_ptr<Interface> made(const Model& model) {
-        return registry_.create<Interface>(model.name, model.parameters, encoding_);
+        return registry_.create<Interface>(model.name, model.parameters, encoding());
     }
 
-    void add(const LightSource& light) {
-        compiled_.lights.push_back({light.model.name, made<Light>(light.model)});
+    void make_models() {
+        for (const LightSource& light : scene_.lights) {
+            guarded("light " + light.label, light.place,
+                    [&] { compiled_.lights.push_back({light.model.name, made<Light>(light.model)}); });
+        }
+        for (const Object& object : scene_.objects) {
+            SolidObject& solid = compiled_.objects.emplace_back();
+            solid.label = object.label;
+            guarded("object " + object.label, object.place, [&] {
+                solid.surface = {.color = decoded(object.color, encoding()),
+                                 .shading_plugin = object.shading.name,
+                                 .shading = made<ShadingModel>(object.shading),
+                                 .reflection_plugin = object.reflection.name,
+                                 .reflection = made<ReflectionModel>(object.reflection)};
+            });
+        }
     }
 
-    void add(const Object& object) {
-        SurfaceModels surface{.color = decoded(object.color, encoding_),
-                              .shading_plugin = object.shading.name,
-                              .shading = made<ShadingModel>(object.shading),
-                              .reflection_plugin = object.reflection.name,
-                              .reflection = made<ReflectionModel>(object.reflection)};
-        const auto shape = made<Shape>(object.shape);
-        Mesh mesh = mesh_of(object, *shape, surface);
-        if (!mesh.closed) {
+    /// What a shape plugin or a shading model does to an object.
+    template <class Work>
+    void guarded(const Object& object, PluginKind kind, const std::string& plugin, Work work) {
+        guarded("object " + object.label, object.place, [&] {
+            try {
+                work();
+            } catch (const std::bad_alloc&) {
+                throw Error(ExitCode::failure, "there is not enough memory for its triangles");
+            } catch (...) {
+                rethrow_as_plugin_error(kind, plugin);
+            }
+        });
+    }
+
+    void place_shapes() {
+        placed_.resize(scene_.objects.size());
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            const Object& object = scene_.objects[i];
+            const bool has_surface =
+                i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
+            const PointNeeds needs = has_surface ? compiled_.objects[i].surface.needs() : PointNeeds{};
+            guarded(object, PluginKind::shape, object.shape.name, [&] {
+                placed_[i] = place(*made<Shape>(object.shape),
+                                   {.uv = needs.uv, .derivatives = needs.derivatives}, object.placement);
+            });
+        }
+    }
+
+    void check(const SceneDraft& draft) {
+        std::vector<const Mesh*> meshes;
+        for (const auto& placed : placed_) meshes.push_back(placed ? &placed->mesh : nullptr);
+        check_constraints(draft, meshes, diagnostics_);
+    }
+
+    void finish(std::size_t i) {
+        const Object& object = scene_.objects[i];
+        SolidObject& solid = compiled_.objects[i];
+        guarded(object, PluginKind::shading, object.shading.name,
+                [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
+        if (!solid.mesh.closed) {
             diagnostics_.warning(
                 object.place,
                 fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
-                            object.label, mesh.open_edges, mesh.open_edges == 1 ? "" : "s"));
+                            object.label, solid.mesh.open_edges, solid.mesh.open_edges == 1 ? "" : "s"));
         }
-        compiled_.objects.push_back({object.label, std::move(mesh), std::move(surface)});
     }
 
-    ColorEncoding encoding_;
+    ColorEncoding encoding() const { return scene_.image.color_management; }
+
+    const Scene& scene_;
     Registry& registry_;
     Diagnostics& diagnostics_;
     CompiledScene compiled_;
+    std::vector<std::optional<PlacedShape>> placed_;
 };
 
 }  // namespace
 
+std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics) {
+    return Compiler(draft, registry, diagnostics).take();
+}
+
 std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics) {
-    return Compiler(scene, registry, diagnostics).take();
+    return compile(SceneDraft{.scene = scene}, registry, diagnostics);
 }
 
 }  // namespace candela

@@ -27,20 +27,21 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// All samples of a tile's visibility should fit the second-level cache.
+int tile_size_for(int samples) { return samples <= 4 ? 64 : 32; }
+
+}  // namespace
+
 Camera camera_of(const Observer& observer, int width, int height) {
     const bool perspective = observer.projection == Projection::perspective;
     return Camera::looking(observer.position, observer.look_at, observer.up, observer.projection,
                            perspective ? observer.fov : observer.height, width, height);
 }
 
-/// All samples of a tile's visibility should fit the second-level cache.
-int tile_size_for(int samples) { return samples <= 4 ? 64 : 32; }
-
-}  // namespace
-
 RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
     RenderStatistics statistics;
     std::atomic<std::size_t> tiles_done{0}, pixels_shaded{0}, points_lit{0};
+    std::atomic<float> brightest{0};
     const int tile_size = options.tile_size > 0 ? options.tile_size : tile_size_for(scene.image.samples);
     std::vector<const Mesh*> meshes;
     for (const SolidObject& object : scene.objects) meshes.push_back(&object.mesh);
@@ -71,11 +72,16 @@ RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOpti
             }
             pixels_shaded += shader.pixels_shaded();
             points_lit += shader.points_lit();
+            float before = brightest;
+            while (before < shader.brightest() &&
+                   !brightest.compare_exchange_weak(before, shader.brightest())) {
+            }
         });
         statistics.seconds_on_tiles = seconds_since(tiles_begin);
     });
     statistics.pixels_shaded = pixels_shaded;
     statistics.points_lit = points_lit;
+    statistics.brightest = brightest;
     return statistics;
 }
 

@@ -40,8 +40,11 @@ struct CompiledScene {
     std::vector<SolidObject> objects;
 };
 
-/// Loads what the scene names, and nothing else. Reports what fails, with the light or object that wanted it,
-/// and returns nothing then; reports meshes that are not closed.
+/// Loads what the scene names, and nothing else, tessellates its objects and checks what only triangles can
+/// tell. Reports what fails, with the light or object that wanted it, and returns nothing then, or where
+/// errors were reported before; reports meshes that are not closed.
+CANDELA_API std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
+                                                 Diagnostics& diagnostics);
 CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
                                                  Diagnostics& diagnostics);
 
@@ -56,6 +59,7 @@ struct RenderStatistics {
     std::size_t triangles = 0;
     std::size_t pixels_shaded = 0;  // that show an object
     std::size_t points_lit = 0;     // faces, vertices and fragments at which light was evaluated
+    float brightest = 0;            // the largest intensity of a channel at those points
     double seconds_projecting = 0;  // vertices, clipping, sorting into tiles
     double seconds_on_tiles = 0;    // visibility, light, reflection, pixels
 };
@@ -63,9 +67,18 @@ struct RenderStatistics {
 /// Renders one picture. The same bytes for any number of threads and any tile size. Throws Error.
 CANDELA_API RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
 
+/// Why a picture shows no light on any object, as the end of the sentence "nothing in the picture is lit: …",
+/// and what to do; empty where something is lit, or where the scene has no objects or no lights, which
+/// reading it has reported.
+CANDELA_API std::string why_black(const CompiledScene& scene, const Film& film,
+                                  const RenderStatistics& statistics);
+
 }  // namespace candela
 
 namespace candela {
+
+/// The observer's camera for a picture of that size.
+Camera camera_of(const Observer& observer, int width, int height);
 
 /// Turns the visibility of one tile into intensities. Holds a tile's arrays: one for each thread.
 class TileShader {
@@ -77,6 +90,7 @@ class TileShader {
 
     std::size_t pixels_shaded() const { return pixels_shaded_; }
     std::size_t points_lit() const { return points_lit_; }
+    float brightest() const { return brightest_; }
 
   private:
     void shade(const FragmentList& fragments);
@@ -100,6 +114,7 @@ class TileShader {
     Vec3Arrays pixels_;
     std::size_t pixels_shaded_ = 0;
     std::size_t points_lit_ = 0;
+    float brightest_ = 0;
 };
 
 }  // namespace candela

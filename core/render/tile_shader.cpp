@@ -1,8 +1,11 @@
 // One tile, from visibility to pixels.
 module;
 
+#include "candela/multiversion.h"
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -39,6 +42,24 @@ std::size_t position_of(const std::vector<T>& sorted, const T& value) {
 VertexSide corner(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t k, bool is_back) {
     return {mesh.mesh.corners[3 * std::size_t{triangle} + k], is_back};
 }
+
+/// The largest of many intensities. As integers, floats that are not negative keep their order, and integers
+/// have a maximum that is vectorised.
+struct BrightestLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span intensity, std::size_t count, std::int32_t* bits) {
+        std::int32_t largest = *bits;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto x = std::bit_cast<std::int32_t>(intensity.x[i]);
+            const auto y = std::bit_cast<std::int32_t>(intensity.y[i]);
+            const auto z = std::bit_cast<std::int32_t>(intensity.z[i]);
+            const std::int32_t xy = x > y ? x : y;
+            const std::int32_t xyz = xy > z ? xy : z;
+            largest = largest > xyz ? largest : xyz;
+        }
+        *bits = largest;
+    }
+};
 
 }  // namespace
 
@@ -87,6 +108,9 @@ void TileShader::shade(const FragmentList& fragments) {
 void TileShader::light(const SurfaceModels& surface, const Vec3Span& intensity) {
     lighting_.light(surface, points_, intensity);
     points_lit_ += points_.count;
+    auto bits = std::bit_cast<std::int32_t>(brightest_);
+    multiversion<BrightestLoop>(ConstVec3Span(intensity), points_.count, &bits);
+    brightest_ = std::bit_cast<float>(bits);
 }
 
 void TileShader::add(const FragmentList& fragments, std::size_t first, std::size_t count,

@@ -49,7 +49,8 @@ class Gatherer {
         }
         files_[canonical] = true;
         if (included_at != nullptr && !fs::exists(file, problem)) {
-            diagnostics_.error(*included_at, fmt::format("there is no file '{}' to include", shown));
+            diagnostics_.error(*included_at, fmt::format("there is no file '{}' to include", shown),
+                               file_suggestion(file));
         } else if (auto table = read_document(file, shown, diagnostics_)) {
             add(std::move(*table), file.parent_path());
         }

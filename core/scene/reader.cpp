@@ -10,6 +10,7 @@ module;
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -33,13 +34,13 @@ class Reader {
            Diagnostics& diagnostics)
         : tables_(document, registry, diagnostics), request_(request), diagnostics_(diagnostics) {}
 
-    Scene read() {
+    SceneDraft read() {
         read_version();
         std::vector<std::string> keys{"version", "include"};
         for (const TableSchema& schema : scene_schema()) keys.push_back(schema.name);
         report_unknown_keys(tables_.root(), keys, {"the scene", "", tables_.whole()}, diagnostics_);
-        read_room();
-        read_observer();
+        draft_.has_room = is_clean([&] { read_room(); });
+        draft_.has_observer = is_clean([&] { read_observer(); });
         read_image();
         each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
             read_light(table, place, i);
@@ -49,10 +50,25 @@ class Reader {
             read_object(table, place, i, models);
         });
         warn_if_empty();
-        return std::move(scene_);
+        draft_.is_complete = !diagnostics_.has_errors();
+        return std::move(draft_);
     }
 
   private:
+    /// Whether `read` comes upon no error.
+    template <class Read>
+    bool is_clean(Read read) const {
+        const std::size_t before = diagnostics_.error_count();
+        read();
+        return diagnostics_.error_count() == before;
+    }
+
+    static const SourcePlace& place_of(const TableNode& table, std::string_view key,
+                                       const SourcePlace& otherwise) {
+        const TableNode::Entry* const entry = table.find(key);
+        return entry != nullptr ? entry->node.place : otherwise;
+    }
+
     void read_version() {
         const TableNode::Entry* const version = tables_.root().find("version");
         if (version == nullptr) {
@@ -96,6 +112,7 @@ class Reader {
         if (table == nullptr || !has(values, "position") || !has(values, "look_at")) return;
         observer.position = vector(values, "position");
         observer.look_at = vector(values, "look_at");
+        observer.position_place = table->find("position")->node.place;
         check_view(*table);
     }
 
@@ -179,10 +196,13 @@ class Reader {
     void read_light(const TableNode& table, const SourcePlace& place, std::size_t index) {
         const std::string label = label_of("light", table, index);
         const TableContext context{fmt::format("[[light]] {}", label), "candela list light", place};
-        const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
-        if (auto model = read_typed("light", PluginKind::light, table, own, context, {})) {
-            scene_.lights.push_back({label, std::move(*model), place});
-        }
+        std::optional<Model> model;
+        const bool clean = is_clean([&] {
+            const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
+            model = read_typed("light", PluginKind::light, table, own, context, {});
+        });
+        if (clean)
+            scene_.lights.push_back({label, std::move(*model), place, place_of(table, "position", place)});
     }
 
     void read_object(const TableNode& table, const SourcePlace& place, std::size_t index,
@@ -191,15 +211,19 @@ class Reader {
         object.label = label_of("object", table, index);
         object.place = place;
         const TableContext context{fmt::format("[[object]] {}", object.label), "candela list shape", place};
-        const ParamSet own = read_parameters(table, schema_of("object").parameters, context, diagnostics_);
-        object.placement = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
-        object.color = vector(own, "color");
-        if (auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"})) {
-            object.shape = std::move(*shape);
-        }
+        object.position_place = place_of(table, "position", place);
+        const bool clean = is_clean([&] {
+            const ParamSet own =
+                read_parameters(table, schema_of("object").parameters, context, diagnostics_);
+            object.placement = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
+            object.color = vector(own, "color");
+            if (auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"})) {
+                object.shape = std::move(*shape);
+            }
+        });
         object.shading = models.shading_for(table);
         object.reflection = models.reflection_for(table, object.label, place);
-        scene_.objects.push_back(std::move(object));
+        if (clean) scene_.objects.push_back(std::move(object));
     }
 
     void warn_if_empty() {
@@ -215,18 +239,24 @@ class Reader {
     SceneTables tables_;
     const SceneRequest& request_;
     Diagnostics& diagnostics_;
-    Scene scene_;
+    SceneDraft draft_;
+    Scene& scene_ = draft_.scene;
     std::map<std::string, SourcePlace> names_;
 };
 
 }  // namespace
 
-std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry, Diagnostics& diagnostics) {
+std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
+                                      Diagnostics& diagnostics) {
     const auto document = gather(request, diagnostics);
     if (!document) return std::nullopt;
-    Scene scene = Reader(request, *document, registry, diagnostics).read();
-    if (diagnostics.has_errors()) return std::nullopt;
-    return scene;
+    return Reader(request, *document, registry, diagnostics).read();
+}
+
+std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry, Diagnostics& diagnostics) {
+    auto draft = draft_scene(request, registry, diagnostics);
+    if (!draft || !draft->is_complete) return std::nullopt;
+    return std::move(draft->scene);
 }
 
 }  // namespace candela

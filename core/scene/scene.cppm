@@ -40,8 +40,13 @@ struct Observer {
     Projection projection = Projection::perspective;
     float fov = 40;    // perspective: full vertical angle, degrees
     float height = 4;  // orthographic: metres that fit the picture's height
+    SourcePlace position_place{};
 
-    friend bool operator==(const Observer&, const Observer&) = default;
+    /// Wherever it stands in its file.
+    friend inline bool operator==(const Observer& a, const Observer& b) {
+        return a.position == b.position && a.look_at == b.look_at && a.up == b.up &&
+               a.projection == b.projection && a.fov == b.fov && a.height == b.height;
+    }
 };
 
 struct ImageSettings {
@@ -66,6 +71,7 @@ struct LightSource {
     std::string label;  // 'lamp', as the scene's author calls it, or number 2
     Model model;
     SourcePlace place;
+    SourcePlace position_place{};  // of its 'position', or of the whole light
 
     /// Wherever they stand in their files.
     friend inline bool operator==(const LightSource& a, const LightSource& b) {
@@ -81,6 +87,7 @@ struct Object {
     Model shading;
     Model reflection;
     SourcePlace place;
+    SourcePlace position_place{};  // of its 'position', or of the whole object
 
     /// Wherever they stand in their files.
     friend inline bool operator==(const Object& a, const Object& b) {
@@ -89,7 +96,8 @@ struct Object {
     }
 };
 
-/// Every value has been checked; every plugin named is installed (none is loaded).
+/// Every value has been checked; every plugin named is installed (none is loaded). What only triangles can
+/// tell, who is inside of what, comes later: candela.constraints.
 struct Scene {
     Room room;
     Observer observer;
@@ -116,8 +124,19 @@ struct SceneRequest {
     std::function<bool(const std::string& question)> ask;  // asked instead of failing then; may be empty
 };
 
-/// Reads, merges and checks. Reports all that is wrong, and returns a scene if nothing but warnings were
-/// found.
+/// A scene as far as it was understood, so that what remains can be checked, too.
+struct SceneDraft {
+    Scene scene;  // without the lights and objects in which there were errors
+    bool has_room = true;
+    bool has_observer = true;
+    bool is_complete = true;  // there were no errors
+};
+
+/// Reads, merges and checks. Reports all that is wrong; returns nothing where a file cannot be read as TOML.
+CANDELA_API std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
+                                                  Diagnostics& diagnostics);
+
+/// The same; returns the scene if nothing but warnings were found.
 CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
                                             Diagnostics& diagnostics);
 

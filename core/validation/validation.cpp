@@ -91,6 +91,10 @@ std::string found(const Node& node, const Parameter& p) {
     return description(node);
 }
 
+std::string joined(const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? a + b : a + "  " + b;
+}
+
 /// Checks that a file is there; its absolute path.
 std::optional<std::string> existing_file(const std::string& written, const SourcePlace& place,
                                          Diagnostics& diagnostics) {
@@ -103,17 +107,16 @@ std::optional<std::string> existing_file(const std::string& written, const Sourc
     const char* const what = status.type() == fs::file_type::directory   ? "is a directory, not a file"
                              : status.type() == fs::file_type::not_found ? "does not exist"
                                                                          : "is no ordinary file";
-    diagnostics.error(place, fmt::format("'{}' {}", written, what),
-                      fmt::format("looked for {}", file.string()));
+    diagnostics.error(
+        place, fmt::format("'{}' {}", written, what),
+        status.type() == fs::file_type::not_found
+            ? joined(file_suggestion(base / written), fmt::format("(looked for {})", file.string()))
+            : "");
     return std::nullopt;
 }
 
 std::string manual_hint(const TableContext& context) {
     return context.manual.empty() ? "" : fmt::format("({})", context.manual);
-}
-
-std::string joined(const std::string& a, const std::string& b) {
-    return a.empty() || b.empty() ? a + b : a + "  " + b;
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 # candela_add_plugin(<kind>/<name> SOURCES <file>... [KERNEL <file>] [LIBRARIES <target>...] [VERSION <x.y.z>])
 #
 # A plugin: <kind>-<name>.so and, made from it, <kind>-<name>.json. Kind is light, reflection, shading, shape or image.
-# The target is called candela_<kind>_<name>.
+# The target is called candela_<kind>_<name>. Where tests are enabled (enable_testing() before the call), and
+# CANDELA_CONFORMANCE_TESTS is not set to OFF, "<kind>/<name> conforms" is a test.
 #   SOURCES    what is compiled; one of the files ends with the macro of its kind (candela/<kind>_plugin.h)
 #   KERNEL     the model's formulas in the kernel language; its text is embedded for the program generator
 #   LIBRARIES  what else is linked
@@ -84,6 +85,12 @@ function(candela_add_plugin id)
         VERBATIM)
     add_custom_target(${target}_manifest ALL DEPENDS ${stamp})
     set_target_properties(${target} PROPERTIES CANDELA_MANIFEST ${file}.json)
+
+    # A test of all that a host relies on.
+    if(TARGET candela::conformance AND (CANDELA_CONFORMANCE_TESTS OR NOT DEFINED CANDELA_CONFORMANCE_TESTS))
+        add_test(NAME "${id} conforms" COMMAND candela::conformance $<TARGET_FILE:${target}>)
+        set_tests_properties("${id} conforms" PROPERTIES LABELS conformance TIMEOUT 900)
+    endif()
 endfunction()
 
 # candela_install_plugin(<kind>/<name> [DESTINATION <dir>]): the library and its manifest, into lib/candela/plugins.

@@ -122,7 +122,10 @@ TEST_CASE("check says that a valid scene is valid, on standard output") {
     const std::string file = write_file(scratch_directory() / "scene.toml", scene()).string();
     const CommandResult result = run_candela({"check", file});
     CHECK(result.exit_code == 0);
-    CHECK(holds(result.out, "1 light, 1 object, 16 x 16 pixels"));
+    for (const char* const part : {"valid", "16 x 16 pixels", "1 (1 point)", "1, 12 triangles",
+                                   "'box'        cube, 12 triangles, phong shading, phong reflection"}) {
+        CHECK(holds(result.out, part));
+    }
     CHECK(result.err.empty());
 }
 
@@ -130,7 +133,7 @@ TEST_CASE("check --print prints what was read as one file, which is the same sce
     const fs::path directory = scratch_directory();
     write_file(directory / "parts" / "lights.toml",
                "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [1, 1, 3]\n");
-    write_file(directory / "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_file(directory / "mesh.obj", "v 0 2 0\nv 1 2 0\nv 0 3 0\nf 1 2 3\n");
     const std::string file = write_file(directory / "scene.toml",
                                         "include = [\"parts/lights.toml\"]\nversion = "
                                         "1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
@@ -160,6 +163,7 @@ TEST_CASE("check --print prints what was read as one file, which is the same sce
     CHECK((read_file(directory / "a.ppm") == read_file(directory / "b.ppm")));
     CHECK(run_candela({"check", copy, "--print"}).out == printed.out);
     CHECK(run_candela({"check", file, "--print"}).out.empty());  // no model
+    CHECK(run_candela({"check", file, "--print", "--json"}).exit_code == 2);
 }
 
 TEST_CASE("a picture that cannot be is an error before anything is rendered, and after") {

@@ -113,7 +113,8 @@ TEST_CASE("R13: Ctrl-D is no answer, and Ctrl-C ends the command; neither makes 
 }
 
 TEST_CASE("R13: one question, however many objects need an answer") {
-    const Files files(scene(std::string(k_box) + k_ball + k_ball));
+    const Files files(
+        scene(std::string(k_box) + k_ball + "[[object]]\ntype = \"torus\"\nposition = [2, 0, 0]\n"));
     const CommandResult result = talk_to_candela(files.render(), {{k_both, "\n"}});
     CHECK(result.exit_code == 0);
     CHECK(count(result.out, "[Y/n]") == 1);

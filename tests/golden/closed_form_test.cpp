@@ -48,10 +48,6 @@ struct Triangle {
     }
 };
 
-Double3 cross(Double3 a, Double3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 /// Barycentric coordinates where a ray meets the triangle, by the areas of the part triangles; none if it
 /// misses, or passes within `margin` (of a coordinate) of an edge.
 std::optional<Double3> hit(const Triangle& t, Double3 origin, Double3 direction, double margin) {

@@ -23,6 +23,9 @@ inline Double3 operator+(Double3 a, Double3 b) { return {a.x + b.x, a.y + b.y, a
 inline Double3 operator-(Double3 a, Double3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Double3 operator*(double s, Double3 a) { return {s * a.x, s * a.y, s * a.z}; }
 inline double dot(Double3 a, Double3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Double3 cross(Double3 a, Double3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline double length(Double3 a) { return std::sqrt(dot(a, a)); }
 inline Double3 unit(Double3 a) { return (1 / length(a)) * a; }
 

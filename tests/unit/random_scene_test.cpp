@@ -71,3 +71,16 @@ TEST_CASE("the meshes of random scenes lie within the bounds that the generator 
     }
     CHECK(meshes > 100);
 }
+
+TEST_CASE("random scenes break no geometric constraint") {
+    const std::filesystem::path directory = scratch_directory();
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        candela::Diagnostics diagnostics;
+        candela::SceneRequest request;
+        request.files = {write_file(directory / (std::to_string(seed) + ".toml"), random_scene(seed).text())};
+        const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
+        const auto compiled = draft ? candela::compile(*draft, test_registry(), diagnostics) : std::nullopt;
+        INFO("seed " << seed << "\n" << diagnostics.text(false));
+        REQUIRE(compiled);
+    }
+}

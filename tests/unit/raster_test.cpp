@@ -52,10 +52,6 @@ Camera pixel_camera(int width, int height) {
                            static_cast<float>(height), width, height);
 }
 
-Double3 cross(Double3 a, Double3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 struct Hit {
     double distance;  // along the view
     double margin;    // smallest barycentric coordinate

@@ -1,0 +1,151 @@
+// "Why is it black?"
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+module candela.render;
+
+import candela.film;
+import candela.geometry;
+import candela.light;
+import candela.lighting;
+import candela.math;
+import candela.mesh;
+import candela.params;
+import candela.raster;
+import candela.scene;
+
+namespace candela {
+
+namespace {
+
+/// Towards the observer, not unit.
+Vec3 towards(const Camera& camera, Vec3 point) {
+    return camera.projection == Projection::perspective ? camera.eye - point : -camera.forward;
+}
+
+std::string unseen(const CompiledScene& scene, const Camera& camera) {
+    bool any_ahead = false;
+    for (const SolidObject& object : scene.objects) {
+        const ConstVec3Span p = object.mesh.position.span();
+        for (std::size_t i = 0; i < object.mesh.vertex_count() && !any_ahead; ++i)
+            any_ahead = dot(p[i] - camera.eye, camera.forward) > 0;
+    }
+    const Mesh& first = scene.objects.front().mesh;
+    const Box around = box_around(first.position.span(), first.vertex_count());
+    const Vec3 middle = 0.5f * (around.low + around.high);
+    const std::string towards_first = fmt::format("object {} is around [{:.3g}, {:.3g}, {:.3g}]",
+                                                  scene.objects.front().label, middle.x, middle.y, middle.z);
+    return any_ahead ? "no object is within the view, or none is as large as a pixel; " + towards_first
+                     : "the observer looks away from all objects; " + towards_first;
+}
+
+/// What the lights send to the faces that are turned to the observer, at their centroids.
+struct Received {
+    float ambient = 0;
+    float sent = 0;   // from wherever
+    float faced = 0;  // from in front of the face
+};
+
+float largest(Vec3 v) { return std::max({v.x, v.y, v.z}); }
+
+class Receivers {
+  public:
+    Receivers() {
+        for (Vec3Arrays* const arrays : {&position_, &normal_, &to_light_, &diffuse_, &specular_})
+            arrays->resize(k_size);
+    }
+
+    void add(const Mesh& mesh, std::size_t triangle, const Camera& camera, const CompiledScene& scene) {
+        const ConstVec3Span p = mesh.position.span();
+        const Vec3 centroid =
+            (1 / 3.0f) * (p[mesh.corners[3 * triangle]] + p[mesh.corners[3 * triangle + 1]] +
+                          p[mesh.corners[3 * triangle + 2]]);
+        Vec3 normal = mesh.face_normal.span()[triangle];
+        if (dot(normal, towards(camera, centroid)) <= 0) {
+            if (mesh.closed) return;
+            normal = -normal;
+        }
+        position_.span().set(count_, centroid);
+        normal_.span().set(count_, normal);
+        if (++count_ == k_size) flush(scene);
+    }
+
+    void flush(const CompiledScene& scene) {
+        const ReceiverBatch batch{.count = count_,
+                                  .position = ConstVec3Span(position_.span()),
+                                  .normal = ConstVec3Span(normal_.span())};
+        for (const LitSource& source : scene.lights) {
+            for (int sample = 0; sample < source.light->sample_count(); ++sample) {
+                source.light->illuminate(sample, batch,
+                                         {to_light_.span(), diffuse_.span(), specular_.span()});
+                for (std::size_t i = 0; i < count_; ++i) {
+                    const float sent = std::max(largest(diffuse_.span()[i]), largest(specular_.span()[i]));
+                    received.sent = std::max(received.sent, sent);
+                    if (dot(normal_.span()[i], to_light_.span()[i]) > 0)
+                        received.faced = std::max(received.faced, sent);
+                }
+            }
+            if (!source.light->has_ambient()) continue;
+            source.light->illuminate_ambient(batch, diffuse_.span());
+            for (std::size_t i = 0; i < count_; ++i)
+                received.ambient = std::max(received.ambient, largest(diffuse_.span()[i]));
+        }
+        count_ = 0;
+    }
+
+    Received received;
+
+  private:
+    static constexpr std::size_t k_size = 256;
+    Vec3Arrays position_, normal_, to_light_, diffuse_, specular_;
+    std::size_t count_ = 0;
+};
+
+std::string unlit(const CompiledScene& scene, const Camera& camera) {
+    Receivers receivers;
+    for (const SolidObject& object : scene.objects) {
+        for (std::size_t t = 0; t < object.mesh.triangle_count(); ++t)
+            receivers.add(object.mesh, t, camera, scene);
+    }
+    receivers.flush(scene);
+    const Received& r = receivers.received;
+    if (r.ambient == 0 && r.sent == 0) {
+        return "no light reaches an object; look at the intensity and the colour of the lights, and at where "
+               "spots "
+               "are turned";
+    }
+    if (r.ambient == 0 && r.faced == 0)
+        return "every light is behind every face that the observer sees; move a light to the observer's side";
+    return "what light there is, the objects do not reflect; look at their colours and at ka, kd and ks";
+}
+
+/// Below this, 8 bits show nothing.
+float darkest_visible(const Film& film) {
+    if (film.view().pixels == PixelType::real) return 0;
+    constexpr float k_half_a_step = 0.5f / 255;
+    return film.view().encoding == ColorEncoding::srgb ? srgb_to_linear(k_half_a_step) : k_half_a_step;
+}
+
+}  // namespace
+
+std::string why_black(const CompiledScene& scene, const Film& film, const RenderStatistics& statistics) {
+    if (scene.objects.empty() || scene.lights.empty()) return {};
+    const float visible = darkest_visible(film);
+    if (statistics.pixels_shaded > 0 && statistics.brightest > visible) return {};
+    const Camera camera = camera_of(scene.observer, film.width(), film.height());
+    if (statistics.pixels_shaded == 0) return unseen(scene, camera);
+    if (statistics.brightest <= 0) return unlit(scene, camera);
+    return fmt::format(
+        "the brightest point has intensity {:.2g}, and below {:.2g} a pixel is black; multiply the "
+        "lights' intensity by {:.1g} or more, or move them nearer",
+        statistics.brightest, visible, 1 / statistics.brightest);
+}
+
+}  // namespace candela

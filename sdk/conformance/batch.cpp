@@ -1,0 +1,208 @@
+#include "batch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+using candela::PluginKind;
+using candela::Vec3;
+
+Arrays::Arrays(std::size_t arrays, std::size_t count, std::size_t shift)
+    : count_(count), shift_(shift), data_(arrays, std::vector<float>(2 * k_guard + count + shift, k_mark)) {
+    fill(0);
+}
+
+void Arrays::fill(float value) {
+    for (std::size_t a = 0; a < arrays(); ++a) std::fill_n((*this)[a], count_, value);
+}
+
+Arrays Arrays::part(std::size_t first, std::size_t count, std::size_t shift) const {
+    Arrays result(arrays(), count, shift);
+    for (std::size_t a = 0; a < arrays(); ++a) std::copy_n((*this)[a] + first, count, result[a]);
+    return result;
+}
+
+std::string Arrays::trespass() const {
+    for (const std::vector<float>& array : data_) {
+        const auto is_mark = [](float x) { return x == k_mark; };
+        const auto begin = array.begin() + static_cast<std::ptrdiff_t>(k_guard + shift_);
+        if (!std::all_of(array.begin(), begin, is_mark)) return "before";
+        if (!std::all_of(begin + static_cast<std::ptrdiff_t>(count_), array.end(), is_mark)) return "after";
+    }
+    return {};
+}
+
+bool operator==(const Arrays& a, const Arrays& b) {
+    if (a.arrays() != b.arrays() || a.count() != b.count()) return false;
+    for (std::size_t i = 0; i < a.arrays(); ++i) {
+        if (std::memcmp(a[i], b[i], a.count() * sizeof(float)) != 0) return false;
+    }
+    return true;
+}
+
+namespace {
+
+// The inputs' places, whatever the kind: each three arrays.
+constexpr std::size_t k_normal = 0;    // N
+constexpr std::size_t k_observer = 3;  // V
+constexpr std::size_t k_tangent = 6;
+constexpr std::size_t k_light = 9;     // L
+constexpr std::size_t k_diffuse = 12;  // intensities
+constexpr std::size_t k_specular = 15;
+constexpr std::size_t k_position = 18;
+constexpr std::size_t k_barycentric = 21;
+constexpr std::size_t k_vertex_normal = 24;
+constexpr std::size_t k_dpdu = 27;
+constexpr std::size_t k_dpdv = 30;
+constexpr std::size_t k_uv = 33;  // two
+constexpr std::size_t k_inputs = 35;
+
+BatchSubject reflection_subject(const Values& values) {
+    const std::shared_ptr<candela::ReflectionModel> model = make<candela::ReflectionModel>(values);
+    const auto surface = [model](std::size_t count, const Arrays& in) {
+        return candela::SurfaceBatch{
+            .count = count,
+            .normal = in.vec3(k_normal),
+            .to_observer = in.vec3(k_observer),
+            .tangent = model->needs_tangent() ? in.vec3(k_tangent) : candela::ConstVec3Span{},
+            .color = {0.8f, 0.5f, 0.2f}};
+    };
+    const auto reflected = [](Arrays& out) {
+        return candela::ReflectedBatch{
+            .ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)};
+    };
+    const std::vector<std::string> outputs{"ambient", "diffuse", "specular"};
+    return {model,
+            k_inputs,
+            {{"reflect", outputs, true, declares("may-be-negative"),
+              [=](std::size_t count, const Arrays& in, Arrays& out) {
+                  model->reflect(surface(count, in),
+                                 {.to_light = in.vec3(k_light),
+                                  .diffuse = in.vec3(k_diffuse),
+                                  .specular = in.vec3(k_specular)},
+                                 reflected(out));
+              }},
+             {"reflect_ambient", outputs, true, false, [=](std::size_t count, const Arrays& in, Arrays& out) {
+                  model->reflect_ambient(surface(count, in), in.vec3(k_diffuse), reflected(out));
+              }}}};
+}
+
+BatchSubject light_subject(const Values& values) {
+    const std::shared_ptr<candela::Light> light = make<candela::Light>(values);
+    BatchSubject subject{light, k_inputs, {}};
+    for (int sample = 0; sample < light->sample_count(); ++sample) {
+        subject.calls.push_back(
+            {fmt::format("illuminate (sample {})", sample),
+             {"to_light", "diffuse", "specular"},
+             false,
+             false,
+             [=](std::size_t count, const Arrays& in, Arrays& out) {
+                 light->illuminate(
+                     sample, {.count = count, .position = in.vec3(k_position), .normal = in.vec3(k_normal)},
+                     {.to_light = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
+             }});
+    }
+    if (light->has_ambient()) {
+        subject.calls.push_back(
+            {"illuminate_ambient",
+             {"ambient"},
+             false,
+             false,
+             [=](std::size_t count, const Arrays& in, Arrays& out) {
+                 light->illuminate_ambient(
+                     {.count = count, .position = in.vec3(k_position), .normal = in.vec3(k_normal)},
+                     out.vec3(0));
+             }});
+    }
+    return subject;
+}
+
+BatchSubject shading_subject(const Values& values) {
+    const std::shared_ptr<candela::ShadingModel> model = make<candela::ShadingModel>(values);
+    return {model,
+            k_inputs,
+            {{"normals", {"normal"}, false, true, [=](std::size_t count, const Arrays& in, Arrays& out) {
+                  const candela::ShadingNeeds needs = model->needs();
+                  model->normals({.count = count,
+                                  .face_normal = in.vec3(k_normal),
+                                  .vertex_normal = in.vec3(k_vertex_normal),
+                                  .barycentric = in.vec3(k_barycentric),
+                                  .uv = needs.uv ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]}
+                                                 : candela::ConstVec2Span{},
+                                  .dpdu = needs.derivatives ? in.vec3(k_dpdu) : candela::ConstVec3Span{},
+                                  .dpdv = needs.derivatives ? in.vec3(k_dpdv) : candela::ConstVec3Span{}},
+                                 out.vec3(0));
+              }}}};
+}
+
+}  // namespace
+
+BatchSubject batch_subject(const Values& values) {
+    switch (subject_manifest().kind) {
+        case PluginKind::reflection:
+            return reflection_subject(values);
+        case PluginKind::light:
+            return light_subject(values);
+        default:
+            return shading_subject(values);
+    }
+}
+
+Arrays inputs_for(std::size_t count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    std::uniform_real_distribution<float> unit(0, 1);
+    const auto direction = [&] {
+        return candela::normalized({normal(random), normal(random), normal(random)});
+    };
+    Arrays in(k_inputs, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 n = direction();
+        Vec3 v = direction();
+        if (dot(n, v) < 0) v = -v;
+        const Vec3 aside = direction();
+        in.vec3(k_normal).set(i, n);
+        in.vec3(k_observer).set(i, v);
+        in.vec3(k_tangent).set(i, candela::normalized(aside - dot(n, aside) * n));
+        in.vec3(k_light).set(i, direction());
+        in.vec3(k_diffuse).set(i, {unit(random), unit(random), unit(random)});
+        in.vec3(k_specular).set(i, {unit(random), unit(random), unit(random)});
+        in.vec3(k_position)
+            .set(i, 4.0f * Vec3{unit(random) - 0.5f, unit(random) - 0.5f, unit(random) - 0.5f});
+        const float a = unit(random), b = (1 - a) * unit(random);
+        in.vec3(k_barycentric).set(i, {a, b, 1 - a - b});
+        in.vec3(k_vertex_normal).set(i, n + 0.3f * direction());
+        const Vec3 du = in.vec3(k_tangent)[i];
+        in.vec3(k_dpdu).set(i, 2.0f * du);
+        in.vec3(k_dpdv).set(i, 0.5f * cross(n, du) + 0.1f * du);
+        in[k_uv][i] = unit(random);
+        in[k_uv + 1][i] = unit(random);
+    }
+    return in;
+}
+
+Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift) {
+    Arrays out(3 * call.outputs.size(), in.count(), shift);
+    call.run(in.count(), in, out);
+    return out;
+}
+
+std::string text_of_input(const Arrays& in, std::size_t i) {
+    const auto text = [&](const char* name, std::size_t first) {
+        const Vec3 v = in.at(first, i);
+        return fmt::format("{} = [{:.4g}, {:.4g}, {:.4g}]", name, v.x, v.y, v.z);
+    };
+    switch (subject_manifest().kind) {
+        case PluginKind::reflection:
+            return fmt::format("{}, {}, {}", text("N", k_normal), text("V", k_observer), text("L", k_light));
+        case PluginKind::light:
+            return fmt::format("{}, {}", text("position", k_position), text("N", k_normal));
+        default:
+            return fmt::format("{}, {}", text("face normal", k_normal),
+                               text("vertex normal", k_vertex_normal));
+    }
+}

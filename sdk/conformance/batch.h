@@ -1,0 +1,71 @@
+// The plugins that work on batches, seen alike: arrays of floats in, arrays of floats out.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "subject.h"
+
+/// Arrays of one length, with room before and after each that nobody may write to.
+class Arrays {
+  public:
+    /// `shift`: floats by which each array starts off its alignment.
+    Arrays(std::size_t arrays, std::size_t count, std::size_t shift = 0);
+
+    float* operator[](std::size_t array) { return data_[array].data() + k_guard + shift_; }
+    const float* operator[](std::size_t array) const { return data_[array].data() + k_guard + shift_; }
+    std::size_t arrays() const { return data_.size(); }
+    std::size_t count() const { return count_; }
+
+    candela::Vec3Span vec3(std::size_t first) {
+        return {(*this)[first], (*this)[first + 1], (*this)[first + 2]};
+    }
+    candela::ConstVec3Span vec3(std::size_t first) const {
+        return {(*this)[first], (*this)[first + 1], (*this)[first + 2]};
+    }
+    candela::Vec3 at(std::size_t first, std::size_t i) const { return vec3(first)[i]; }
+
+    void fill(float value);
+    /// Elements [first, first + count) of all arrays.
+    Arrays part(std::size_t first, std::size_t count, std::size_t shift = 0) const;
+    /// "before" or "after" where the room there was written to, or empty.
+    std::string trespass() const;
+    friend bool operator==(const Arrays& a, const Arrays& b);
+
+  private:
+    static constexpr std::size_t k_guard = 64;
+    static constexpr float k_mark = -1.2345e30f;
+    std::size_t count_;
+    std::size_t shift_;
+    std::vector<std::vector<float>> data_;
+};
+
+/// One way of calling an instance.
+struct Call {
+    std::string name;                  // "reflect"
+    std::vector<std::string> outputs;  // what each three arrays of results are
+    bool adds = false;                 // to what is in the outputs
+    bool may_be_negative = false;
+    std::function<void(std::size_t count, const Arrays& in, Arrays& out)> run;
+};
+
+/// A plugin's instance as calls on arrays.
+struct BatchSubject {
+    std::shared_ptr<candela::Instance> instance;
+    std::size_t inputs = 0;
+    std::vector<Call> calls;
+};
+
+BatchSubject batch_subject(const Values& values);
+
+/// Inputs as a renderer gives them, the same for one `seed`: unit vectors, positions, colours.
+Arrays inputs_for(std::size_t count, unsigned seed = 1);
+
+/// What a call gives.
+Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift = 0);
+
+/// "N = [0, 1, 0], …": an input, for messages.
+std::string text_of_input(const Arrays& in, std::size_t i);

@@ -1,0 +1,201 @@
+// What must hold of every plugin that works on batches.
+#include "batch.h"
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <thread>
+#include <vector>
+
+namespace {
+
+/// The first result that is no finite number.
+void require_finite(const Call& call, const Values& values, const Arrays& in, const Arrays& out) {
+    for (std::size_t a = 0; a < out.arrays(); ++a) {
+        for (std::size_t i = 0; i < out.count(); ++i) {
+            const float x = out[a][i];
+            if (!std::isfinite(x))
+                FAIL(call.name << " gives " << x << " as " << call.outputs[a / 3] << ", for "
+                               << text_of_input(in, i) << ", with " << values.text);
+            if (x < 0 && !call.may_be_negative && call.outputs[a / 3] != "to_light")
+                FAIL(call.name << " gives a negative " << call.outputs[a / 3] << ", " << x << ", for "
+                               << text_of_input(in, i) << ", with " << values.text);
+        }
+    }
+}
+
+bool close(float a, float b) {
+    // Wide and narrow versions of one loop round differently.
+    return std::abs(a - b) <= 1e-5f * std::max(std::abs(a), std::abs(b)) + 1e-6f;
+}
+
+/// The first place at which two results differ by more than rounding.
+void require_close(const Call& call, const Arrays& a, const Arrays& b, std::size_t first,
+                   const std::string& when) {
+    for (std::size_t k = 0; k < b.arrays(); ++k) {
+        for (std::size_t i = 0; i < b.count(); ++i) {
+            if (!close(a[k][first + i], b[k][i]))
+                FAIL(call.name << " gives " << b[k][i] << " as " << call.outputs[k / 3] << " of point " << i
+                               << " " << when << ", and " << a[k][first + i] << " otherwise");
+        }
+    }
+}
+
+double milliseconds(const Call& call, const Arrays& in) {
+    Arrays out(3 * call.outputs.size(), in.count());
+    double best = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 20; ++round) {
+        const auto begin = std::chrono::steady_clock::now();
+        for (int i = 0; i < 20; ++i) call.run(in.count(), in, out);
+        best = std::min(
+            best,
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    }
+    return best;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "finite: no result is NaN, infinite or below zero, for the bounds of each parameter and 50 random sets",
+    "[light][reflection][shading]") {
+    const Arrays in = inputs_for(512);
+    for (const Values& values : many_values()) {
+        for (const Call& call : batch_subject(values).calls)
+            require_finite(call, values, in, outputs_of(call, in));
+    }
+}
+
+TEST_CASE("batches: any number of points, at any address, gives what the points give one at a time",
+          "[light][reflection][shading]") {
+    const Arrays in = inputs_for(2027);
+    for (const Values& values : many_values(4)) {
+        for (const Call& call : batch_subject(values).calls) {
+            const Arrays whole = outputs_of(call, in);
+            for (const std::size_t count :
+                 {std::size_t{7}, std::size_t{64}, std::size_t{1000}, std::size_t{1024}, std::size_t{2027}}) {
+                const Arrays some = in.part(0, count);
+                require_close(call, whole, outputs_of(call, some), 0,
+                              "in a batch of " + std::to_string(count));
+            }
+            for (std::size_t i = 0; i < 40; ++i)
+                require_close(call, whole, outputs_of(call, in.part(i, 1)), i, "alone");
+            for (const std::size_t shift : {std::size_t{1}, std::size_t{3}, std::size_t{7}})
+                require_close(call, whole, outputs_of(call, in.part(0, 333, shift), shift), 0,
+                              "in arrays that begin at an odd address");
+        }
+    }
+}
+
+TEST_CASE("bounds: nothing is written before or after the batch, and no input is changed",
+          "[light][reflection][shading]") {
+    for (const Values& values : many_values(4)) {
+        for (const Call& call : batch_subject(values).calls) {
+            for (const std::size_t count :
+                 {std::size_t{1}, std::size_t{7}, std::size_t{16}, std::size_t{257}}) {
+                const Arrays in = inputs_for(count);
+                Arrays given = in.part(0, count);
+                Arrays out(3 * call.outputs.size(), count);
+                call.run(count, given, out);
+                if (const std::string where = out.trespass(); !where.empty())
+                    FAIL(call.name << " writes " << where << " a batch of " << count << " points");
+                if (!given.trespass().empty() || !(given == in))
+                    FAIL(call.name << " changes its inputs, in a batch of " << count << " points");
+            }
+        }
+    }
+}
+
+TEST_CASE("adding: a reflection model adds to what is there, and leaves the parts that it has no say in",
+          "[reflection]") {
+    const Arrays in = inputs_for(64);
+    for (const Call& call : batch_subject(default_values()).calls) {
+        const Arrays from_zero = outputs_of(call, in);
+        Arrays from_one(9, 64);
+        from_one.fill(1);
+        call.run(64, in, from_one);
+        for (std::size_t a = 0; a < 9; ++a) {
+            for (std::size_t i = 0; i < 64; ++i) {
+                if (!close(from_zero[a][i] + 1, from_one[a][i]))
+                    FAIL(call.name << " does not add to the " << call.outputs[a / 3]
+                                   << " that is there: " << from_one[a][i] << " where 1 + " << from_zero[a][i]
+                                   << " is right, for " << text_of_input(in, i));
+            }
+        }
+    }
+}
+
+TEST_CASE("repeatable: the same input gives the same bytes, again and from 8 threads at once",
+          "[light][reflection][shading]") {
+    const Arrays in = inputs_for(1000);
+    for (const Values& values : many_values(2)) {
+        const BatchSubject subject = batch_subject(values);
+        for (const Call& call : subject.calls) {
+            const Arrays first = outputs_of(call, in);
+            if (!(outputs_of(call, in) == first))
+                FAIL(call.name << " gives another result the second time, with " << values.text);
+            std::vector<int> differs(8);
+            std::vector<std::thread> threads;
+            for (int& result : differs) {
+                threads.emplace_back([&] {
+                    for (int round = 0; round < 20 && result == 0; ++round)
+                        result = outputs_of(call, in) == first ? 0 : 1;
+                });
+            }
+            for (std::thread& thread : threads) thread.join();
+            if (std::ranges::count(differs, 1) > 0)
+                FAIL(call.name << " gives another result when 8 threads call it at once, with "
+                               << values.text);
+        }
+    }
+}
+
+TEST_CASE("independent: an instance does not depend on others made before, after or destroyed",
+          "[light][reflection][shading]") {
+    const Arrays in = inputs_for(100);
+    const std::vector<Values> all = many_values(6);
+    std::vector<BatchSubject> subjects;
+    std::vector<std::vector<Arrays>> alone;
+    for (const Values& values : all) {
+        const BatchSubject subject = batch_subject(values);
+        std::vector<Arrays>& results = alone.emplace_back();
+        for (const Call& call : subject.calls) results.push_back(outputs_of(call, in));
+    }
+    for (const Values& values : all) subjects.push_back(batch_subject(values));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t c = 0; c < subjects[i].calls.size(); ++c) {
+            if (!(outputs_of(subjects[i].calls[c], in) == alone[i][c]))
+                FAIL(subjects[i].calls[c].name << " gives another result while other instances exist, with "
+                                               << all[i].text);
+        }
+    }
+}
+
+#ifdef __SSE2__
+TEST_CASE("speed: it makes no denormal numbers, which are slow", "[light][reflection][shading]") {
+    const Arrays in = inputs_for(1024);
+    const unsigned usual_mode = _mm_getcsr();
+    constexpr unsigned k_flush_to_zero = 0x8000, k_denormals_are_zero = 0x0040;
+    for (const Values& values : many_values(8)) {
+        for (const Call& call : batch_subject(values).calls) {
+            const double usual = milliseconds(call, in);
+            _mm_setcsr(usual_mode | k_flush_to_zero | k_denormals_are_zero);
+            const double flushed = milliseconds(call, in);
+            _mm_setcsr(usual_mode);
+            if (usual > 2 * flushed) {
+                WARN(call.name << " takes " << usual / flushed
+                               << " times as long as without denormal numbers; clamp its powers, with "
+                               << values.text);
+                return;
+            }
+        }
+    }
+}
+#endif

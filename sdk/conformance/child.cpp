@@ -1,0 +1,139 @@
+#include "child.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+[[noreturn]] void be_the_child(int report, const std::function<void(Findings&)>& work) {
+    ::setpgid(0, 0);
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    const int nowhere = ::open("/dev/null", O_RDWR);
+    for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
+    Findings findings(report);
+    work(findings);
+    findings.add("done", "");
+    // Nothing of the plugin's runs after this.
+    ::_exit(0);
+}
+
+/// All that the child says until it ends or its time is over; whether it ended.
+bool read_all(int report, double seconds, std::string& text) {
+    const auto begin = Clock::now();
+    for (;;) {
+        const double left = seconds - seconds_since(begin);
+        if (left <= 0) return false;
+        pollfd wait{.fd = report, .events = POLLIN, .revents = 0};
+        const int ready = ::poll(&wait, 1, static_cast<int>(1000 * left) + 1);
+        if (ready < 0 && errno != EINTR) throw std::runtime_error(std::strerror(errno));
+        if (ready <= 0) continue;
+        char buffer[4096];
+        const ssize_t count = ::read(report, buffer, sizeof buffer);
+        if (count == 0) return true;
+        if (count > 0) text.append(buffer, static_cast<std::size_t>(count));
+    }
+}
+
+void judge(Outcome& outcome, const std::string& text, int status) {
+    bool is_done = false;
+    const auto worsen = [&](Verdict verdict) { outcome.verdict = std::max(outcome.verdict, verdict); };
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t space = line.find(' ');
+        const std::string verdict = line.substr(0, space);
+        is_done = is_done || verdict == "done";
+        if (verdict == "done") continue;
+        outcome.messages.push_back(space == std::string::npos ? "" : line.substr(space + 1));
+        worsen(verdict == "failed"    ? Verdict::failed
+               : verdict == "skipped" ? Verdict::skipped
+                                      : Verdict::warning);
+    }
+    if (WIFSIGNALED(status)) {
+        worsen(Verdict::crashed);
+        const char* const name = ::sigabbrev_np(WTERMSIG(status));
+        outcome.messages.push_back(fmt::format("ended by signal SIG{}", name != nullptr ? name : "?"));
+    } else if (!is_done) {
+        worsen(Verdict::crashed);
+        outcome.messages.push_back(
+            fmt::format("the plugin ended the process, with exit code {}", WEXITSTATUS(status)));
+    }
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::passed:
+            return "passed";
+        case Verdict::warning:
+            return "warning";
+        case Verdict::skipped:
+            return "skipped";
+        case Verdict::failed:
+            return "failed";
+        case Verdict::crashed:
+            return "crashed";
+        case Verdict::timed_out:
+            return "timed out";
+    }
+    return "?";
+}
+
+void Findings::add(const char* verdict, const std::string& message) {
+    std::string line = fmt::format("{} {}", verdict, message);
+    std::ranges::replace(line, '\n', ' ');
+    line += '\n';
+    if (::write(descriptor_, line.data(), line.size()) < 0) ::_exit(126);
+}
+
+Outcome run_in_child(const std::string& group, double seconds, const std::function<void(Findings&)>& work) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
+    const auto begin = Clock::now();
+    const pid_t child = ::fork();
+    if (child < 0) throw std::runtime_error(std::strerror(errno));
+    if (child == 0) {
+        ::close(ends[0]);
+        be_the_child(ends[1], work);
+    }
+    ::setpgid(child, child);
+    ::close(ends[1]);
+    Outcome outcome{group, Verdict::passed, {}, 0};
+    std::string text;
+    const bool ended = read_all(ends[0], seconds, text);
+    if (!ended) ::kill(-child, SIGKILL);
+    ::close(ends[0]);
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    // What a plugin started and left behind.
+    ::kill(-child, SIGKILL);
+    outcome.seconds = seconds_since(begin);
+    if (ended) {
+        judge(outcome, text, status);
+    } else {
+        judge(outcome, text + "done\n", 0);
+        outcome.verdict = Verdict::timed_out;
+        outcome.messages.push_back(fmt::format("not finished after {} s", seconds));
+    }
+    return outcome;
+}

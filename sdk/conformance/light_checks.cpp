@@ -1,0 +1,111 @@
+// What must hold of lights, and what they declare.
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "batch.h"
+
+using candela::Vec3;
+
+namespace {
+
+std::optional<Vec3> position_in(const Values& values) {
+    const std::size_t index = values.set.index_of("position");
+    if (index == values.set.schema().size() || !values.set.get(index)) return std::nullopt;
+    const auto* const p = std::get_if<Vec3>(&*values.set.get(index));
+    return p != nullptr ? std::optional(*p) : std::nullopt;
+}
+
+/// The sum of what all samples send, diffusely, to receivers that face the light.
+std::vector<float> sent_to(const Values& values, const std::vector<Vec3>& points, Vec3 normal) {
+    Arrays in = inputs_for(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        in.vec3(18).set(i, points[i]);
+        in.vec3(0).set(i, normal);
+    }
+    std::vector<float> sum(points.size());
+    for (const Call& call : batch_subject(values).calls) {
+        if (call.name == "illuminate_ambient") continue;
+        const Arrays out = outputs_of(call, in);
+        for (std::size_t i = 0; i < points.size(); ++i) sum[i] += std::max({out[3][i], out[4][i], out[5][i]});
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("directions: where light comes from is a unit vector, to a millionth", "[light]") {
+    const Arrays in = inputs_for(1000);
+    for (const Values& values : many_values()) {
+        for (const Call& call : batch_subject(values).calls) {
+            if (call.outputs.front() != "to_light") continue;
+            const Arrays out = outputs_of(call, in);
+            for (std::size_t i = 0; i < in.count(); ++i) {
+                const Vec3 l = out.at(0, i);
+                const double size = std::sqrt(double{l.x} * l.x + double{l.y} * l.y + double{l.z} * l.z);
+                if (std::abs(size - 1) > 1e-6)
+                    FAIL(call.name << " gives a direction of length " << size << ", for "
+                                   << text_of_input(in, i) << ", with " << values.text);
+            }
+        }
+    }
+}
+
+TEST_CASE("zero distance: a receiver at the light itself gets finite light from some direction", "[light]") {
+    for (const Values& values : many_values()) {
+        const auto position = position_in(values);
+        if (!position) SKIP("it has no position");
+        Arrays in = inputs_for(64);
+        for (std::size_t i = 0; i < 64; ++i)
+            in.vec3(18).set(i, *position + (i < 32 ? 0.0f : 1e-30f) * Vec3{1, 1, 1});
+        for (const Call& call : batch_subject(values).calls) {
+            const Arrays out = outputs_of(call, in);
+            for (std::size_t a = 0; a < out.arrays(); ++a) {
+                if (!std::isfinite(out[a][0]) || !std::isfinite(out[a][63]))
+                    FAIL(call.name << " gives " << out[a][0] << " as " << call.outputs[a / 3]
+                                   << " at the light's own position, with " << values.text);
+            }
+        }
+    }
+}
+
+TEST_CASE("fall-off, as declared: constant, or never brighter farther away", "[light]") {
+    const std::string law = declared("attenuation");
+    if (law != "constant" && law != "by distance")
+        SKIP("it declares no 'attenuation' of 'constant' or 'by distance'");
+    for (const Values& values : many_values()) {
+        if (law == "constant") {
+            const std::vector<float> sent =
+                sent_to(values, {{0, 0, 0}, {3, -2, 1}, {-100, 50, 20}}, {0, 1, 0});
+            if (sent[0] != sent[1] || sent[0] != sent[2])
+                FAIL("declared constant, it sends " << sent[0] << " to one point and " << sent[2]
+                                                    << " to another, with " << values.text);
+            continue;
+        }
+        const auto position = position_in(values);
+        if (!position)
+            FAIL(
+                "it declares attenuation by distance, and has no parameter 'position' that the distance is "
+                "from");
+        for (const Vec3 d : {Vec3{0, -1, 0}, Vec3{0.6f, -0.64f, 0.48f}, Vec3{-0.48f, 0.6f, 0.64f}}) {
+            // Beyond the size of a source of several samples.
+            const std::vector<float> sent =
+                sent_to(values, {*position + 50.0f * d, *position + 100.0f * d}, -d);
+            if (sent[1] > sent[0] * 1.001f)
+                FAIL("declared to fade by distance, it sends " << sent[0] << " to 50 m and " << sent[1]
+                                                               << " to 100 m, with " << values.text);
+        }
+    }
+}
+
+TEST_CASE("samples: their number is not negative, and a light without any has an ambient part", "[light]") {
+    for (const Values& values : many_values()) {
+        const auto light = make<candela::Light>(values);
+        if (light->sample_count() < 0)
+            FAIL("sample_count() is " << light->sample_count() << ", with " << values.text);
+        if (light->sample_count() == 0 && !light->has_ambient())
+            FAIL("it sends no light at all, with " << values.text);
+    }
+}

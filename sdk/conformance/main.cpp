@@ -1,0 +1,168 @@
+// candela-conformance PLUGIN.so… [--json] [--check NAME] [--time-limit SECONDS] [--list KIND]
+//
+// The conformance kit: every group of checks in a process of its own. Run by `candela plugin test` and by the
+// tests that candela_add_plugin() makes.
+#include <fmt/format.h>
+
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "groups.h"
+#include "outcome.h"
+#include "subject.h"
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+using candela::ExitCode;
+
+namespace {
+
+struct Options {
+    std::vector<std::string> files;
+    std::string only;
+    double time_limit = 45;
+    bool json = false;
+};
+
+struct Report {
+    fs::path library;
+    std::string id;
+    std::vector<Outcome> outcomes;
+};
+
+/// The kind by the file's name: the manifest may be what is wrong.
+std::string kind_of(const fs::path& library) {
+    const std::string name = library.filename().string();
+    const std::string kind = name.substr(0, name.find('-'));
+    return candela::plugin_kind_named(kind) ? kind : "all";
+}
+
+Report test(const fs::path& library, const Options& options) {
+    Report report{.library = library, .id = library.stem().string(), .outcomes = {}};
+    std::string blocked;
+    for (const std::string& group : groups_for(kind_of(library))) {
+        const bool is_handshake = group.starts_with("handshake");
+        if (!options.only.empty() && !is_handshake && group.find(options.only) == std::string::npos) continue;
+        if (!blocked.empty()) {
+            report.outcomes.push_back({group, Verdict::skipped, {blocked}, 0});
+            continue;
+        }
+        report.outcomes.push_back(run_in_child(group, options.time_limit, [&](Findings& findings) {
+            set_subject(library);
+            run_group(group, findings);
+        }));
+        if (is_handshake && !is_acceptable(report.outcomes.back().verdict)) blocked = "it cannot be loaded";
+    }
+    return report;
+}
+
+bool conforms(const Report& report) {
+    for (const Outcome& outcome : report.outcomes) {
+        if (!is_acceptable(outcome.verdict)) return false;
+    }
+    return true;
+}
+
+void print(const Report& report) {
+    std::cout << report.library.string() << '\n';
+    std::size_t counts[6] = {};
+    for (const Outcome& outcome : report.outcomes) {
+        ++counts[static_cast<int>(outcome.verdict)];
+        std::cout << fmt::format("  {:<9} {}\n", name_of(outcome.verdict), outcome.group);
+        for (const std::string& message : outcome.messages)
+            std::cout << fmt::format("            {}\n", message);
+    }
+    std::string summary;
+    for (int i = 0; i < 6; ++i) {
+        if (counts[i] > 0)
+            summary += fmt::format("{}{} {}", summary.empty() ? "" : ", ", counts[i],
+                                   name_of(static_cast<Verdict>(i)));
+    }
+    std::cout << fmt::format("{}: {}\n", conforms(report) ? "It conforms" : "It does not conform", summary);
+}
+
+nlohmann::ordered_json json_of(const Report& report) {
+    nlohmann::ordered_json outcomes = nlohmann::ordered_json::array();
+    for (const Outcome& outcome : report.outcomes) {
+        outcomes.push_back({{"check", outcome.group},
+                            {"outcome", name_of(outcome.verdict)},
+                            {"messages", outcome.messages},
+                            {"seconds", outcome.seconds}});
+    }
+    return {{"library", report.library.string()},
+            {"conforms", conforms(report)},
+            {"checks", std::move(outcomes)}};
+}
+
+int usage(const std::string& message) {
+    std::cerr << "candela-conformance: error: " << message << '\n';
+    return static_cast<int>(ExitCode::usage);
+}
+
+int run(int argc, char** argv) {
+    Options options;
+    po::options_description visible;
+    visible.add_options()("help,h", "this help")("json", "as JSON")(
+        "check", po::value<std::string>(&options.only)->value_name("TEXT"),
+        "only the checks whose name holds this")(
+        "time-limit", po::value<double>(&options.time_limit)->value_name("SECONDS")->default_value(45, "45"),
+        "for each check")("list", po::value<std::string>()->value_name("KIND"),
+                          "the checks for a kind of plugin");
+    po::options_description all;
+    all.add(visible).add_options()("file", po::value<std::vector<std::string>>(&options.files));
+    po::positional_options_description positional;
+    positional.add("file", -1);
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
+    po::notify(values);
+    if (values.contains("help")) {
+        std::cout << "Usage: candela plugin test PLUGIN.so... [options]\n\nChecks plugins for all that a "
+                     "host relies on, each check in a "
+                     "process of its own.\n\n"
+                  << visible;
+        return 0;
+    }
+    if (values.contains("list")) {
+        for (const std::string& group : groups_for(values["list"].as<std::string>()))
+            std::cout << group << '\n';
+        return 0;
+    }
+    if (options.files.empty()) return usage("name one plugin or more, such as build/reflection-toon.so");
+    options.json = values.contains("json");
+
+    bool all_conform = true;
+    nlohmann::ordered_json reports = nlohmann::ordered_json::array();
+    for (const std::string& file : options.files) {
+        if (!fs::is_regular_file(file)) {
+            std::cerr << fmt::format("candela-conformance: error: there is no file '{}'\n", file);
+            return static_cast<int>(ExitCode::failure);
+        }
+        const Report report = test(fs::absolute(file), options);
+        all_conform = all_conform && conforms(report);
+        if (options.json) {
+            reports.push_back(json_of(report));
+        } else {
+            print(report);
+        }
+    }
+    if (options.json)
+        std::cout << reports.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+    return static_cast<int>(all_conform ? ExitCode::ok : ExitCode::verification_failed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const po::error& problem) {
+        return usage(problem.what());
+    } catch (const std::exception& problem) {
+        std::cerr << "candela-conformance: error: " << problem.what() << '\n';
+        return static_cast<int>(ExitCode::failure);
+    }
+}

@@ -1,0 +1,115 @@
+// What must hold of every plugin.
+#include <catch2/catch_test_macros.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "subject.h"
+
+namespace {
+
+/// Lines that a command prints.
+std::vector<std::string> output_of(const std::string& command) {
+    std::vector<std::string> lines;
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
+    if (!pipe) return lines;
+    char buffer[4096];
+    while (std::fgets(buffer, sizeof buffer, pipe.get()) != nullptr) {
+        std::string line(buffer);
+        while (!line.empty() && line.back() == '\n') line.pop_back();
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+/// As one word of a shell.
+std::string quoted(const std::string& word) {
+    std::string result = "'";
+    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+std::size_t threads_of_this_process() {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator("/proc/self/task"), {}));
+}
+
+}  // namespace
+
+TEST_CASE("handshake: it loads, its fingerprint is this Candela's, its manifest agrees with it", "[all]") {
+    const auto begin = std::chrono::steady_clock::now();
+    subject();
+    const double ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    if (ms > 100)
+        WARN("loading it took " << static_cast<int>(ms) << " ms: every render that uses it waits for that");
+}
+
+TEST_CASE("file name: <kind>-<name>.so, as the host looks for it", "[all]") {
+    const candela::Manifest& m = subject_manifest();
+    const std::string expected = std::string(candela::name_of(m.kind)) + "-" + m.name + ".so";
+    if (subject_library().filename() != expected)
+        FAIL("the library is called '" << subject_library().filename().string() << "', so that nobody finds '"
+                                       << expected << "'");
+}
+
+TEST_CASE("symbols: it exports candela_* and nothing else", "[all]") {
+    const auto symbols = output_of("nm -D --defined-only --format=posix " +
+                                   quoted(subject_library().string()) + " 2>/dev/null");
+    if (symbols.empty()) SKIP("nm is not installed");
+    for (const std::string& line : symbols) {
+        const std::string name = line.substr(0, line.find(' '));
+        if (!name.starts_with("candela_"))
+            FAIL_CHECK("it exports '"
+                       << name << "', which may clash with another plugin's; candela_add_plugin() hides it");
+    }
+}
+
+TEST_CASE("description: a title, a summary, and a meaning for each parameter", "[all]") {
+    const candela::Manifest& m = subject_manifest();
+    if (m.title.empty()) FAIL_CHECK("it has no title");
+    if (m.summary.empty()) FAIL_CHECK("it has no summary");
+    for (const candela::Parameter& p : m.parameters) {
+        if (p.meaning.empty()) FAIL_CHECK("its parameter '" << p.name << "' has no meaning");
+    }
+    if (m.reference.empty() && m.kind == candela::PluginKind::reflection)
+        WARN("it names no paper or book; readers want to know where a model comes from");
+}
+
+TEST_CASE("parameters: each default is within its own range, and the defaults agree with one another",
+          "[all]") {
+    const candela::Manifest& m = subject_manifest();
+    for (const candela::Parameter& p : m.parameters) {
+        if (!p.fallback) continue;
+        if (const auto wrong = candela::complaint(p, *p.fallback))
+            FAIL_CHECK("the default of '" << p.name << "': " << *wrong);
+    }
+    const candela::ParamSet defaults(m.parameters);
+    for (const candela::Relation& relation : m.relations) {
+        if (const auto wrong = candela::complaint(relation, defaults)) FAIL_CHECK("the defaults: " << *wrong);
+    }
+}
+
+TEST_CASE("instances: one can be made with every allowed set of values, and they clean up after themselves",
+          "[all]") {
+    if (needs_a_file()) SKIP("it needs a file that only a user has");
+    const candela::PluginDescriptor& plugin = subject();
+    const std::size_t before = threads_of_this_process();
+    for (const Values& values : many_values()) {
+        const auto delivered = values.set.delivered(candela::ColorEncoding::none);
+        std::unique_ptr<candela::Instance> instance;
+        try {
+            instance.reset(plugin.create(delivered));
+        } catch (const std::exception& problem) {
+            FAIL("create() threw '" << problem.what() << "' with " << values.text);
+        } catch (...) {
+            FAIL("create() threw something that is no std::exception, with " << values.text);
+        }
+        if (instance == nullptr) FAIL("create() returned nothing with " << values.text);
+    }
+    const std::size_t after = threads_of_this_process();
+    if (after > before)
+        FAIL("it leaves " << after - before << " threads running after its instances are gone");
+}

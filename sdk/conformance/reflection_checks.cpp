@@ -1,0 +1,216 @@
+// What must hold of reflection models, and what they declare.
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "batch.h"
+
+using candela::ReflectionModel;
+using candela::Vec3;
+
+namespace {
+
+constexpr Vec3 k_up{0, 1, 0};
+constexpr Vec3 k_tangent{1, 0, 0};
+
+/// What a model reflects of white light of intensity 1, for many pairs of directions on one surface.
+class Reflections {
+  public:
+    explicit Reflections(const Values& values) : model_(make<ReflectionModel>(values)) {}
+
+    /// Sum of the diffuse and specular part, channel by channel.
+    std::vector<Vec3> of(const std::vector<Vec3>& to_observer, const std::vector<Vec3>& to_light,
+                         Vec3 normal = k_up, Vec3 tangent = k_tangent) const {
+        const std::size_t count = to_light.size();
+        Arrays in(15, count), out(9, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            in.vec3(0).set(i, normal);
+            in.vec3(3).set(i, to_observer[i]);
+            in.vec3(6).set(i, tangent);
+            in.vec3(9).set(i, to_light[i]);
+            in.vec3(12).set(i, {1, 1, 1});
+        }
+        const Arrays& given = in;
+        model_->reflect({.count = count,
+                         .normal = given.vec3(0),
+                         .to_observer = given.vec3(3),
+                         .tangent = model_->needs_tangent() ? given.vec3(6) : candela::ConstVec3Span{},
+                         .color = {1, 1, 1}},
+                        {.to_light = given.vec3(9), .diffuse = given.vec3(12), .specular = given.vec3(12)},
+                        {.ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
+        std::vector<Vec3> sums;
+        for (std::size_t i = 0; i < count; ++i) sums.push_back(out.at(3, i) + out.at(6, i));
+        return sums;
+    }
+
+  private:
+    std::unique_ptr<ReflectionModel> model_;
+};
+
+Vec3 above(double theta, double phi) {
+    return {static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::cos(theta)),
+            static_cast<float>(std::sin(theta) * std::sin(phi))};
+}
+
+float largest(Vec3 v) { return std::max({v.x, v.y, v.z}); }
+
+std::vector<Vec3> random_directions_above(std::size_t count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<Vec3> result;
+    for (std::size_t i = 0; i < count; ++i)
+        result.push_back(above(std::acos(unit(random)), 2 * std::numbers::pi * unit(random)));
+    return result;
+}
+
+/// The share of light that leaves towards `to_observer`: the integral of what is reflected over all
+/// directions of light, over pi (a white Lambert surface has 1). Polar coordinates around the mirror
+/// direction, its distance in even steps of its logarithm, so that narrow highlights are met: 16,384
+/// directions.
+double directional_albedo(const Reflections& reflections, Vec3 to_observer) {
+    constexpr int k_rings = 128, k_spokes = 128;
+    const Vec3 mirror = 2 * dot(k_up, to_observer) * k_up - to_observer;
+    const Vec3 aside =
+        candela::normalized(std::abs(mirror.y) < 0.9f ? cross(k_up, mirror) : cross(Vec3{1, 0, 0}, mirror));
+    const Vec3 across = cross(mirror, aside);
+    const double nearest = std::log(1e-4), farthest = std::log(std::numbers::pi);
+    std::vector<Vec3> lights;
+    std::vector<double> weights;
+    for (int ring = 0; ring < k_rings; ++ring) {
+        const double step = (farthest - nearest) / k_rings;
+        const double angle = std::exp(nearest + (ring + 0.5) * step);
+        for (int spoke = 0; spoke < k_spokes; ++spoke) {
+            const double phi = 2 * std::numbers::pi * (spoke + 0.5) / k_spokes;
+            const Vec3 l = static_cast<float>(std::cos(angle)) * mirror +
+                           static_cast<float>(std::sin(angle) * std::cos(phi)) * aside +
+                           static_cast<float>(std::sin(angle) * std::sin(phi)) * across;
+            if (l.y <= 0) continue;
+            lights.push_back(candela::normalized(l));
+            weights.push_back(std::sin(angle) * angle * step * 2 * std::numbers::pi / k_spokes);
+        }
+    }
+    const std::vector<Vec3> reflected = reflections.of(std::vector<Vec3>(lights.size(), to_observer), lights);
+    double albedo = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i) albedo += weights[i] * double{largest(reflected[i])};
+    return albedo / std::numbers::pi;
+}
+
+/// Values at which k_d + k_s does not exceed 1: where a model says that such a sum gives out more light than
+/// it receives, its energy is bounded only there.
+bool is_bounded(const Values& values) {
+    return std::ranges::none_of(subject_manifest().relations, [&](const candela::Relation& relation) {
+        return candela::complaint(relation, values.set).has_value();
+    });
+}
+
+}  // namespace
+
+TEST_CASE("horizon: light from below the surface is not reflected, unless it is declared", "[reflection]") {
+    if (declares("lights-below-horizon")) SKIP("it declares lights-below-horizon");
+    const std::vector<Vec3> observers = random_directions_above(500, 2);
+    std::vector<Vec3> lights;
+    for (const Vec3 l : random_directions_above(500, 3)) lights.push_back({l.x, -l.y, l.z});
+    for (const Values& values : many_values()) {
+        const std::vector<Vec3> reflected = Reflections(values).of(observers, lights);
+        for (std::size_t i = 0; i < reflected.size(); ++i) {
+            if (largest(reflected[i]) > 1e-6f)
+                FAIL("light from " << std::asin(double{lights[i].y}) * 180 / std::numbers::pi
+                                   << " degrees below the horizon is reflected, " << largest(reflected[i])
+                                   << ", with " << values.text);
+        }
+    }
+}
+
+TEST_CASE("grazing: what comes or goes along the surface, or straight up, is finite and not negative",
+          "[reflection]") {
+    std::vector<Vec3> observers, lights;
+    const std::vector<double> angles{0,
+                                     1e-4,
+                                     0.5,
+                                     1.57,
+                                     std::numbers::pi / 2 - 1e-4,
+                                     std::numbers::pi / 2 - 1e-6,
+                                     std::numbers::pi / 2,
+                                     std::numbers::pi / 2 + 1e-6,
+                                     2,
+                                     std::numbers::pi};
+    for (const double v : angles) {
+        for (const double l : angles) {
+            for (const double phi : {0.0, std::numbers::pi / 2, std::numbers::pi, 3.0}) {
+                observers.push_back(above(v, 0));
+                lights.push_back(above(l, phi));
+            }
+        }
+    }
+    for (const Values& values : many_values()) {
+        const std::vector<Vec3> reflected = Reflections(values).of(observers, lights);
+        for (std::size_t i = 0; i < reflected.size(); ++i) {
+            const Vec3 r = reflected[i];
+            const bool finite = std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z);
+            if (!finite || (!declares("may-be-negative") && std::min({r.x, r.y, r.z}) < 0))
+                FAIL("it reflects [" << r.x << ", " << r.y << ", " << r.z << "] with N.V = " << observers[i].y
+                                     << ", N.L = " << lights[i].y << ", V.L = "
+                                     << dot(observers[i], lights[i]) << ", with " << values.text);
+        }
+    }
+}
+
+TEST_CASE("reciprocal, where it is declared: light and observer may change places (Helmholtz)",
+          "[reflection]") {
+    if (!declares("reciprocal")) SKIP("not declared");
+    const std::vector<Vec3> v = random_directions_above(2000, 4), l = random_directions_above(2000, 5);
+    for (const Values& values : many_values()) {
+        const Reflections reflections(values);
+        const std::vector<Vec3> forth = reflections.of(v, l), back = reflections.of(l, v);
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            if (v[i].y < 0.01f || l[i].y < 0.01f) continue;
+            // What is reflected holds the cosine of the light; without it the two agree.
+            const double a = double{largest(forth[i])} / double{l[i].y},
+                         b = double{largest(back[i])} / double{v[i].y};
+            if (std::abs(a - b) > 1e-5 * std::max(a, b) + 1e-6)
+                FAIL("it is not reciprocal: " << a << " one way and " << b << " the other, for V = ["
+                                              << v[i].x << ", " << v[i].y << ", " << v[i].z << "], L = ["
+                                              << l[i].x << ", " << l[i].y << ", " << l[i].z << "], with "
+                                              << values.text);
+        }
+    }
+}
+
+TEST_CASE("energy-bounded, where it is declared: no direction receives more light than falls in",
+          "[reflection]") {
+    if (!declares("energy-bounded")) SKIP("not declared");
+    for (const Values& values : many_values()) {
+        if (!is_bounded(values)) continue;
+        const Reflections reflections(values);
+        for (int k = 0; k < 10; ++k) {
+            const double theta = (k + 0.5) / 10 * std::numbers::pi / 2;
+            const double albedo = directional_albedo(reflections, above(theta, 0.7));
+            if (albedo > 1.01)
+                FAIL("it sends out " << albedo << " times the light that falls in, towards an observer at "
+                                     << theta * 180 / std::numbers::pi << " degrees from N, with "
+                                     << values.text);
+        }
+    }
+}
+
+TEST_CASE("isotropic, where it is declared: turning the surface about its normal changes nothing",
+          "[reflection]") {
+    if (!declares("isotropic")) SKIP("not declared");
+    const std::vector<Vec3> v = random_directions_above(300, 6), l = random_directions_above(300, 7);
+    for (const Values& values : many_values(10)) {
+        const Reflections reflections(values);
+        const std::vector<Vec3> before = reflections.of(v, l);
+        for (const float angle : {0.5f, 1.6f, 3.0f}) {
+            const Vec3 turned{std::cos(angle), 0, std::sin(angle)};
+            const std::vector<Vec3> after = reflections.of(v, l, k_up, turned);
+            for (std::size_t i = 0; i < v.size(); ++i) {
+                if (std::abs(largest(before[i]) - largest(after[i])) > 1e-5f * largest(before[i]) + 1e-6f)
+                    FAIL("turned by " << angle << " rad about N it reflects " << largest(after[i])
+                                      << " instead of " << largest(before[i]) << ", with " << values.text);
+            }
+        }
+    }
+}

@@ -1,0 +1,188 @@
+// What must hold of shading models.
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "batch.h"
+
+using candela::ShadingModel;
+using candela::Vec3;
+
+namespace {
+
+/// A mesh with what vertex normals are made from.
+struct Facets {
+    std::vector<Vec3> position;
+    std::vector<std::uint32_t> corners;
+
+    std::vector<Vec3> vertex_normals(const ShadingModel& model) const;
+};
+
+std::vector<Vec3> Facets::vertex_normals(const ShadingModel& model) const {
+    const std::size_t count = position.size(), triangles = corners.size() / 3;
+    Arrays points(3, count), faces(3, triangles), normals(3, count);
+    std::vector<std::uint32_t> group(count);
+    std::iota(group.begin(), group.end(), 0u);
+    for (std::size_t i = 0; i < count; ++i) points.vec3(0).set(i, position[i]);
+    for (std::size_t t = 0; t < triangles; ++t) {
+        const Vec3 a = position[corners[3 * t]], b = position[corners[3 * t + 1]],
+                   c = position[corners[3 * t + 2]];
+        faces.vec3(0).set(t, candela::normalized(cross(b - a, c - a)));
+    }
+    model.vertex_normals({.position = std::as_const(points).vec3(0),
+                          .corners = corners,
+                          .face_normal = std::as_const(faces).vec3(0),
+                          .smooth_group = group,
+                          .vertex_count = count,
+                          .group_count = count,
+                          .authored_normal = {}},
+                         normals.vec3(0));
+    if (const std::string where = normals.trespass(); !where.empty())
+        FAIL("vertex_normals() writes " << where << " its array");
+    std::vector<Vec3> result;
+    for (std::size_t i = 0; i < count; ++i) result.push_back(normals.at(0, i));
+    return result;
+}
+
+/// A bumpy grid of 2 x 8 x 8 triangles.
+Facets landscape(float bumps) {
+    constexpr std::uint32_t k_side = 9;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> height(-bumps, bumps);
+    Facets mesh;
+    for (std::uint32_t row = 0; row < k_side; ++row) {
+        for (std::uint32_t column = 0; column < k_side; ++column)
+            mesh.position.push_back({static_cast<float>(column), height(random), -static_cast<float>(row)});
+    }
+    for (std::uint32_t row = 0; row + 1 < k_side; ++row) {
+        for (std::uint32_t column = 0; column + 1 < k_side; ++column) {
+            const std::uint32_t a = row * k_side + column, b = a + 1, c = b + k_side, d = a + k_side;
+            for (const std::uint32_t corner : {a, b, c, a, c, d}) mesh.corners.push_back(corner);
+        }
+    }
+    return mesh;
+}
+
+Vec3 turned(Vec3 p) {
+    // By 0.6435 rad about z (3-4-5), then about x.
+    const Vec3 q{0.8f * p.x - 0.6f * p.y, 0.6f * p.x + 0.8f * p.y, p.z};
+    return {q.x, 0.28f * q.y - 0.96f * q.z, 0.96f * q.y + 0.28f * q.z};
+}
+
+float distance(Vec3 a, Vec3 b) { return candela::length(a - b); }
+
+}  // namespace
+
+TEST_CASE("unit: normals are unit vectors, to a millionth, at every point and vertex", "[shading]") {
+    const Arrays in = inputs_for(1000);
+    for (const Values& values : many_values()) {
+        const BatchSubject subject = batch_subject(values);
+        const Arrays out = outputs_of(subject.calls.front(), in);
+        for (std::size_t i = 0; i < in.count(); ++i) {
+            if (std::abs(candela::length(out.at(0, i)) - 1) > 1e-6f)
+                FAIL("normals() gives a vector of length " << candela::length(out.at(0, i)) << ", for "
+                                                           << text_of_input(in, i) << ", with "
+                                                           << values.text);
+        }
+        for (const Vec3 n : landscape(0.4f).vertex_normals(*make<ShadingModel>(values))) {
+            if (std::abs(candela::length(n) - 1) > 1e-6f)
+                FAIL("vertex_normals() gives a vector of length " << candela::length(n) << ", with "
+                                                                  << values.text);
+        }
+    }
+}
+
+TEST_CASE("plane: on a plane, every normal is the plane's", "[shading]") {
+    for (const Values& values : many_values(10)) {
+        for (const Vec3 n : landscape(0).vertex_normals(*make<ShadingModel>(values))) {
+            if (distance(n, {0, 1, 0}) > 1e-6f)
+                FAIL("a vertex of the plane y = 0 has the normal [" << n.x << ", " << n.y << ", " << n.z
+                                                                    << "], with " << values.text);
+        }
+        Arrays in = inputs_for(100);
+        const Vec3 up{0, 1, 0};
+        for (std::size_t i = 0; i < 100; ++i) {
+            in.vec3(0).set(i, up);
+            in.vec3(24).set(i, 0.5f * up);
+            in.vec3(27).set(i, {0, 0, 2});
+            in.vec3(30).set(i, {3, 0, 1});
+        }
+        const Arrays out = outputs_of(batch_subject(values).calls.front(), in);
+        for (std::size_t i = 0; i < 100; ++i) {
+            if (distance(out.at(0, i), up) > 1e-6f)
+                FAIL("a point of the plane y = 0 has the normal [" << out[0][i] << ", " << out[1][i] << ", "
+                                                                   << out[2][i] << "], with " << values.text);
+        }
+    }
+}
+
+TEST_CASE("order: vertex normals do not depend on how vertices and triangles are numbered", "[shading]") {
+    const Facets mesh = landscape(0.5f);
+    std::vector<std::uint32_t> place(mesh.position.size());
+    std::iota(place.begin(), place.end(), 0u);
+    std::shuffle(place.begin(), place.end(), std::mt19937(5));
+    Facets shuffled{mesh.position, {}};
+    for (std::size_t i = 0; i < place.size(); ++i) shuffled.position[place[i]] = mesh.position[i];
+    for (std::size_t t = mesh.corners.size(); t > 0; t -= 3) {
+        for (const std::size_t k : {1, 2, 0}) shuffled.corners.push_back(place[mesh.corners[t - 3 + k]]);
+    }
+    for (const Values& values : many_values(10)) {
+        const auto model = make<ShadingModel>(values);
+        const std::vector<Vec3> before = mesh.vertex_normals(*model), after = shuffled.vertex_normals(*model);
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if (distance(before[i], after[place[i]]) > 1e-5f)
+                FAIL("numbered otherwise, vertex " << i << " has another normal, with " << values.text);
+        }
+    }
+}
+
+TEST_CASE("motion: turning and moving a mesh turns its normals", "[shading]") {
+    const Facets mesh = landscape(0.5f);
+    Facets moved = mesh;
+    for (Vec3& p : moved.position) p = turned(p) + Vec3{1, 2, -3};
+    for (const Values& values : many_values(10)) {
+        const auto model = make<ShadingModel>(values);
+        const std::vector<Vec3> before = mesh.vertex_normals(*model), after = moved.vertex_normals(*model);
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            if (distance(turned(before[i]), after[i]) > 2e-5f)
+                FAIL("a mesh that is turned does not have its normals turned, at vertex " << i << ", with "
+                                                                                          << values.text);
+        }
+    }
+}
+
+TEST_CASE("degenerate: triangles without area, and vertices without triangles, leave all normals finite",
+          "[shading]") {
+    Facets mesh = landscape(0.3f);
+    mesh.position.insert(mesh.position.end(), {{20, 0, 0}, {21, 0, 0}, {22, 0, 0}, {30, 0, 0}});
+    const auto last = static_cast<std::uint32_t>(mesh.position.size());
+    for (const std::uint32_t corner : {last - 4, last - 3, last - 2, 5u, 5u, 6u, 7u, 7u, 7u})
+        mesh.corners.push_back(corner);
+    for (const Values& values : many_values(10)) {
+        const std::vector<Vec3> normals = mesh.vertex_normals(*make<ShadingModel>(values));
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            if (!std::isfinite(normals[i].x + normals[i].y + normals[i].z))
+                FAIL("beside triangles without area, vertex " << i << " has the normal [" << normals[i].x
+                                                              << ", " << normals[i].y << ", " << normals[i].z
+                                                              << "], with " << values.text);
+        }
+        Arrays in = inputs_for(32);
+        for (std::size_t i = 0; i < 32; ++i) {
+            if (i < 16) in.vec3(24).set(i, {0, 0, 0});
+            in.vec3(27).set(i, i < 8 ? Vec3{} : Vec3{1, 1, 1});
+            in.vec3(30).set(i, {1, 1, 1});
+        }
+        const Arrays out = outputs_of(batch_subject(values).calls.front(), in);
+        for (std::size_t i = 0; i < 32; ++i) {
+            const Vec3 n = out.at(0, i);
+            if (!std::isfinite(n.x + n.y + n.z))
+                FAIL("where interpolated normals or derivatives vanish, normals() gives ["
+                     << n.x << ", " << n.y << ", " << n.z << "], with " << values.text);
+        }
+    }
+}

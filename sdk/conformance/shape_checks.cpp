@@ -1,0 +1,168 @@
+// What must hold of shapes, and what they declare.
+#include <algorithm>
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "subject.h"
+
+using candela::Mesh;
+using candela::Vec3;
+
+namespace {
+
+Mesh mesh_of(const Values& values) {
+    try {
+        return candela::place(*make<candela::Shape>(values), {.uv = true, .derivatives = true}, {}).mesh;
+    } catch (const std::exception& problem) {
+        FAIL("its mesh cannot be used: " << problem.what() << ", with " << values.text);
+        throw;
+    }
+}
+
+struct Topology {
+    int euler = 0;
+    std::size_t open_edges = 0;
+    std::size_t flat = 0;  // triangles without area
+    double volume = 0;
+};
+
+/// Vertices at one place count as one.
+Topology topology_of(const Mesh& mesh) {
+    const auto p = mesh.position.span();
+    const std::vector<std::uint32_t> place = candela::welded(p, mesh.vertex_count());
+    std::map<std::uint32_t, int> vertices;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    Topology result;
+    for (std::size_t t = 0; t < mesh.corners.size(); t += 3) {
+        std::array<std::uint32_t, 3> c{};
+        for (std::size_t k = 0; k < 3; ++k) vertices[c[k] = place[mesh.corners[t + k]]] = 1;
+        for (std::size_t k = 0; k < 3; ++k)
+            edges[std::minmax(c[k], c[(k + 1) % 3])] += c[k] < c[(k + 1) % 3] ? 1 : -1;
+        const Vec3 normal = cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]);
+        if (candela::length(normal) == 0) ++result.flat;
+        result.volume += double{dot(p[c[0]], cross(p[c[1]], p[c[2]]))} / 6;
+    }
+    result.euler = static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) +
+                   static_cast<int>(mesh.triangle_count());
+    result.open_edges = static_cast<std::size_t>(
+        std::ranges::count_if(edges, [](const auto& edge) { return edge.second != 0; }));
+    return result;
+}
+
+void skip_if_it_needs_a_file() {
+    if (needs_a_file()) SKIP("it needs a file that only a user has");
+}
+
+}  // namespace
+
+TEST_CASE("usable: it has triangles, of vertices that there are, at finite places", "[shape]") {
+    skip_if_it_needs_a_file();
+    for (const Values& values : many_values(10)) {
+        if (mesh_of(values).triangle_count() == 0) FAIL("it has no triangles, with " << values.text);
+    }
+}
+
+TEST_CASE("closed, where it is declared: every edge lies between two triangles that agree on what is outside",
+          "[shape]") {
+    skip_if_it_needs_a_file();
+    if (!declares("closed")) {
+        if (!declares("open")) FAIL("it declares neither 'closed' nor 'open'");
+        SKIP("it declares itself open");
+    }
+    for (const Values& values : many_values(10)) {
+        const Topology found = topology_of(mesh_of(values));
+        if (found.open_edges > 0)
+            FAIL("declared closed, it has "
+                 << found.open_edges << " edges that do not lie between two triangles, with " << values.text);
+        if (found.volume <= 0)
+            FAIL("it is inside out: its triangles enclose a volume of " << found.volume << ", with "
+                                                                        << values.text);
+    }
+}
+
+TEST_CASE("Euler characteristic, as declared", "[shape]") {
+    skip_if_it_needs_a_file();
+    const std::string declared_number = declared("euler-characteristic");
+    if (declared_number.empty()) SKIP("not declared");
+    const int euler = topology_of(mesh_of(default_values())).euler;
+    if (std::to_string(euler) != declared_number)
+        FAIL("vertices - edges + faces is " << euler << ", declared is " << declared_number);
+}
+
+TEST_CASE("area: no triangle is without one, with the default values", "[shape]") {
+    skip_if_it_needs_a_file();
+    const Topology found = topology_of(mesh_of(default_values()));
+    if (found.flat > 0) FAIL(found.flat << " triangles have no area");
+}
+
+TEST_CASE("normals: authored ones, and derivatives where there are some, agree with the faces", "[shape]") {
+    skip_if_it_needs_a_file();
+    const Values values = default_values();
+    const candela::PlacedShape placed =
+        candela::place(*make<candela::Shape>(values), {.uv = true, .derivatives = true}, {});
+    const Mesh& mesh = placed.mesh;
+    if (placed.authored_normal.empty() && mesh.dpdu.empty())
+        SKIP("it brings neither normals nor derivatives");
+    const auto p = mesh.position.span();
+    std::size_t against = 0, all = 0;
+    for (std::size_t t = 0; t < mesh.corners.size(); t += 3) {
+        const Vec3 face =
+            cross(p[mesh.corners[t + 1]] - p[mesh.corners[t]], p[mesh.corners[t + 2]] - p[mesh.corners[t]]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = mesh.corners[t + k];
+            const auto judge = [&](Vec3 normal) {
+                if (candela::length(normal) < 1e-6f) return;  // a pole
+                ++all;
+                if (dot(normal, face) <= 0) ++against;
+            };
+            if (!placed.authored_normal.empty()) judge(placed.authored_normal.span()[v]);
+            if (!mesh.dpdu.empty()) judge(cross(mesh.dpdu.span()[v], mesh.dpdv.span()[v]));
+        }
+    }
+    if (against > 0)
+        FAIL(against << " of " << all
+                     << " normals (or dp/du x dp/dv) at corners point to the other side than their triangle");
+}
+
+TEST_CASE("bounding box, as declared for the default values", "[shape]") {
+    skip_if_it_needs_a_file();
+    const std::string text = declared("bounding-box");
+    if (text.empty()) SKIP("not declared");
+    std::array<float, 6> b{};
+    if (std::sscanf(text.c_str(), "%f %f %f %f %f %f", &b[0], &b[1], &b[2], &b[3], &b[4], &b[5]) != 6)
+        FAIL("'bounding-box' is declared as '" << text << "'; it takes six numbers, low x y z, high x y z");
+    const Mesh mesh = mesh_of(default_values());
+    const candela::Box box = candela::box_around(mesh.position.span(), mesh.vertex_count());
+    const Vec3 low{b[0], b[1], b[2]}, high{b[3], b[4], b[5]};
+    const float allowed = 0.01f * candela::length(high - low);
+    if (candela::length(box.low - low) > allowed || candela::length(box.high - high) > allowed)
+        FAIL("it reaches from [" << box.low.x << ", " << box.low.y << ", " << box.low.z << "] to ["
+                                 << box.high.x << ", " << box.high.y << ", " << box.high.z
+                                 << "], declared is " << text);
+}
+
+TEST_CASE("density: with more segments its volume converges", "[shape]") {
+    skip_if_it_needs_a_file();
+    const Values defaults = default_values();
+    const std::size_t index = defaults.set.index_of("segments");
+    if (index == defaults.set.schema().size()) SKIP("it has no parameter 'segments'");
+    if (!declares("closed")) SKIP("only what is closed has a volume");
+    std::vector<double> volumes;
+    for (const std::int64_t segments : {8, 16, 32, 64}) {
+        Values values = defaults;
+        values.set.set(index, segments);
+        volumes.push_back(topology_of(mesh_of(values)).volume);
+    }
+    for (std::size_t i = 2; i < volumes.size(); ++i) {
+        if (std::abs(volumes[i] - volumes[i - 1]) > 0.6 * std::abs(volumes[i - 1] - volumes[i - 2]) + 1e-6)
+            FAIL("with 8, 16, 32, 64 segments its volume is " << volumes[0] << ", " << volumes[1] << ", "
+                                                              << volumes[2] << ", " << volumes[3]
+                                                              << ": that does not converge");
+    }
+}

@@ -1,0 +1,205 @@
+#include "subject.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <variant>
+
+using candela::Parameter;
+using candela::ParamType;
+using candela::Vec3;
+
+namespace {
+
+std::filesystem::path& library_path() {
+    static std::filesystem::path path;
+    return path;
+}
+
+constexpr float k_far = 1000;  // stands in for a bound that there is not
+
+struct Range {
+    double low, high;
+};
+
+/// The least and the greatest allowed number; excluded bounds are left by a thousandth of the range.
+Range range_of(const Parameter& p) {
+    if (p.type == ParamType::color) return {0, 255};
+    const bool has_low = p.minimum != candela::k_no_minimum, has_high = p.maximum != candela::k_no_maximum;
+    Range range{has_low ? p.minimum : (has_high ? p.maximum - k_far : -k_far),
+                has_high ? p.maximum : (has_low ? p.minimum + k_far : k_far)};
+    if (p.type == ParamType::point && !has_low) range = {-4, 4};
+    const double hair = 1e-3 * std::min(range.high - range.low, 1.0);
+    if (p.minimum_excluded) range.low += hair;
+    if (p.maximum_excluded) range.high -= hair;
+    // No shape needs millions of faces to be judged.
+    if (p.type == ParamType::integer) range.high = std::min(range.high, std::max(range.low, 64.0));
+    return range;
+}
+
+Vec3 three(double x) {
+    const auto f = static_cast<float>(x);
+    return {f, f, f};
+}
+
+/// A value at share `t` of the range, 0 to 1; `turn` tells the parts of a vector apart.
+candela::Value value_at(const Parameter& p, double t, const Vec3& turn) {
+    const Range range = range_of(p);
+    const auto at = [&](double share) { return range.low + share * (range.high - range.low); };
+    switch (p.type) {
+        case ParamType::real:
+            return at(t);
+        case ParamType::integer:
+            if (!p.choices.empty()) {
+                const auto last = static_cast<double>(p.choices.size() - 1);
+                return std::int64_t{std::stoll(p.choices[static_cast<std::size_t>(std::lround(t * last))])};
+            }
+            return std::int64_t{std::llround(at(t))};
+        case ParamType::boolean:
+            return t >= 0.5;
+        case ParamType::choice:
+            return p.choices[static_cast<std::size_t>(
+                std::lround(t * static_cast<double>(p.choices.size() - 1)))];
+        case ParamType::text:
+        case ParamType::file:
+            return std::string();
+        case ParamType::direction:
+            return turn == Vec3{} ? Vec3{0, -1, 0} : turn;
+        case ParamType::color:
+            return three(std::round(at(t)));
+        case ParamType::triple:
+            return three(at(t));
+        default: {
+            const auto part = [&](float share) { return static_cast<float>(at(0.5 + 0.5 * double{share})); };
+            return turn == Vec3{} ? three(at(t)) : Vec3{part(turn.x), part(turn.y), part(turn.z)};
+        }
+    }
+}
+
+bool is_allowed(const candela::ParamSet& set) {
+    return std::ranges::none_of(subject_manifest().relations, [&](const candela::Relation& relation) {
+        return !relation.only_warns && candela::complaint(relation, set).has_value();
+    });
+}
+
+Values named(candela::ParamSet set) {
+    std::string text;
+    for (std::size_t i = 0; i < set.schema().size(); ++i) {
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", set.schema()[i].name,
+                            set.get(i) ? candela::text_of(*set.get(i)) : "?");
+    }
+    return {std::move(set), text.empty() ? "no parameters" : text};
+}
+
+template <class Interface>
+std::unique_ptr<Interface> made(const Values& values) {
+    const auto delivered = values.set.delivered(candela::ColorEncoding::none);
+    std::unique_ptr<candela::Instance> instance(subject().create(delivered));
+    if (instance == nullptr) FAIL("create() returned nothing with " << values.text);
+    auto* const typed = dynamic_cast<Interface*>(instance.get());
+    if (typed == nullptr) FAIL("what create() returned does not have the interface of its kind");
+    static_cast<void>(instance.release());
+    return std::unique_ptr<Interface>(typed);
+}
+
+}  // namespace
+
+void set_subject(const std::filesystem::path& library) { library_path() = library; }
+const std::filesystem::path& subject_library() { return library_path(); }
+
+const candela::Manifest& subject_manifest() {
+    static const candela::Manifest manifest = [] {
+        std::filesystem::path path = subject_library();
+        std::ifstream in(path.replace_extension(".json"), std::ios::binary);
+        if (!in) FAIL("its manifest '" << path.string() << "' cannot be read");
+        try {
+            return candela::manifest_from_json(std::string(std::istreambuf_iterator<char>(in), {}));
+        } catch (const std::exception& problem) {
+            FAIL("its manifest '" << path.string() << "' is wrong: " << problem.what());
+            throw;
+        }
+    }();
+    return manifest;
+}
+
+const candela::PluginDescriptor& subject() {
+    static const candela::PluginDescriptor& descriptor = []() -> const candela::PluginDescriptor& {
+        const candela::Manifest& manifest = subject_manifest();
+        try {
+            return candela::load_plugin(subject_library(), &manifest);
+        } catch (const std::exception& problem) {
+            FAIL(problem.what());
+            throw;
+        }
+    }();
+    return descriptor;
+}
+
+bool declares(const std::string& property) { return subject_manifest().property(property) == "true"; }
+std::string declared(const std::string& property) {
+    return subject_manifest().property(property).value_or("");
+}
+
+Values default_values() {
+    candela::ParamSet set(subject_manifest().parameters);
+    for (std::size_t i = 0; i < set.schema().size(); ++i) {
+        if (!set.get(i)) set.set(i, value_at(set.schema()[i], 0.5, {}));
+    }
+    return named(std::move(set));
+}
+
+std::vector<Values> many_values(int random_sets) {
+    const Values defaults = default_values();
+    std::vector<Values> all{defaults};
+    const std::vector<Parameter>& schema = defaults.set.schema();
+    for (std::size_t i = 0; i < schema.size(); ++i) {
+        for (const double t : {0.0, 1.0}) {
+            candela::ParamSet set = defaults.set;
+            set.set(i, value_at(schema[i], t, {}));
+            if (is_allowed(set)) all.push_back(named(std::move(set)));
+        }
+    }
+    if (schema.empty()) return all;
+    std::mt19937 random(1975);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::uniform_real_distribution<float> both(-1, 1);
+    for (int tries = 0, found = 0; found < random_sets && tries < 100 * random_sets; ++tries) {
+        candela::ParamSet set = defaults.set;
+        for (std::size_t i = 0; i < schema.size(); ++i)
+            set.set(i, value_at(schema[i], unit(random), {both(random), both(random), both(random)}));
+        if (!is_allowed(set)) continue;
+        all.push_back(named(std::move(set)));
+        ++found;
+    }
+    return all;
+}
+
+bool needs_a_file() {
+    return std::ranges::any_of(subject_manifest().parameters,
+                               [](const Parameter& p) { return p.type == ParamType::file && !p.fallback; });
+}
+
+template <>
+std::unique_ptr<candela::Light> make(const Values& values) {
+    return made<candela::Light>(values);
+}
+template <>
+std::unique_ptr<candela::ReflectionModel> make(const Values& values) {
+    return made<candela::ReflectionModel>(values);
+}
+template <>
+std::unique_ptr<candela::ShadingModel> make(const Values& values) {
+    return made<candela::ShadingModel>(values);
+}
+template <>
+std::unique_ptr<candela::Shape> make(const Values& values) {
+    return made<candela::Shape>(values);
+}
+template <>
+std::unique_ptr<candela::ImageFormat> make(const Values& values) {
+    return made<candela::ImageFormat>(values);
+}

@@ -1,0 +1,176 @@
+// A scene in several files, and files that cannot be read.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* k_observer = "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n";
+constexpr const char* k_models = "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
+constexpr const char* k_light = "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n";
+constexpr const char* k_cube = "[[object]]\nname = \"box\"\ntype = \"cube\"\n";
+
+const std::string k_scene = std::string("version = 1\n") + k_observer + k_models + k_light + k_cube;
+
+/// `candela check` of files named as written, in the test's directory.
+CommandResult check(const std::vector<std::string>& files, const fs::path& directory) {
+    std::vector<std::string> words{"check"};
+    words.insert(words.end(), files.begin(), files.end());
+    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
+}
+
+void expect(const CommandResult& result, int exit_code, const std::vector<std::string>& parts) {
+    INFO(result.err);
+    CHECK(result.exit_code == exit_code);
+    for (const std::string& part : parts) {
+        INFO(part);
+        CHECK(result.err.find(part) != std::string::npos);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("several files are one scene, in any order, on the command line and by include") {
+    const fs::path d = scratch_directory();
+    write_file(d / "a.toml", std::string("version = 1\n") + k_observer + k_models);
+    write_file(d / "b.toml", std::string("version = 1\n") + k_light);
+    write_file(d / "c.toml", std::string(k_cube));
+    CHECK(check({"a.toml", "b.toml", "c.toml"}, d).out.find("1 (1 point)") != std::string::npos);
+    CHECK(check({"c.toml", "b.toml", "a.toml"}, d).exit_code == 0);
+    write_file(d / "deep/more.toml", "include = [\"../c.toml\"]\n" + std::string(k_light));
+    write_file(d / "all.toml", "version = 1\ninclude = [\"a.toml\", \"deep/more.toml\"]\n");
+    const CommandResult all = check({"all.toml"}, d);
+    INFO(all.err);
+    CHECK(all.exit_code == 0);
+    CHECK(all.out.find("'box'") != std::string::npos);
+}
+
+TEST_CASE("what may stand once and stands twice names both places") {
+    const fs::path d = scratch_directory();
+    write_file(d / "a.toml", k_scene + "[image]\nwidth = 8\n[room]\nwidth = 9\n");
+    const auto with = [&](const std::string& text) {
+        write_file(d / "b.toml", text);
+        return check({"a.toml", "b.toml"}, d);
+    };
+    expect(with(k_observer), 3, {"b.toml:1:2: error: 'observer' is given twice; first at a.toml:2:2"});
+    expect(with("\n[room]\nheight = 3\n"), 3,
+           {"b.toml:2:2: error: 'room' is given twice; first at a.toml:17:2"});
+    expect(with("[image]\nheight = 3\n"), 3,
+           {"b.toml:1:2: error: 'image' is given twice; first at a.toml:15:2"});
+    expect(with("[shading]\nmodel = \"flat\"\n"), 3,
+           {"b.toml:1:2: error: 'shading' is given twice; first at a.toml:5:2"});
+    expect(with("[reflection]\nmodel = \"flat\"\n"), 3, {"'reflection' is given twice; first at a.toml:7:2"});
+    expect(with("version = 2\n"), 3, {"b.toml:1:1: error: 'version' is given twice; first at a.toml:1:1"});
+    expect(with("version = 1\n" + std::string(k_cube)), 3,
+           {"b.toml:3:8: error: another object is called 'box', at a.toml:"});
+    CHECK(with("version = 1\n").exit_code == 0);
+}
+
+TEST_CASE("mistakes are shown file by file, in the order of reading") {
+    const fs::path d = scratch_directory();
+    write_file(d / "z.toml", k_scene + "[image]\nwidth = 0\n");
+    write_file(d / "a.toml", "[room]\nwidth = 0\n");
+    const CommandResult result = check({"z.toml", "a.toml"}, d);
+    expect(result, 3, {"z.toml:16:9: error", "a.toml:2:9: error"});
+    CHECK(result.err.find("z.toml:16:9") < result.err.find("a.toml:2:9"));
+}
+
+TEST_CASE("includes that go round in circles, lead nowhere or come twice are errors at their line") {
+    const fs::path d = scratch_directory();
+    const auto included = [&](const std::string& list) {
+        write_file(d / "scene.toml", "version = 1\ninclude = " + list + "\n" + k_scene.substr(12));
+        return check({"scene.toml"}, d);
+    };
+    expect(included("[\"scene.toml\"]"), 3, {"scene.toml:2:12: error: 'scene.toml' includes itself"});
+    write_file(d / "b.toml", "\ninclude = [\"./scene.toml\"]\n");
+    expect(included("[\"b.toml\"]"), 3, {"b.toml:2:12: error: './scene.toml' includes itself"});
+    write_file(d / "c.toml", "[room]\n");
+    expect(included("[\"lihgts.toml\", \"c.toml\"]"), 3,
+           {"scene.toml:2:12: error: there is no file 'lihgts.toml' to include"});
+    write_file(d / "lights.toml", k_light);
+    expect(included("[\"lihgts.toml\"]"), 3, {"did you mean 'lights.toml'?"});
+    expect(included("[\"c.toml\", \"./c.toml\"]"), 3, {"scene.toml:2:22: error: './c.toml' is read twice"});
+    expect(included("\"c.toml\""), 3,
+           {"scene.toml:2:11: error: 'include' is a string, \"c.toml\"; expected a list of paths"});
+    expect(included("[3]"), 3,
+           {"scene.toml:2:12: error: 'include' holds the whole number 3; expected a path in quotes"});
+    expect(included("[\".\"]"), 1, {"directory"});
+    write_file(d / "broken.toml", "[room\n");
+    expect(included("[\"broken.toml\"]"), 3, {"broken.toml:1:6: error"});
+    CHECK(included("[]").exit_code == 0);
+    expect(check({"c.toml", "c.toml"}, d), 3, {"'c.toml' is read twice"});
+}
+
+TEST_CASE("R11: each way of not being readable has its own message and exit code") {
+    const fs::path d = scratch_directory();
+    write_file(d / "scene.toml", k_scene);
+    expect(check({"scnee.toml"}, d), 1,
+           {"scnee.toml: error: there is no such file", "did you mean 'scene.toml'?"});
+    expect(check({"folder/scene.toml"}, d), 1,
+           {"there is no such file", "there is no folder 'folder' either"});
+    fs::create_directory(d / "folder");
+    expect(check({"folder"}, d), 1, {"folder: error: this is a directory; a scene is a file"});
+    write_file(d / "empty.toml", "");
+    expect(check({"empty.toml"}, d), 3, {"empty.toml: error: the file is empty"});
+    write_file(d / "blank.toml", " \n\t\n");
+    expect(check({"blank.toml"}, d), 3, {"blank.toml: error: the file is empty"});
+    write_file(d / "picture.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
+    expect(check({"picture.png"}, d), 3,
+           {"picture.png: error: this is a binary file; a scene is text (TOML)"});
+    write_file(d / "latin1.toml", k_scene + "# caf\xe9\n");
+    expect(check({"latin1.toml"}, d), 3, {"latin1.toml:15:"});
+    REQUIRE(::mkfifo((d / "fifo").c_str(), 0600) == 0);
+    expect(check({"fifo"}, d), 1, {"fifo: error: this is no ordinary file (a pipe or a device?)"});
+    expect(check({"/dev/zero"}, d), 1, {"/dev/zero: error: this is no ordinary file"});
+    write_file(d / "huge.toml", "");
+    fs::resize_file(d / "huge.toml", 100'000'000);
+    expect(check({"huge.toml"}, d), 1,
+           {"huge.toml: error: the file is too large: 100000000 bytes, where a scene may have"});
+    fs::create_symlink("gone.toml", d / "link.toml");
+    expect(check({"link.toml"}, d), 1, {"link.toml: error: there is no such file"});
+    // All files are looked at.
+    expect(check({"scnee.toml", "empty.toml", "folder"}, d), 3,
+           {"scnee.toml: error", "empty.toml: error", "folder: error"});
+}
+
+TEST_CASE("R11: a file without the right to read it says so") {
+    const fs::path d = scratch_directory();
+    const fs::path file = write_file(d / "secret.toml", k_scene);
+    fs::permissions(file, fs::perms::none);
+    if (::geteuid() != 0) {
+        expect(check({"secret.toml"}, d), 1,
+               {"secret.toml: error: the file cannot be opened: Permission denied"});
+        return;
+    }
+    // To root nothing is forbidden; what the process gives up it can no longer do.
+    const CommandResult result =
+        run_program({"setpriv", "--bounding-set=-dac_override,-dac_read_search", "--inh-caps=-all", "--",
+                     CANDELA_TEST_COMMAND, "check", file.string()});
+    expect(result, 1, {"secret.toml: error: the file cannot be opened: Permission denied"});
+}
+
+TEST_CASE("R11: mesh files that are broken, empty or without triangles each have their own message") {
+    const fs::path d = scratch_directory();
+    const auto mesh = [&](const std::string& name, const std::string& content) {
+        write_file(d / name, content);
+        write_file(d / "scene.toml",
+                   k_scene + "[[object]]\ntype = \"mesh\"\nfile = \"" + name + "\"\nposition = [2, 0, 0]\n");
+        const CommandResult result = check({"scene.toml"}, d);
+        CHECK(result.err.find("scene.toml:15:1: error: object number 1: plugin shape/mesh: '") !=
+              std::string::npos);
+        return result;
+    };
+    expect(mesh("empty.obj", ""), 1, {"empty.obj"});
+    expect(mesh("junk.ply", "junk"), 1, {"junk.ply"});
+    expect(mesh("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), 1, {"points.obj", "no faces"});
+    expect(mesh("beyond.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"), 1, {"beyond.obj", "out of range"});
+    expect(mesh("what.xyz", "0 0 0\n"), 1, {"what.xyz"});
+}

@@ -1,0 +1,14 @@
+#include "museum.h"
+
+namespace {
+class ChangesItsInputs final : public museum::Matt {
+    using Matt::Matt;
+    void reflect(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                 const candela::ReflectedBatch& out) const override {
+        const_cast<float*>(s.normal.x)[0] = 0.5f;
+        Matt::reflect(s, light, out);
+    }
+};
+}  // namespace
+
+MUSEUM_PIECE(ChangesItsInputs)

@@ -1,0 +1,13 @@
+// Its default would be refused in a scene.
+#include "museum.h"
+
+namespace {
+class DefaultOutOfRange final : public museum::Matt {
+    using Matt::Matt;
+};
+constexpr auto k_wrong_fields = candela::sdk::fields(
+    candela::sdk::coefficient(&museum::Params::kd, "kd", 1.5f, "how much light is reflected diffusely"));
+}  // namespace
+
+CANDELA_PLUGIN(reflection, DefaultOutOfRange, k_wrong_fields,
+               {.title = "Default out of range", .summary = "Bad on purpose."})

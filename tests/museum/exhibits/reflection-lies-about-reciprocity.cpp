@@ -1,0 +1,17 @@
+// Declares that light and observer may change places, and depends on the observer alone.
+#include <algorithm>
+
+#include "museum.h"
+
+namespace {
+class LiesAboutReciprocity final : public museum::Matt {
+    using Matt::Matt;
+    float factor(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                 std::size_t i) const override {
+        return Matt::factor(s, light, i) * std::max(dot(s.normal[i], s.to_observer[i]), 0.0f);
+    }
+};
+constexpr candela::Property k_properties[] = {{"reciprocal"}};
+}  // namespace
+
+MUSEUM_PIECE(LiesAboutReciprocity, .properties = k_properties)

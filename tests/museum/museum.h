@@ -1,0 +1,55 @@
+// What the museum's bad plugins share: a matt reflection model, by hand and without fault, to spoil.
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "candela/reflection_plugin.h"
+
+namespace museum {
+
+/// The manifest of a plugin that does harm when it is loaded must still be written.
+inline bool is_being_described() {
+    std::string name;
+    std::getline(std::ifstream("/proc/self/comm"), name);
+    return name.starts_with("candela-manif");
+}
+
+struct Params {
+    candela::sdk::vec3 kd;
+};
+
+constexpr auto k_fields = candela::sdk::fields(
+    candela::sdk::coefficient(&Params::kd, "kd", 0.5f, "how much light is reflected diffusely"));
+
+class Matt : public candela::ReflectionModel {
+  public:
+    explicit Matt(const Params& params) : kd_(params.kd.x) {}
+
+    void reflect(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                 const candela::ReflectedBatch& out) const override {
+        for (std::size_t i = 0; i < s.count; ++i) add(out.diffuse, i, factor(s, light, i), light.diffuse[i]);
+    }
+    void reflect_ambient(const candela::SurfaceBatch& s, const candela::ConstVec3Span& ambient,
+                         const candela::ReflectedBatch& out) const override {
+        for (std::size_t i = 0; i < s.count; ++i) add(out.ambient, i, kd_, ambient[i]);
+    }
+
+  protected:
+    virtual float factor(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                         std::size_t i) const {
+        const float cosine = dot(s.normal[i], light.to_light[i]);
+        return cosine > 0 ? kd_ * cosine : 0;
+    }
+    static void add(const candela::Vec3Span& out, std::size_t i, float factor, candela::Vec3 light) {
+        out.set(i, out[i] + factor * light);
+    }
+    float kd_;
+};
+
+}  // namespace museum
+
+#define MUSEUM_PIECE(Model, ...)             \
+    CANDELA_PLUGIN(                          \
+        reflection, Model, museum::k_fields, \
+        {.title = #Model, .summary = "Bad on purpose.", .reference = "none" __VA_OPT__(, ) __VA_ARGS__})

@@ -1,0 +1,158 @@
+// The conformance kit names the fault of each exhibit.
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// What the kit says of a library, and its exit code.
+struct Verdicts {
+    int exit_code;
+    json checks;
+
+    /// The outcome of the check whose name begins so.
+    std::string of(const std::string& check) const {
+        for (const json& c : checks) {
+            if (c["check"].get<std::string>().starts_with(check)) return c["outcome"];
+        }
+        return "missing";
+    }
+    std::string messages(const std::string& check) const {
+        for (const json& c : checks) {
+            if (c["check"].get<std::string>().starts_with(check)) return c["messages"].dump();
+        }
+        return "";
+    }
+};
+
+Verdicts judged(const fs::path& library, std::vector<std::string> options = {}) {
+    std::vector<std::string> words{CANDELA_TEST_KIT, library.string(), "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    const CommandResult result = run_program(words);
+    INFO(result.err << result.out);
+    const json report = json::parse(result.out);
+    REQUIRE(report.size() == 1);
+    CHECK(report[0]["conforms"] == (result.exit_code == 0));
+    return {result.exit_code, report[0]["checks"]};
+}
+
+fs::path exhibit(const std::string& name) { return fs::path(CANDELA_TEST_MUSEUM) / (name + ".so"); }
+
+struct Fault {
+    const char* exhibit;
+    const char* check;
+    const char* outcome;
+    const char* message;
+};
+
+}  // namespace
+
+TEST_CASE("a plugin without fault conforms") {
+    const Verdicts verdicts = judged(exhibit("reflection-faultless"));
+    INFO(verdicts.checks.dump(2));
+    CHECK(verdicts.exit_code == 0);
+    for (const char* const check :
+         {"handshake", "symbols", "finite", "batches", "bounds", "adding", "repeatable", "independent",
+          "horizon", "grazing", "reciprocal", "energy-bounded", "isotropic"}) {
+        INFO(check);
+        CHECK(verdicts.of(check) == "passed");
+    }
+}
+
+TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
+    const std::vector<Fault> faults = {
+        {"reflection-traps-on-load", "handshake", "crashed", "SIGILL"},
+        {"reflection-throws-on-create", "instances", "failed", "create() threw 'out of paint'"},
+        {"reflection-throws-a-number", "finite", "failed", "Unknown exception"},
+        {"reflection-throws-in-ambient", "finite", "failed", "no ambience"},
+        {"reflection-not-a-number", "finite", "failed", "reflect gives -nan as diffuse, for N = "},
+        {"reflection-writes-past-the-end", "bounds", "failed", "reflect writes after a batch of 1 points"},
+        {"reflection-changes-its-inputs", "bounds", "failed", "reflect changes its inputs"},
+        {"reflection-overwrites", "adding", "failed", "reflect does not add to the diffuse that is there"},
+        {"reflection-calls-exit", "finite", "crashed", "the plugin ended the process, with exit code 0"},
+        {"reflection-aborts", "finite", "crashed", "SIGABRT"},
+        {"reflection-leaves-a-thread", "instances", "failed", "threads running"},
+        {"reflection-lies-about-reciprocity", "reciprocal", "failed", "it is not reciprocal"},
+        {"reflection-makes-energy", "energy-bounded", "failed", "times the light that falls in"},
+        {"reflection-lies-about-isotropy", "isotropic", "failed", "turned by 0.5 rad about N"},
+        {"reflection-lights-the-night", "horizon", "failed", "degrees below the horizon is reflected"},
+        {"reflection-rolls-dice", "repeatable", "failed", "another result the second time"},
+        {"reflection-miscounts", "batches", "failed", "in a batch of 7"},
+        {"reflection-shares-its-state", "independent", "failed", "while other instances exist"},
+        {"reflection-is-negative", "finite", "failed", "a negative diffuse"},
+        {"reflection-default-out-of-range", "parameters", "failed",
+         "the default of 'kd': [1.5, 1.5, 1.5] is outside its range"},
+        {"shading-long-normals", "unit", "failed", "a vector of length 2"},
+        {"shading-last-face-wins", "order", "failed", "numbered otherwise"},
+        {"shape-inside-out", "closed", "failed", "it is inside out"},
+        {"shape-hole-in-it", "closed", "failed", "3 edges that do not lie between two triangles"},
+        {"light-long-directions", "directions", "failed", "a direction of length"},
+        {"light-long-directions", "fall-off", "failed", "declared to fade by distance"},
+    };
+    for (const Fault& fault : faults) {
+        const Verdicts verdicts = judged(exhibit(fault.exhibit), {"--time-limit", "20"});
+        INFO(fault.exhibit << ": " << verdicts.checks.dump(2));
+        CHECK(verdicts.exit_code == 4);
+        CHECK(verdicts.of(fault.check) == fault.outcome);
+        CHECK(verdicts.messages(fault.check).find(fault.message) != std::string::npos);
+    }
+}
+
+TEST_CASE("a plugin that never returns is stopped when its time is over") {
+    const Verdicts verdicts =
+        judged(exhibit("reflection-never-returns"), {"--time-limit", "1", "--check", "finite"});
+    CHECK(verdicts.exit_code == 4);
+    CHECK(verdicts.of("finite") == "timed out");
+    CHECK(verdicts.messages("finite").find("not finished after 1 s") != std::string::npos);
+}
+
+TEST_CASE("a manifest that disagrees, is missing or is broken is found before anything is run") {
+    const fs::path directory = scratch_directory();
+    const fs::path library = directory / "reflection-faultless.so",
+                   manifest = directory / "reflection-faultless.json";
+    fs::copy_file(exhibit("reflection-faultless"), library);
+    CHECK(judged(library).messages("handshake").find("cannot be read") != std::string::npos);
+    std::string text = read_file(exhibit("reflection-faultless").replace_extension(".json"));
+    write_file(manifest, text);
+    CHECK(judged(library).exit_code == 0);
+    const std::size_t at = text.find("\"title\": \"");
+    REQUIRE(at != std::string::npos);
+    write_file(manifest, text.substr(0, at + 10) + "Other" + text.substr(at + 10));
+    const Verdicts wrong = judged(library);
+    CHECK(wrong.of("handshake") == "failed");
+    CHECK(wrong.messages("handshake").find("disagrees with it about its title") != std::string::npos);
+    CHECK(wrong.of("finite") == "skipped");
+    write_file(manifest, "{");
+    CHECK(judged(library).of("handshake") == "failed");
+}
+
+TEST_CASE("a library under another name, or with a dependency that is missing, is named") {
+    const fs::path directory = scratch_directory();
+    fs::copy_file(exhibit("reflection-faultless"), directory / "reflection-other.so");
+    fs::copy_file(exhibit("reflection-faultless").replace_extension(".json"),
+                  directory / "reflection-other.json");
+    CHECK(judged(directory / "reflection-other.so").of("file name") == "failed");
+
+    const fs::path empty = write_file(directory / "empty.c", "");
+    const fs::path needed = directory / "libnobodyhasthis.so";
+    REQUIRE(
+        run_program({CANDELA_TEST_COMPILER, "-shared", "-o", needed.string(), empty.string()}).exit_code ==
+        0);
+    const fs::path lonely = directory / "reflection-lonely.so";
+    REQUIRE(run_program({CANDELA_TEST_COMPILER, "-shared", "-Wl,--no-as-needed", "-o", lonely.string(),
+                         empty.string(), needed.string()})
+                .exit_code == 0);
+    fs::copy_file(directory / "reflection-other.json", directory / "reflection-lonely.json");
+    fs::remove(needed);
+    const Verdicts verdicts = judged(lonely);
+    CHECK(verdicts.of("handshake") == "failed");
+    CHECK(verdicts.messages("handshake").find("libnobodyhasthis.so") != std::string::npos);
+}
