@@ -102,20 +102,32 @@ int run_check(const std::vector<std::string>& arguments) {
         "Reads a scene, or several files that together are one, and says all that is wrong with it, or what\n"
         "was read.");
     add_scene_options(line);
-    line.options()("json", "the diagnostics and the summary as JSON, on standard output");
+    line.options()("json", "the diagnostics and the summary as JSON, on standard output")(
+        "print", "print the scene as one file: includes, --set and all defaults put in");
     if (!line.parse(arguments)) return 0;
+    if (line.has("json") && line.has("print"))
+        throw candela::Error(candela::ExitCode::usage,
+                             "--json and --print both want standard output; choose one");
     if (!line.has("scene"))
         throw candela::Error(candela::ExitCode::usage, "candela check needs a scene file");
 
     candela::Registry registry = registry_from(line);
     Diagnostics diagnostics;
-    const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
+    candela::SceneRequest request = scene_request_from(line);
+    // A check says the same wherever it runs, and never waits: where `render` would ask, it says what is
+    // missing.
+    request.ask = nullptr;
+    const auto draft = candela::draft_scene(request, registry, diagnostics);
     const auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
     if (line.has("json")) {
         print_json(compiled, draft ? &draft->scene : nullptr, diagnostics);
     } else {
         std::cerr << diagnostics.text(stderr_takes_color());
-        if (compiled) print_summary(draft->scene, *compiled);
+        if (compiled && line.has("print")) {
+            std::cout << candela::scene_text(draft->scene);
+        } else if (compiled) {
+            print_summary(draft->scene, *compiled);
+        }
     }
     return static_cast<int>(diagnostics.exit_code());
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "signals.h"
 #include "terminal.h"
 #include "verbs.h"
 
@@ -20,6 +21,7 @@ using candela::Error;
 using candela::ExitCode;
 
 constexpr std::array k_verbs = {
+    Verb{"new", "write a scene to begin with", run_new},
     Verb{"render", "render a scene to a picture", run_render},
     Verb{"check", "read a scene and say what is wrong with it", run_check},
     Verb{"list", "list the installed plugins", run_list},
@@ -35,7 +37,8 @@ std::string help() {
     text +=
         "\n  candela VERB --help   the arguments of a verb\n"
         "  candela --version     the version\n\n"
-        "Try: candela render            the default scene, to candela.png\n";
+        "Try: candela new               a scene to begin with, to scene.toml\n"
+        "     candela render            the default scene, to candela.png\n";
     return text;
 }
 
@@ -93,6 +96,7 @@ int fail(ExitCode code, const std::string& message) {
 std::span<const Verb> verbs() { return k_verbs; }
 
 int main(int argc, char** argv) {
+    prepare_for_signals();
     try {
         const int code = run({argv + 1, argv + argc});
         std::cout.flush();

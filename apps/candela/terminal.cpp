@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <string>
 
 namespace {
 
@@ -26,15 +29,18 @@ bool stderr_takes_color() {
 bool can_ask() { return is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO); }
 
 bool ask(const std::string& question) {
-    for (;;) {
-        std::cerr << question << " [Y/n] " << std::flush;
+    for (const char* before = "";; before = "Please answer y or n. ") {
+        std::cerr << before << question << " [Y/n] " << std::flush;
         std::string answer;
         if (!std::getline(std::cin, answer)) {
             std::cerr << '\n';
             return false;
         }
-        if (answer.empty() || answer == "y" || answer == "Y" || answer == "yes") return true;
-        if (answer == "n" || answer == "N" || answer == "no") return false;
+        std::erase_if(answer, [](unsigned char c) { return std::isspace(c) != 0; });
+        std::ranges::transform(answer, answer.begin(),
+                               [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if (answer.empty() || answer == "y" || answer == "yes") return true;
+        if (answer == "n" || answer == "no") return false;
     }
 }
 

@@ -14,7 +14,7 @@ bool stderr_takes_color();
 /// Whether there is somebody to ask: both stdin and stderr are terminals.
 bool can_ask();
 
-/// Asks on stderr; yes is the default, the end of input is no.
+/// Asks on stderr until there is an answer; an empty line is yes, the end of input is no.
 bool ask(const std::string& question);
 
 /// A bar on stderr for work that takes longer than half a second, if stderr is a terminal.

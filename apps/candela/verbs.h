@@ -11,6 +11,7 @@ struct Verb {
     int (*run)(const std::vector<std::string>& arguments);
 };
 
+int run_new(const std::vector<std::string>& arguments);
 int run_render(const std::vector<std::string>& arguments);
 int run_check(const std::vector<std::string>& arguments);
 int run_list(const std::vector<std::string>& arguments);

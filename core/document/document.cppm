@@ -69,4 +69,12 @@ CANDELA_API std::optional<TableNode> parse_document(std::string_view text, const
 CANDELA_API std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
                                             Diagnostics& diagnostics);
 
+/// Values as TOML says them: a text in double quotes, with escapes (throws Error where it is not UTF-8); a
+/// number in as few digits as read back as the same number (throws Error where it is not finite); a key, in
+/// quotes if need be.
+CANDELA_API std::string toml_text(std::string_view text);
+CANDELA_API std::string toml_text(double x);
+CANDELA_API std::string toml_text(float x);
+CANDELA_API std::string toml_key(std::string_view key);
+
 }  // namespace candela

@@ -58,8 +58,7 @@ struct PictureFormat {
 /// nobody writes.
 CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
-/// Writes the picture beside its place and renames it, so that nobody ever finds half a file; "-" and what is
-/// no ordinary file is written to directly. Throws Error.
+/// Writes the picture as an OutputFile, which nobody ever finds half of. Throws Error.
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
                                const std::filesystem::path& path, Registry& registry);
 

@@ -1,27 +1,22 @@
-// Files that are whole or not there.
+// From a picture in memory to a file of the format that its name asks for.
 module;
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 module candela.film;
 
 import candela.diagnostics;
+import candela.files;
 
 namespace candela {
 
@@ -29,78 +24,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, const char* what) {
-    throw Error(ExitCode::failure, fmt::format("'{}' {}: {}", path.string(), what, std::strerror(errno)));
-}
-
-/// Bytes into a file descriptor.
-class DescriptorSink final : public ByteSink {
+/// What an image plugin writes, into a file.
+class FileSink final : public ByteSink {
   public:
-    DescriptorSink(int descriptor, fs::path shown) : descriptor_(descriptor), shown_(std::move(shown)) {}
-
-    void write(std::span<const std::byte> bytes) override {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) fail(shown_, "cannot be written");
-            bytes = bytes.subspan(static_cast<std::size_t>(written));
-        }
-    }
+    explicit FileSink(OutputFile& file) : file_(file) {}
+    void write(std::span<const std::byte> bytes) override { file_.write(bytes); }
 
   private:
-    int descriptor_;
-    fs::path shown_;
+    OutputFile& file_;
 };
-
-/// A new file beside `target`; it takes the target's place when it is complete, and goes away if it never is.
-class FileBeside {
-  public:
-    explicit FileBeside(fs::path target) : target_(std::move(target)) {
-        fs::path const pattern = target_.parent_path() / ("." + target_.filename().string() + ".XXXXXX");
-        std::string name = pattern.string();
-        descriptor_ = ::mkstemp(name.data());
-        if (descriptor_ < 0) fail(target_, "cannot be created");
-        beside_ = name;
-    }
-    FileBeside(const FileBeside&) = delete;
-    FileBeside& operator=(const FileBeside&) = delete;
-    ~FileBeside() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        if (!beside_.empty()) ::unlink(beside_.c_str());
-    }
-
-    int descriptor() const { return descriptor_; }
-
-    void take_place() {
-        // mkstemp makes files for their owner only; a picture has the rights that any new file, or the old
-        // picture, has.
-        struct stat before{};
-        mode_t mode = 0;
-        if (::stat(target_.c_str(), &before) == 0) {
-            mode = before.st_mode & 07777;
-        } else {
-            const mode_t mask = ::umask(0);
-            ::umask(mask);
-            mode = 0666 & ~mask;
-        }
-        if (::fchmod(descriptor_, mode) != 0) fail(target_, "cannot be given its rights");
-        if (::close(std::exchange(descriptor_, -1)) != 0) fail(target_, "cannot be written");
-        if (::rename(beside_.c_str(), target_.c_str()) != 0) fail(target_, "cannot be replaced");
-        beside_.clear();
-    }
-
-  private:
-    fs::path target_;
-    std::string beside_;
-    int descriptor_ = -1;
-};
-
-/// Whether writing means filling a file that can be replaced; not for a pipe or a device.
-bool is_replaceable(const fs::path& path) {
-    std::error_code problem;
-    const fs::file_status status = fs::status(path, problem);
-    return status.type() == fs::file_type::not_found || status.type() == fs::file_type::regular;
-}
 
 }  // namespace
 
@@ -131,32 +63,14 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
 void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry) {
     const auto writer = registry.create<ImageFormat>(
         format.plugin, registry.parameters(PluginKind::image, format.plugin), film.view().encoding);
-    const auto write_to = [&](int descriptor) {
-        DescriptorSink sink(descriptor, path);
-        try {
-            writer->write(film.view(), format.extension.c_str(), sink);
-        } catch (...) {
-            rethrow_as_plugin_error(PluginKind::image, format.plugin);
-        }
-    };
-    if (path == "-") return write_to(STDOUT_FILENO);
-    std::error_code problem;
-    if (fs::is_directory(path, problem)) {
-        throw Error(ExitCode::failure,
-                    fmt::format("'{}' is a directory; a picture is a file", path.string()));
+    OutputFile file(path);
+    FileSink sink(file);
+    try {
+        writer->write(film.view(), format.extension.c_str(), sink);
+    } catch (...) {
+        rethrow_as_plugin_error(PluginKind::image, format.plugin);
     }
-    if (!is_replaceable(path)) {
-        const int descriptor = ::open(path.c_str(), O_WRONLY);
-        if (descriptor < 0) fail(path, "cannot be opened");
-        const std::unique_ptr<const int, void (*)(const int*)> closer(&descriptor,
-                                                                      [](const int* d) { ::close(*d); });
-        return write_to(descriptor);
-    }
-    // Through a link, what it leads to is replaced, not the link.
-    const fs::path target = fs::is_symlink(path, problem) ? fs::weakly_canonical(path, problem) : path;
-    FileBeside file(target);
-    write_to(file.descriptor());
-    file.take_place();
+    file.finish();
 }
 
 }  // namespace candela

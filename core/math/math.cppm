@@ -52,6 +52,8 @@ struct Placement {
     Vec3 position{};
     Vec3 rotation{};
     Vec3 scale{1, 1, 1};
+
+    friend constexpr bool operator==(const Placement&, const Placement&) = default;
 };
 
 enum class Projection : int { perspective, orthographic };

@@ -86,11 +86,13 @@ std::vector<double> numbers_of(const Value& value) {
     return {};
 }
 
+// A bound that is excluded is excluded for the float that comes of the number, too: 1e-50 is not greater than
+// 0.
 bool below(double x, const Parameter& p) {
-    return p.minimum_excluded ? x <= shortest(p.minimum) : x < shortest(p.minimum);
+    return x < shortest(p.minimum) || (p.minimum_excluded && static_cast<float>(x) <= p.minimum);
 }
 bool above(double x, const Parameter& p) {
-    return p.maximum_excluded ? x >= shortest(p.maximum) : x > shortest(p.maximum);
+    return x > shortest(p.maximum) || (p.maximum_excluded && static_cast<float>(x) >= p.maximum);
 }
 
 }  // namespace

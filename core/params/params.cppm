@@ -159,6 +159,9 @@ class CANDELA_API ParamSet {
     /// Throws std::invalid_argument where a required one is not set.
     std::vector<ParamValue> delivered(ColorEncoding encoding) const;
 
+    /// The same schema and the same values.
+    friend bool operator==(const ParamSet&, const ParamSet&) = default;
+
   private:
     std::vector<Parameter> schema_;
     std::vector<std::optional<Value>> values_;

@@ -86,9 +86,11 @@ void ModelChooser::use_defaults_if_agreed() {
     if (no_shading) defaults.push_back(fmt::format("{} shading", k_default_shading));
     if (no_reflection) defaults.push_back(fmt::format("{} reflection", k_default_reflection));
     const std::string both = fmt::format("{}", fmt::join(defaults, " and "));
+    // A scene that is wrong already is not worth a question.
     const bool agreed =
         request_.use_defaults ||
-        (request_.ask && request_.ask(fmt::format("The scene names no {}. Use {}?", missing, both)));
+        (request_.ask && (tables_.diagnostics().has_errors() ||
+                          request_.ask(fmt::format("The scene names no {}. Use {}?", missing, both))));
     if (!agreed) {
         tables_.diagnostics().error(
             tables_.whole(), fmt::format("the scene names no {}", missing),

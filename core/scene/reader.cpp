@@ -4,6 +4,7 @@ module;
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -100,7 +101,9 @@ class Reader {
         }
         const ParamSet values = tables_.read_plain("observer");
         Observer& observer = scene_.observer;
-        observer.up = normalized(vector(values, "up"));
+        // A unit vector stays as it is, to the last bit, so that a scene that was written is read as it was.
+        const Vec3 up = vector(values, "up");
+        observer.up = std::abs(length(up) - 1) < 1e-6f ? up : normalized(up);
         observer.projection =
             text(values, "projection") == "orthographic" ? Projection::orthographic : Projection::perspective;
         observer.fov = real(values, "fov");

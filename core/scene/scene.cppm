@@ -29,6 +29,8 @@ struct Room {
     float height = 10;
     float width = 10;
     float depth = 10;
+
+    friend bool operator==(const Room&, const Room&) = default;
 };
 
 struct Observer {
@@ -37,8 +39,14 @@ struct Observer {
     Vec3 up{0, 1, 0};
     Projection projection = Projection::perspective;
     float fov = 40;    // perspective: full vertical angle, degrees
-    float height = 0;  // orthographic: metres that fit the picture's height
+    float height = 4;  // orthographic: metres that fit the picture's height
     SourcePlace position_place{};
+
+    /// Wherever it stands in its file.
+    friend inline bool operator==(const Observer& a, const Observer& b) {
+        return a.position == b.position && a.look_at == b.look_at && a.up == b.up &&
+               a.projection == b.projection && a.fov == b.fov && a.height == b.height;
+    }
 };
 
 struct ImageSettings {
@@ -47,12 +55,16 @@ struct ImageSettings {
     int samples = 1;
     Vec3 background;  // 0-255
     ColorEncoding color_management = ColorEncoding::srgb;
+
+    friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
 
 /// A plugin, and values for its parameters.
 struct Model {
     std::string name;
     ParamSet parameters;
+
+    friend bool operator==(const Model&, const Model&) = default;
 };
 
 struct LightSource {
@@ -60,6 +72,11 @@ struct LightSource {
     Model model;
     SourcePlace place;
     SourcePlace position_place{};  // of its 'position', or of the whole light
+
+    /// Wherever they stand in their files.
+    friend inline bool operator==(const LightSource& a, const LightSource& b) {
+        return a.label == b.label && a.model == b.model;
+    }
 };
 
 struct Object {
@@ -71,6 +88,12 @@ struct Object {
     Model reflection;
     SourcePlace place;
     SourcePlace position_place{};  // of its 'position', or of the whole object
+
+    /// Wherever they stand in their files.
+    friend inline bool operator==(const Object& a, const Object& b) {
+        return a.label == b.label && a.shape == b.shape && a.placement == b.placement && a.color == b.color &&
+               a.shading == b.shading && a.reflection == b.reflection;
+    }
 };
 
 /// Every value has been checked; every plugin named is installed (none is loaded). What only triangles can
@@ -81,6 +104,8 @@ struct Scene {
     ImageSettings image;
     std::vector<LightSource> lights;
     std::vector<Object> objects;
+
+    friend bool operator==(const Scene&, const Scene&) = default;
 };
 
 /// A value given on the command line: it goes before what the files say.
@@ -114,6 +139,12 @@ CANDELA_API std::optional<SceneDraft> draft_scene(const SceneRequest& request, R
 /// The same; returns the scene if nothing but warnings were found.
 CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
                                             Diagnostics& diagnostics);
+
+/// A scene as one file; read again, it is the same scene. All that a scene holds is said, defaults too, and
+/// the paths of files are absolute. Throws Error (failure) where the format has no words for a scene that no
+/// file has brought about: texts that are not UTF-8, colours between whole numbers, labels that are no names
+/// in quotes, parameters of shading models that differ from object to object.
+CANDELA_API std::string scene_text(const Scene& scene);
 
 /// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection
 /// (R12, R14).

@@ -11,14 +11,11 @@ namespace {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string scene_without_models() {
+std::string scene() {
     return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight "
            "= 16\n"
-           "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"box\"\ntype = \"cube\"\n";
-}
-
-std::string scene() {
-    return scene_without_models() + "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
+           "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"box\"\ntype = \"cube\"\n"
+           "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
 }
 
 constexpr const char* k_png_signature = "\x89PNG\r\n\x1a\n";
@@ -42,7 +39,7 @@ TEST_CASE("help and version go to standard output") {
         CHECK(holds(help.out, "Usage: candela VERB"));
         CHECK(help.err.empty());
     }
-    for (const char* const verb : {"render", "check", "list", "describe"}) {
+    for (const char* const verb : {"new", "render", "check", "list", "describe"}) {
         INFO(verb);
         const CommandResult help = run_candela({verb, "--help"});
         CHECK(help.exit_code == 0);
@@ -125,12 +122,48 @@ TEST_CASE("check says that a valid scene is valid, on standard output") {
     const std::string file = write_file(scratch_directory() / "scene.toml", scene()).string();
     const CommandResult result = run_candela({"check", file});
     CHECK(result.exit_code == 0);
-    for (const char* const part :
-         {"valid", "16 x 16 pixels", "1 (1 point)", "1, 12 triangles",
-          "'box'        cube, 12 triangles, phong shading, phong reflection"}) {
+    for (const char* const part : {"valid", "16 x 16 pixels", "1 (1 point)", "1, 12 triangles",
+                                   "'box'        cube, 12 triangles, phong shading, phong reflection"}) {
         CHECK(holds(result.out, part));
     }
     CHECK(result.err.empty());
+}
+
+TEST_CASE("check --print prints what was read as one file, which is the same scene") {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "parts" / "lights.toml",
+               "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [1, 1, 3]\n");
+    write_file(directory / "mesh.obj", "v 0 2 0\nv 1 2 0\nv 0 3 0\nf 1 2 3\n");
+    const std::string file = write_file(directory / "scene.toml",
+                                        "include = [\"parts/lights.toml\"]\nversion = "
+                                        "1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
+                                        "0]\n[image]\nwidth = 32\nheight = 32\n[[object]]\ntype = "
+                                        "\"cube\"\n[[object]]\ntype = \"mesh\"\nfile = "
+                                        "\"mesh.obj\"\n")
+                                 .string();
+    const std::vector<std::string> more = {"--defaults", "--set", "light.lamp.intensity=7", "--reflection",
+                                           "lambert"};
+    const auto with_more = [&](std::vector<std::string> words) {
+        words.insert(words.end(), more.begin(), more.end());
+        return run_candela(words);
+    };
+    const CommandResult printed = with_more({"check", file, "--print"});
+    INFO(printed.err << printed.out);
+    REQUIRE(printed.exit_code == 0);
+    CHECK(printed.out.starts_with("version = 1\n"));
+    CHECK_FALSE(holds(printed.out, "include"));
+    CHECK(holds(printed.out, "intensity          = 7.0\n"));
+    CHECK(holds(printed.out, "[shading]\nmodel = \"phong\"\n\n[reflection]\nmodel = \"lambert\"\n"));
+    CHECK(holds(printed.out, "\"" + (directory / "mesh.obj").string() + "\""));
+
+    // From another directory, and with nothing else said.
+    const std::string copy = write_file(directory / "elsewhere" / "copy.toml", printed.out).string();
+    REQUIRE(with_more({"render", file, "-o", (directory / "a.ppm").string()}).exit_code == 0);
+    REQUIRE(run_candela({"render", copy, "-o", (directory / "b.ppm").string()}).exit_code == 0);
+    CHECK((read_file(directory / "a.ppm") == read_file(directory / "b.ppm")));
+    CHECK(run_candela({"check", copy, "--print"}).out == printed.out);
+    CHECK(run_candela({"check", file, "--print"}).out.empty());  // no model
+    CHECK(run_candela({"check", file, "--print", "--json"}).exit_code == 2);
 }
 
 TEST_CASE("a picture that cannot be is an error before anything is rendered, and after") {
@@ -167,23 +200,6 @@ TEST_CASE("the old picture keeps its place and its rights until the new one is w
     CHECK(read_file(file).starts_with(k_png_signature));
     CHECK(fs::status(file).permissions() == fs::perms::owner_all);
     CHECK(std::distance(fs::directory_iterator(directory), {}) == 2);
-}
-
-TEST_CASE("R13: nobody to ask is an error that names --defaults; a terminal is asked") {
-    const fs::path directory = scratch_directory();
-    const std::string file = write_file(directory / "scene.toml", scene_without_models()).string();
-    const std::string picture = (directory / "a.png").string();
-    const CommandResult nobody =
-        run_candela({"render", file, "-o", picture}, {.input = "y\n", .environment = {}, .directory = {}});
-    CHECK(nobody.exit_code == 3);
-    CHECK(holds(nobody.err, "--defaults"));
-    CHECK(run_candela({"render", file, "-o", picture, "--defaults"}).exit_code == 0);
-
-    const CommandResult yes = run_candela_on_terminal({"render", file, "-o", picture}, "\n");
-    CHECK(holds(yes.out, "Use phong shading and phong reflection? [Y/n]"));
-    CHECK(yes.exit_code == 0);
-    CHECK(run_candela_on_terminal({"render", file, "-o", picture}, "what\nn\n").exit_code == 3);
-    CHECK(run_candela_on_terminal({"render", file, "-o", picture}, "\x04").exit_code == 3);
 }
 
 TEST_CASE("colour is for terminals, unless NO_COLOR says otherwise") {

@@ -1,16 +1,18 @@
 #include "support/command.h"
 
 #include <fcntl.h>
-#include <pty.h>
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/interfaces/catch_interfaces_capture.hpp>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -43,70 +45,70 @@ CommandResult run_candela(const std::vector<std::string>& arguments, const Comma
     return run_program(words, setup);
 }
 
-namespace {
-
-/// Becomes the program; only called in a child.
-[[noreturn]] void become(const std::vector<std::string>& words, const CommandSetup& setup) {
-    if (!setup.directory.empty() && ::chdir(setup.directory.c_str()) != 0) ::_exit(126);
-    for (const auto& [name, value] : setup.environment) ::setenv(name.c_str(), value.c_str(), 1);
-    std::vector<char*> argv;
-    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    ::execvp(argv[0], argv.data());
-    ::_exit(127);
-}
-
 int exit_code_of(pid_t child) {
     int status = 0;
     if (::waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for a child");
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-}  // namespace
-
-CommandResult run_candela_on_terminal(const std::vector<std::string>& arguments, const std::string& typed,
-                                      const CommandSetup& setup) {
-    std::vector<std::string> words = {CANDELA_TEST_COMMAND};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    int terminal = -1;
-    const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
-    if (child < 0) throw std::runtime_error("cannot make a terminal");
-    if (child == 0) become(words, setup);
-    if (::write(terminal, typed.data(), typed.size()) != static_cast<ssize_t>(typed.size())) {
-        throw std::runtime_error("cannot type");
-    }
-    CommandResult result;
-    char buffer[4096];
-    // Reading fails once the child's end is closed.
-    for (ssize_t count = 0; (count = ::read(terminal, buffer, sizeof buffer)) > 0;) {
-        result.out.append(buffer, static_cast<std::size_t>(count));
-    }
-    ::close(terminal);
-    result.exit_code = exit_code_of(child);
-    return result;
+[[noreturn]] void become(const std::vector<std::string>& words, const CommandSetup& setup) {
+    if (!setup.directory.empty() && ::chdir(setup.directory.c_str()) != 0) ::_exit(126);
+    for (const auto& [name, value] : setup.environment) ::setenv(name.c_str(), value.c_str(), 1);
+    std::vector<char*> argv;
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    if (setup.prepare) setup.prepare();
+    ::execvp(argv[0], argv.data());
+    ::_exit(127);
 }
 
-CommandResult run_program(const std::vector<std::string>& words, const CommandSetup& setup) {
+RunningProgram::RunningProgram(const std::vector<std::string>& words, const CommandSetup& setup) {
     static int runs = 0;
     const fs::path base =
         fs::path(CANDELA_TEST_SCRATCH) / ("run-" + std::to_string(::getpid()) + "-" + std::to_string(++runs));
     fs::create_directories(base.parent_path());
-    const std::string in = base.string() + ".in", out = base.string() + ".out", err = base.string() + ".err";
-    write_file(in, setup.input);
+    in_ = base.string() + ".in", out_ = base.string() + ".out", err_ = base.string() + ".err";
+    write_file(in_, setup.input);
 
-    const pid_t child = ::fork();
-    if (child < 0) throw std::runtime_error("cannot fork");
-    if (child == 0) {
+    child_ = ::fork();
+    if (child_ < 0) throw std::runtime_error("cannot fork");
+    if (child_ == 0) {
         const auto redirect = [](const std::string& file, int flags, int as) {
-            const int descriptor = ::open(file.c_str(), flags, 0644);
+            const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0644);
             if (descriptor < 0 || ::dup2(descriptor, as) < 0) ::_exit(126);
         };
-        redirect(in, O_RDONLY, STDIN_FILENO);
-        redirect(out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
-        redirect(err, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+        redirect(in_, O_RDONLY, STDIN_FILENO);
+        redirect(out_, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+        redirect(err_, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
         become(words, setup);
     }
-    const CommandResult result{exit_code_of(child), read_file(out), read_file(err)};
-    for (const std::string& file : {in, out, err}) fs::remove(file);
+}
+
+RunningProgram::~RunningProgram() {
+    if (child_ < 0) return;
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+    for (const std::string& file : {in_, out_, err_}) {
+        std::error_code ignored;
+        fs::remove(file, ignored);
+    }
+}
+
+bool RunningProgram::has_ended() const {
+    siginfo_t state{};
+    // WNOWAIT leaves it to be waited for.
+    return ::waitid(P_PID, static_cast<id_t>(child_), &state, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           state.si_pid == child_;
+}
+
+void RunningProgram::send(int signal) const { ::kill(child_, signal); }
+
+CommandResult RunningProgram::wait() {
+    const CommandResult result{exit_code_of(std::exchange(child_, -1)), read_file(out_), read_file(err_)};
+    for (const std::string& file : {in_, out_, err_}) fs::remove(file);
     return result;
+}
+
+CommandResult run_program(const std::vector<std::string>& words, const CommandSetup& setup) {
+    return RunningProgram(words, setup).wait();
 }

@@ -177,6 +177,9 @@ TEST_CASE("a value outside its range is an error that names the range") {
     check_error(whole() + "[object.material]\nkd = 1.1\n", 16, 6, "0 to 1");
     check_error(whole() + "[object.material]\nkd = [0.1, 0.2, 1.5]\n", 16, 6, "0 to 1");
     check_error(whole() + "[object.material]\nshininess = -1\n", 16, 13, "at least 0");
+    check_error(whole() + "size = 1e-50\n", 15, 8, "greater than 0");
+    check_error(std::string("version = 1\n") + k_observer + "fov = 179.9999999999\n" + k_models, 5, 7,
+                "less than 180");
     check_error(whole() + "size = nan\n", 15, 8, "nan");
     check_error(whole() + "size = inf\n", 15, 8, "too large");
     check_error(whole() + "size = 1e39\n", 15, 8, "too large");

@@ -1,10 +1,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,35 +17,33 @@ using namespace candela::sdk;
 
 namespace {
 
-/// A file name that nobody else has, removed again.
-class TemporaryFile {
+/// A file in memory, which some path leads to: it cannot stay behind.
+class MemoryFile {
   public:
-    explicit TemporaryFile(const std::string& extension) {
-        std::string pattern =
-            (std::filesystem::temp_directory_path() / "candela-XXXXXX").string() + '.' + extension;
-        const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(extension.size() + 1));
-        if (descriptor < 0) throw std::runtime_error("no temporary file can be made: " + pattern);
-        ::close(descriptor);
-        path_ = pattern;
+    MemoryFile() : descriptor_(::memfd_create("candela", MFD_CLOEXEC)) {
+        if (descriptor_ < 0) throw std::runtime_error("no file can be made in memory");
     }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() { std::remove(path_.c_str()); }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile() { ::close(descriptor_); }
 
-    const std::string& path() const { return path_; }
+    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+    void send(candela::ByteSink& sink) const {
+        std::vector<std::byte> buffer(1 << 16);
+        off_t offset = 0;
+        for (;;) {
+            const ssize_t count = ::pread(descriptor_, buffer.data(), buffer.size(), offset);
+            if (count < 0) throw std::runtime_error("the file in memory cannot be read back");
+            if (count == 0) return;
+            sink.write(std::span(buffer).first(static_cast<std::size_t>(count)));
+            offset += count;
+        }
+    }
 
   private:
-    std::string path_;
+    int descriptor_;
 };
-
-void send_file(const std::string& path, candela::ByteSink& sink) {
-    std::ifstream in(path, std::ios::binary);
-    std::vector<char> buffer(1 << 16);
-    while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())), in.gcount() > 0) {
-        sink.write(std::as_bytes(std::span(buffer.data(), static_cast<std::size_t>(in.gcount()))));
-    }
-    if (!in.eof()) throw std::runtime_error("the temporary file cannot be read back: " + path);
-}
 
 /// All the formats that OpenImageIO writes. Some of its writers insist on a file of their own, so the bytes
 /// take a detour.
@@ -54,8 +54,9 @@ class OpenImageIo final : public candela::ImageFormat {
     void write(const candela::PictureView& picture, const char* extension,
                candela::ByteSink& sink) const override {
         const bool is_float = picture.pixels == candela::PixelType::real;
-        const TemporaryFile file(extension);
-        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file.path());
+        const MemoryFile file;
+        const std::unique_ptr<OIIO::ImageOutput> output =
+            OIIO::ImageOutput::create(std::string("picture.") + extension);
         if (output == nullptr) throw std::runtime_error(OIIO::geterror());
         OIIO::ImageSpec spec(picture.width, picture.height, 3, is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
         if (picture.encoding == candela::ColorEncoding::srgb) {
@@ -71,7 +72,7 @@ class OpenImageIo final : public candela::ImageFormat {
             !output->write_image(is_float ? OIIO::TypeFloat : OIIO::TypeUInt8, pixels) || !output->close()) {
             throw std::runtime_error(output->geterror());
         }
-        send_file(file.path(), sink);
+        file.send(sink);
     }
 };
 

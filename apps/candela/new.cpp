@@ -1,0 +1,62 @@
+// candela new: a scene to begin with.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "command_line.h"
+#include "starter.h"
+#include "verbs.h"
+
+using candela::Error;
+using candela::ExitCode;
+
+namespace {
+
+/// A word as a shell takes it.
+std::string quoted(const std::string& word) {
+    const auto is_plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c >= 0x80 ||
+               std::string_view("._/-+,:@").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
+    std::string result = "'";
+    for (const char c : word) {
+        if (c == '\'') {
+            result += "'\\''";
+        } else {
+            result += c;
+        }
+    }
+    return result + "'";
+}
+
+}  // namespace
+
+int run_new(const std::vector<std::string>& arguments) {
+    CommandLine line("candela new [FILE] [options]",
+                     "Writes a small scene with comments, to change and to learn from: to scene.toml, unless "
+                     "FILE\nis named; - prints it.");
+    line.positional("file", 1);
+    line.options()("force", "replace a file that is there");
+    if (!line.parse(arguments)) return 0;
+
+    const std::string file = line.has("file") ? line.all("file").front() : "scene.toml";
+    if (file == "-") {
+        std::cout << starter_scene();
+        return 0;
+    }
+    std::error_code problem;
+    if (!line.has("force") && std::filesystem::exists(std::filesystem::symlink_status(file, problem))) {
+        throw Error(ExitCode::failure, fmt::format("'{}' is there already; --force replaces it", file));
+    }
+    candela::write_text_file(file, starter_scene());
+    std::cerr << fmt::format("{} is written. Have a look at it, and then: candela render {}\n", file,
+                             quoted(file));
+    return 0;
+}

@@ -1,0 +1,140 @@
+module;
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+module candela.files;
+
+import candela.diagnostics;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& shown, const char* what, int problem = errno) {
+    throw Error(ExitCode::failure, fmt::format("'{}' {}: {}", shown, what, std::strerror(problem)));
+}
+
+/// Where a link leads, also where nothing is there yet.
+fs::path behind_links(fs::path path) {
+    constexpr int k_most_links = 40;  // as many as Linux follows
+    std::error_code problem;
+    for (int i = 0; i < k_most_links && fs::is_symlink(path, problem); ++i) {
+        const fs::path next = fs::read_symlink(path, problem);
+        if (problem) break;
+        path = path.parent_path() / next;
+    }
+    return path;
+}
+
+fs::path directory_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// A file without a name, or -1 where the file system has none (or /proc, through which it gets its name, is
+/// not there).
+int open_unnamed(const fs::path& directory, mode_t mode) {
+    if (::access("/proc/self/fd", X_OK) != 0) return -1;
+    return ::open(directory.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+}
+
+/// Gives a file without a name one that nobody has; false, with errno, where that cannot be.
+bool name_file(int descriptor, const char* name) {
+    const std::string self = fmt::format("/proc/self/fd/{}", descriptor);
+    return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const fs::path& path) : shown_(path.string()) {
+    if (path == "-") {
+        descriptor_ = STDOUT_FILENO;
+        return;
+    }
+    struct stat before{};
+    const bool is_there = ::stat(path.c_str(), &before) == 0;
+    if (!is_there && errno != ENOENT) fail(shown_, "cannot be written");
+    if (is_there && S_ISDIR(before.st_mode)) {
+        throw Error(ExitCode::failure, fmt::format("'{}' is a directory; a file is to be written", shown_));
+    }
+    if (is_there && !S_ISREG(before.st_mode)) {
+        descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+        if (descriptor_ < 0) fail(shown_, "cannot be opened");
+        return;
+    }
+    target_ = behind_links(path);
+    // Nobody may read a new version of a private file while it is written; see put_in_place().
+    const mode_t mode = is_there ? 0600 : 0666;
+    descriptor_ = open_unnamed(directory_of(target_), mode);
+    if (descriptor_ >= 0) return;
+    beside_ = std::make_unique<NameBeside>(directory_of(target_));
+    descriptor_ = ::open(beside_->c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
+    if (descriptor_ < 0) fail(shown_, "cannot be created");
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) ::close(descriptor_);
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(shown_, "cannot be written");
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+
+void OutputFile::finish() {
+    if (!target_.empty()) return put_in_place();
+    if (descriptor_ != STDOUT_FILENO) close();
+}
+
+void OutputFile::close() {
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail(shown_, "cannot be written");
+}
+
+void OutputFile::put_in_place() {
+    struct stat before{};
+    const bool is_there = ::stat(target_.c_str(), &before) == 0;
+    if (is_there && ::fchmod(descriptor_, before.st_mode & 07777) != 0) {
+        fail(shown_, "cannot be given its rights");
+    }
+    if (beside_ == nullptr) {
+        if (!is_there) {
+            if (name_file(descriptor_, target_.c_str())) return close();
+            if (errno != EEXIST) fail(shown_, "cannot be put in its place");
+        }
+        // A name can only be given if nobody has it: between this and the renaming, a kill leaves a (whole)
+        // file beside the old one.
+        beside_ = std::make_unique<NameBeside>(directory_of(target_));
+        if (!name_file(descriptor_, beside_->c_str())) fail(shown_, "cannot be put in its place");
+    }
+    close();
+    if (::rename(beside_->c_str(), target_.c_str()) != 0) fail(shown_, "cannot be replaced");
+}
+
+void write_text_file(const fs::path& path, std::string_view text) {
+    OutputFile file(path);
+    file.write(text);
+    file.finish();
+}
+
+}  // namespace candela

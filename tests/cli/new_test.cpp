@@ -1,0 +1,110 @@
+// candela new: a scene to begin with.
+#include <catch2/catch_test_macros.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+CommandSetup in(const fs::path& directory) {
+    return {.input = "", .environment = {}, .directory = directory};
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("new writes scene.toml, which is valid without a warning, and says what to do next") {
+    const fs::path directory = scratch_directory();
+    const CommandResult result = run_candela({"new"}, in(directory));
+    CHECK(result.exit_code == 0);
+    CHECK(result.out.empty());
+    CHECK(holds(result.err, "candela render scene.toml"));
+    const CommandResult check = run_candela({"check", "scene.toml"}, in(directory));
+    CHECK(check.exit_code == 0);
+    CHECK(check.err.empty());
+    CHECK(holds(check.out, "lights    2"));
+    CHECK(holds(check.out, "objects   3"));
+    const std::string text = read_file(directory / "scene.toml");
+    for (const char* const next : {"candela render", "candela check", "candela list", "candela describe"}) {
+        CHECK(holds(text, next));
+    }
+}
+
+TEST_CASE("the picture of the new scene shows lit things of several colours") {
+    const fs::path directory = scratch_directory();
+    REQUIRE(run_candela({"new", "mine.toml"}, in(directory)).exit_code == 0);
+    const CommandResult render = run_candela({"render", "mine.toml", "-o", "a.ppm"}, in(directory));
+    INFO(render.err);
+    REQUIRE(render.exit_code == 0);
+    constexpr std::size_t k_pixels = std::size_t{800} * 500;
+    const std::string header = "P6\n800 500\n255\n";
+    const std::string picture = read_file(directory / "a.ppm");
+    REQUIRE(picture.starts_with(header));
+    REQUIRE(picture.size() == header.size() + 3 * k_pixels);
+    std::set<std::string> colors;
+    std::size_t background = 0, red = 0, bright = 0;
+    for (std::size_t i = header.size(); i < picture.size(); i += 3) {
+        const std::string pixel = picture.substr(i, 3);
+        const auto r = static_cast<unsigned char>(pixel[0]), g = static_cast<unsigned char>(pixel[1]),
+                   b = static_cast<unsigned char>(pixel[2]);
+        colors.insert(pixel);
+        background += r == 24 && g == 26 && b == 34 ? 1 : 0;
+        red += r > 2 * g && r > 2 * b && r > 100 ? 1 : 0;
+        bright += r > 200 && g > 150 ? 1 : 0;
+    }
+    CHECK(colors.size() > 1000);
+    CHECK(background > k_pixels / 10);
+    CHECK(background < k_pixels * 9 / 10);
+    CHECK(red > k_pixels / 100);  // the ball
+    CHECK(bright > 0);            // highlights
+}
+
+TEST_CASE("new leaves a file that is there alone, unless it is forced") {
+    const fs::path directory = scratch_directory();
+    const fs::path file = write_file(directory / "scene.toml", "mine");
+    const CommandResult refused = run_candela({"new"}, in(directory));
+    CHECK(refused.exit_code == 1);
+    CHECK(holds(refused.err, "'scene.toml' is there already; --force replaces it"));
+    CHECK(read_file(file) == "mine");
+    CHECK(run_candela({"new", "--force"}, in(directory)).exit_code == 0);
+    CHECK(read_file(file).find("[observer]") != std::string::npos);
+    fs::create_symlink("nowhere.toml", directory / "link.toml");
+    CHECK(run_candela({"new", "link.toml"}, in(directory)).exit_code == 1);
+}
+
+TEST_CASE("new - prints the scene, and writes nothing") {
+    const fs::path directory = scratch_directory();
+    const CommandResult printed = run_candela({"new", "-"}, in(directory));
+    CHECK(printed.exit_code == 0);
+    CHECK(printed.err.empty());
+    CHECK(fs::is_empty(directory));
+    REQUIRE(run_candela({"new"}, in(directory)).exit_code == 0);
+    CHECK(printed.out == read_file(directory / "scene.toml"));
+}
+
+TEST_CASE("new where no file can be is an error, and one name is enough") {
+    const fs::path directory = scratch_directory();
+    const CommandResult gone = run_candela({"new", "gone/scene.toml"}, in(directory));
+    CHECK(gone.exit_code == 1);
+    CHECK(holds(gone.err, "No such file or directory"));
+    fs::create_directory(directory / "directory");
+    CHECK(run_candela({"new", "directory"}, in(directory)).exit_code == 1);
+    const CommandResult forced = run_candela({"new", "directory", "--force"}, in(directory));
+    CHECK(forced.exit_code == 1);
+    CHECK(holds(forced.err, "is a directory"));
+    CHECK(run_candela({"new", "a.toml", "b.toml"}, in(directory)).exit_code == 2);
+    CHECK(fs::is_empty(directory / "directory"));
+}
+
+TEST_CASE("the command that new suggests is one that a shell understands") {
+    const fs::path directory = scratch_directory();
+    const CommandResult result = run_candela({"new", "it's a scene.toml"}, in(directory));
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.err, "candela render 'it'\\''s a scene.toml'"));
+}

@@ -1,0 +1,233 @@
+// Questions and progress: the command and a person, at a real (pseudo-)terminal.
+#include <fmt/format.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <csignal>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* k_both =
+    "The scene names no shading or reflection model. Use phong shading and phong reflection? [Y/n] ";
+constexpr const char* k_shading = "The scene names no shading model. Use phong shading? [Y/n] ";
+constexpr const char* k_reflection = "The scene names no reflection model. Use phong reflection? [Y/n] ";
+
+constexpr const char* k_box = "[[object]]\ntype = \"cube\"\nposition = [0, 1, 0]\n";
+constexpr const char* k_ball = "[[object]]\ntype = \"sphere\"\nposition = [0, -1, 0]\n";
+
+/// A scene without models, but for what `more` says.
+std::string scene(const std::string& more) {
+    return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight "
+           "= 16\n"
+           "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n" +
+           more;
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+int count(const std::string& text, const std::string& part) {
+    int found = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++found;
+    return found;
+}
+
+/// A scene in a file, and a place for its picture.
+struct Files {
+    explicit Files(const std::string& text)
+        : directory(scratch_directory()), scene_file(write_file(directory / "scene.toml", text).string()) {}
+
+    std::vector<std::string> render(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words = {"render", scene_file, "-o", picture().string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    fs::path picture() const { return directory / "a.png"; }
+    /// Whether there is a picture; there is none from then on.
+    bool take_picture() const { return fs::remove(picture()); }
+
+    fs::path directory;
+    std::string scene_file;
+};
+
+}  // namespace
+
+TEST_CASE("R13: nobody to ask is an error that names --defaults, which answers yes") {
+    const Files files(scene(k_box));
+    const CommandResult nobody =
+        run_candela(files.render(), {.input = "y\n", .environment = {}, .directory = {}});
+    CHECK(nobody.exit_code == 3);
+    CHECK(holds(nobody.err, "the scene names no shading or reflection model"));
+    CHECK(holds(nobody.err, "--defaults"));
+    CHECK_FALSE(holds(nobody.err, "[Y/n]"));
+    CHECK_FALSE(files.take_picture());
+    CHECK(run_candela(files.render({"--defaults"})).exit_code == 0);
+    CHECK(files.take_picture());
+}
+
+TEST_CASE(
+    "R13: on a terminal the question says what is missing and what will be used; each answer is understood") {
+    const Files files(scene(k_box));
+    for (const char* const yes : {"\n", "y\n", "Y\n", "yes\n", "Yes\n", " y \n"}) {
+        INFO("answer " << yes);
+        const CommandResult result = talk_to_candela(files.render(), {{k_both, yes}});
+        CHECK(result.exit_code == 0);
+        CHECK(count(result.out, "[Y/n]") == 1);
+        CHECK(files.take_picture());
+    }
+    for (const char* const no : {"n\n", "N\n", "no\n", "NO\n"}) {
+        INFO("answer " << no);
+        const CommandResult result = talk_to_candela(files.render(), {{k_both, no}});
+        CHECK(result.exit_code == 3);
+        CHECK(holds(result.out, "--shading and --reflection name others"));
+        CHECK_FALSE(files.take_picture());
+    }
+}
+
+TEST_CASE("R13: what is no answer is asked again") {
+    const Files files(scene(k_box));
+    const std::string again = std::string("Please answer y or n. ") + k_both;
+    const CommandResult yes =
+        talk_to_candela(files.render(), {{k_both, "perhaps\n"}, {again, "yn\n"}, {again, "y\n"}});
+    CHECK(yes.exit_code == 0);
+    CHECK(files.take_picture());
+    CHECK(talk_to_candela(files.render(), {{k_both, "perhaps\n"}, {again, "n\n"}}).exit_code == 3);
+    CHECK_FALSE(files.take_picture());
+}
+
+TEST_CASE("R13: Ctrl-D is no answer, and Ctrl-C ends the command; neither makes a picture") {
+    const Files files(scene(k_box));
+    const CommandResult end = talk_to_candela(files.render(), {{k_both, "\x04"}});
+    CHECK(end.exit_code == 3);
+    CHECK(holds(end.out, "--defaults"));
+    CHECK_FALSE(files.take_picture());
+    CHECK(talk_to_candela(files.render(), {{k_both, "\x03"}}).exit_code == 128 + SIGINT);
+    CHECK_FALSE(files.take_picture());
+    CHECK(std::distance(fs::directory_iterator(files.directory), {}) == 1);
+}
+
+TEST_CASE("R13: one question, however many objects need an answer") {
+    const Files files(
+        scene(std::string(k_box) + k_ball + "[[object]]\ntype = \"torus\"\nposition = [2, 0, 0]\n"));
+    const CommandResult result = talk_to_candela(files.render(), {{k_both, "\n"}});
+    CHECK(result.exit_code == 0);
+    CHECK(count(result.out, "[Y/n]") == 1);
+}
+
+TEST_CASE("R13: only what is missing is asked for") {
+    const auto ask = [](const Files& files, const std::vector<std::string>& flags, const char* question) {
+        const CommandResult result = talk_to_candela(files.render(flags), {{question, "\n"}});
+        INFO(result.out);
+        CHECK(result.exit_code == 0);
+        CHECK(count(result.out, "[Y/n]") == 1);
+        CHECK(files.take_picture());
+    };
+    const Files neither(scene(k_box));
+    ask(neither, {"--shading", "flat"}, k_reflection);
+    ask(neither, {"--reflection", "lambert"}, k_shading);
+    ask(Files(scene(std::string("[shading]\nmodel = \"flat\"\n") + k_box)), {}, k_reflection);
+    ask(Files(scene(std::string("[reflection]\nmodel = \"lambert\"\n") + k_box)), {}, k_shading);
+    ask(Files(scene(std::string(k_box) + "shading = \"flat\"\n")), {}, k_reflection);
+    // One object that names nothing is enough.
+    ask(Files(scene(std::string(k_box) + "shading = \"flat\"\nreflection = \"lambert\"\n" + k_ball)), {},
+        k_both);
+}
+
+TEST_CASE("R13: nobody is asked where nothing is missing, or the answer is known") {
+    const std::string named = "shading = \"flat\"\nreflection = \"lambert\"\n";
+    const auto silent = [](const Files& files, const std::vector<std::string>& flags) {
+        const CommandResult result = talk_to_candela(files.render(flags), {});
+        INFO(result.out);
+        CHECK(result.exit_code == 0);
+        CHECK_FALSE(holds(result.out, "[Y/n]"));
+        CHECK(files.take_picture());
+    };
+    silent(Files(scene(k_box + named + k_ball + named)), {});
+    silent(Files(scene(k_box)), {"--defaults"});
+    silent(Files(scene(k_box)), {"--shading", "flat", "--reflection", "lambert"});
+    silent(Files(scene("")), {});  // no objects
+}
+
+TEST_CASE(
+    "R13: a question needs somebody who can answer it and see it, on stdin and stderr; stdout is free") {
+    const Files files(scene(k_box));
+    for (const OnTerminal streams : {OnTerminal{.in = true, .out = true, .err = false},
+                                     OnTerminal{.in = false, .out = true, .err = true}}) {
+        INFO("stdin a terminal: " << streams.in);
+        const CommandResult result = talk_to_candela(
+            files.render(), {}, {.input = "y\n", .environment = {}, .directory = {}}, streams);
+        CHECK(result.exit_code == 3);
+        CHECK(holds(result.out + result.err, "--defaults"));
+        CHECK_FALSE(holds(result.out + result.err, "[Y/n]"));
+    }
+    const CommandResult piped = talk_to_candela({"render", files.scene_file, "-o", "-"}, {{k_both, "y\n"}},
+                                                {}, {.in = true, .out = false, .err = true});
+    CHECK(piped.exit_code == 0);
+    CHECK(holds(piped.out, "\x89PNG"));
+}
+
+TEST_CASE("R13: check never waits, and says what is missing wherever it runs") {
+    const Files files(scene(k_box));
+    for (const CommandResult& result :
+         {talk_to_candela({"check", files.scene_file}, {}), run_candela({"check", files.scene_file})}) {
+        CHECK(result.exit_code == 3);
+        CHECK(holds(result.out + result.err, "--defaults"));
+        CHECK_FALSE(holds(result.out + result.err, "[Y/n]"));
+    }
+    CHECK(talk_to_candela({"check", files.scene_file, "--defaults"}, {}).exit_code == 0);
+}
+
+TEST_CASE("R13: a scene that is wrong already is not worth a question") {
+    const Files files(scene(std::string("[room]\nheight = -1\n") + k_box));
+    const CommandResult result = talk_to_candela(files.render(), {});
+    CHECK(result.exit_code == 3);
+    CHECK_FALSE(holds(result.out, "[Y/n]"));
+    // Where nobody could answer, that is one more error.
+    const std::string all = run_candela(files.render()).err;
+    CHECK(holds(all, "greater than 0"));
+    CHECK(holds(all, "--defaults"));
+}
+
+TEST_CASE("with NO_COLOR, a question has no colour, nor has what follows from the answer") {
+    const Files files(scene(k_box));
+    const CommandSetup plain{
+        .input = "", .environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, .directory = {}};
+    const CommandResult result = talk_to_candela(files.render(), {{k_both, "n\n"}}, plain);
+    CHECK(result.exit_code == 3);
+    CHECK_FALSE(holds(result.out, "\x1b["));
+}
+
+TEST_CASE("a long render shows its progress on a terminal, and nowhere else") {
+    std::string text = scene(
+        "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\ntype = \"sphere\"\n");
+    for (int i = 0; i < 500; ++i) {
+        text += fmt::format("[[light]]\ntype = \"point\"\nposition = [{}, 4, {}]\n", -4 + 0.016 * i,
+                            4 - 0.008 * i);
+    }
+    const Files files(text);
+    const std::vector<std::string> words =
+        files.render({"--set", "observer.fov=16", "--width", "1400", "--height", "1400", "--threads", "1"});
+    const CommandSetup slow{
+        .input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "baseline"}}, .directory = {}};
+    const CommandResult seen = talk_to_candela(words, {}, slow);
+    CHECK(seen.exit_code == 0);
+    CHECK(holds(seen.out, "\rrendering ["));
+    CHECK(holds(seen.out, " %"));
+    // The bar is wiped away before the last line.
+    CHECK(holds(seen.out, "\r\x1b[K" + files.picture().string() + ": 1400 x 1400"));
+    const CommandResult unseen = run_candela(words, slow);
+    CHECK(unseen.exit_code == 0);
+    CHECK_FALSE(holds(unseen.err, "rendering ["));
+    CHECK(unseen.out.empty());
+}
+
+TEST_CASE("a short render shows no progress") {
+    const Files files(scene(k_box));
+    CHECK_FALSE(holds(talk_to_candela(files.render({"--defaults"}), {}).out, "rendering ["));
+}

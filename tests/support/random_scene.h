@@ -1,0 +1,49 @@
+// Valid scenes by chance, the same for the same seed: what they say as TOML, table by table, so that a test
+// can break one constraint of them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+import candela.core;
+
+/// A table of a scene file.
+struct SceneTable {
+    std::string header;  // "[room]", "[[light]]"; empty: the file's own keys
+    std::vector<std::pair<std::string, std::string>> entries{};  // keys, and values as TOML
+
+    /// The value of a key as TOML, or null.
+    const std::string* find(const std::string& key) const;
+    /// Gives a key, there or new, a value.
+    void set(const std::string& key, const std::string& value);
+    void erase(const std::string& key);
+};
+
+/// Everything lies in a cell of its own of a grid that fills the room: the observer, each light with a
+/// position, each object.
+struct RandomScene {
+    /// A ball in which a whole object lies.
+    struct Bounds {
+        candela::Vec3 center;
+        float radius = 0;
+    };
+
+    std::vector<SceneTable> tables;  // in an order in which they can be written
+    float width = 10, height = 10, depth = 10;
+    candela::Vec3 observer;
+    std::vector<candela::Vec3> light_positions;  // of the lights that have one
+    std::vector<Bounds> objects;
+
+    /// The whole file.
+    std::string text() const;
+    /// How many tables have that header.
+    std::size_t count(const std::string& header) const;
+    /// The `index`-th table of that header. Throws std::out_of_range where there is none.
+    SceneTable& table(const std::string& header, std::size_t index = 0);
+};
+
+/// A scene that is valid, though it may draw warnings. Plugins and the ranges of their parameters come from
+/// the manifests.
+RandomScene random_scene(unsigned seed);

@@ -1,0 +1,289 @@
+#include <catch2/catch_test_macros.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "support/command.h"
+#include "support/plugins.h"
+#include "support/random_scene.h"
+
+namespace fs = std::filesystem;
+
+using candela::Scene;
+using candela::Vec3;
+
+namespace {
+
+/// Reads a scene that must have no errors.
+Scene read(const fs::path& file, candela::Registry& registry = test_registry()) {
+    candela::Diagnostics diagnostics;
+    candela::SceneRequest request;
+    if (!file.empty()) request.files = {file};
+    auto scene = candela::read_scene(request, registry, diagnostics);
+    INFO(diagnostics.text(false, 1000));
+    REQUIRE(scene);
+    return *std::move(scene);
+}
+
+/// A file of that name, new: some file systems take milliseconds to write an old one anew.
+fs::path new_file(const fs::path& file, const std::string& text) {
+    fs::remove(file);
+    return write_file(file, text);
+}
+
+/// What a scene is after it has been written and read; that writing it once more gives the same bytes.
+Scene written_and_read(const Scene& scene, const fs::path& directory,
+                       candela::Registry& registry = test_registry()) {
+    const std::string text = candela::scene_text(scene);
+    Scene again = read(new_file(directory / "written.toml", text), registry);
+    INFO(text);
+    REQUIRE(candela::scene_text(again) == text);
+    return again;
+}
+
+std::string refusal(const Scene& scene) {
+    try {
+        candela::scene_text(scene);
+    } catch (const candela::Error& problem) {
+        return problem.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("a scene is written as people write it, with all that was left out") {
+    const fs::path file = write_file(scratch_directory() / "scene.toml", R"(version = 1
+[observer]
+look_at = [0, 0, 0]
+position = [0, 1.5, 0.1e1]
+[shading]
+model = "phong"
+[[light]]
+type = "ambient"
+name = "a \"sky\""
+[[object]]
+type = "sphere"
+position = [1, 0, 0]
+scale = [2, 2, 2]
+reflection = "lambert"
+)");
+    CHECK(candela::scene_text(read(file)) == R"(version = 1
+
+[room]
+height = 10.0
+width  = 10.0
+depth  = 10.0
+
+[observer]
+position   = [0.0, 1.5, 1.0]
+look_at    = [0.0, 0.0, 0.0]
+up         = [0.0, 1.0, 0.0]
+projection = "perspective"
+fov        = 40.0
+
+[image]
+width            = 512
+height           = 512
+samples          = 1
+background       = [0, 0, 0]
+color_management = "srgb"
+
+[shading]
+model = "phong"
+
+[reflection]
+model = "lambert"
+
+[[light]]
+name      = "a \"sky\""
+type      = "ambient"
+color     = [255, 255, 255]
+intensity = 1.0
+
+[[object]]
+type     = "sphere"
+radius   = 0.5
+segments = 64
+position = [1.0, 0.0, 0.0]
+rotation = [0.0, 0.0, 0.0]
+scale    = 2.0
+color    = [200, 200, 200]
+[object.material]
+ka = 0.1
+kd = 0.7
+)");
+}
+
+TEST_CASE("the default scene and the examples are the same after they have been written and read") {
+    const fs::path directory = scratch_directory();
+    const Scene standard = read({});
+    CHECK((written_and_read(standard, directory) == standard));
+    int examples = 0;
+    for (const auto& entry : fs::directory_iterator(fs::path(CANDELA_TEST_SOURCE) / "docs/examples")) {
+        const Scene scene = read(entry.path());
+        CHECK((written_and_read(scene, directory) == scene));
+        ++examples;
+    }
+    CHECK(examples > 0);
+}
+
+TEST_CASE("1000 random scenes are valid, and the same after they have been written and read") {
+    const fs::path directory = scratch_directory();
+    std::size_t lights = 0, objects = 0;
+    std::set<std::string> plugins;
+    for (unsigned seed = 0; seed < 1000; ++seed) {
+        const std::string text = random_scene(seed).text();
+        INFO("seed " << seed << "\n" << text);
+        const Scene scene = read(new_file(directory / "scene.toml", text));
+        REQUIRE((written_and_read(scene, directory) == scene));
+        lights += scene.lights.size();
+        objects += scene.objects.size();
+        for (const candela::LightSource& light : scene.lights) plugins.insert("light/" + light.model.name);
+        for (const candela::Object& object : scene.objects) {
+            plugins.insert({"shape/" + object.shape.name, "shading/" + object.shading.name,
+                            "reflection/" + object.reflection.name});
+        }
+    }
+    CHECK(lights > 1500);
+    CHECK(objects > 2000);
+    for (const candela::PluginFile* const plugin : test_registry().list()) {
+        const std::string id = plugin->manifest.id();
+        if (plugin->manifest.kind == candela::PluginKind::image || id == "shape/mesh") continue;
+        INFO(id);
+        CHECK(plugins.contains(id));
+    }
+}
+
+TEST_CASE("scenes that differ in one value are different") {
+    const Scene scene = read(fs::path(CANDELA_TEST_SOURCE) / "docs/examples/still-life.toml");
+    const std::vector<std::function<void(Scene&)>> changes = {
+        [](Scene& s) { s.room.height = 7; },
+        [](Scene& s) { s.room.width = 7; },
+        [](Scene& s) { s.room.depth = 7; },
+        [](Scene& s) { s.observer.position.x += 1; },
+        [](Scene& s) { s.observer.look_at.y += 1; },
+        [](Scene& s) { s.observer.up = {0, 0, 1}; },
+        [](Scene& s) { s.observer.projection = candela::Projection::orthographic; },
+        [](Scene& s) { s.observer.fov += 1; },
+        [](Scene& s) { s.observer.height += 1; },
+        [](Scene& s) { s.image.width += 1; },
+        [](Scene& s) { s.image.height += 1; },
+        [](Scene& s) { s.image.samples = 4; },
+        [](Scene& s) { s.image.background.z += 1; },
+        [](Scene& s) { s.image.color_management = candela::ColorEncoding::none; },
+        [](Scene& s) { s.lights.pop_back(); },
+        [](Scene& s) { s.lights[1].label = "'moon light'"; },
+        [](Scene& s) { s.lights[1].model.parameters.set("intensity", 3.0); },
+        [](Scene& s) { s.objects.pop_back(); },
+        [](Scene& s) { s.objects[1].label = "'pot'"; },
+        [](Scene& s) { s.objects[1].shape.parameters.set("segments", std::int64_t{9}); },
+        [](Scene& s) { s.objects[1].placement.position.x += 1; },
+        [](Scene& s) { s.objects[1].placement.rotation.x += 1; },
+        [](Scene& s) { s.objects[1].placement.scale.x += 1; },
+        [](Scene& s) { s.objects[1].color.x += 1; },
+        [](Scene& s) { s.objects[1].shading.name = "flat"; },
+        [](Scene& s) { s.objects[1].reflection.parameters.set("kd", Vec3{0.1f, 0.2f, 0.3f}); },
+    };
+    const fs::path directory = scratch_directory();
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        INFO("change " << i);
+        Scene changed = scene;
+        changes[i](changed);
+        CHECK_FALSE((changed == scene));
+        CHECK((written_and_read(changed, directory) == changed));
+    }
+    Scene moved = scene;
+    moved.objects[0].place.line += 1;
+    moved.lights[0].place.file = "elsewhere.toml";
+    CHECK((moved == scene));
+}
+
+TEST_CASE("a mesh file is written as an absolute path, however strange") {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "mé \"sh\"\\\n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Scene scene = read(write_file(directory / "scene.toml", R"(version = 1
+[observer]
+position = [0, 0, 4]
+look_at = [0, 0, 0]
+[shading]
+model = "flat"
+[reflection]
+model = "phong"
+[[object]]
+type = "mesh"
+file = "../a_mesh_file_is_written_as_an_absolute_path__however_strange/mé \"sh\"\\\n.obj"
+)"));
+    fs::create_directory(directory / "elsewhere");
+    const Scene again = written_and_read(scene, directory / "elsewhere");
+    CHECK((again == scene));
+    const auto file = std::get<std::string>(again.objects[0].shape.parameters.get("file"));
+    CHECK(fs::path(file).is_absolute());
+    CHECK(fs::exists(file));
+}
+
+TEST_CASE(
+    "parameters of a shading model are written in [shading], the only place where a file can say them") {
+    const fs::path directory = scratch_directory();
+    candela::Manifest wavy = test_registry().require(candela::PluginKind::shading, "phong").manifest;
+    wavy.name = "wavy";
+    wavy.parameters = {{.name = "waves", .type = candela::ParamType::real, .fallback = 2.0}};
+    write_file(directory / "shading-wavy.json", candela::to_json(wavy));
+    write_file(directory / "shading-wavy.so", "");  // never loaded
+    candela::Registry registry({directory, CANDELA_TEST_PLUGINS});
+    const Scene scene = read(write_file(directory / "scene.toml", R"(version = 1
+[observer]
+position = [0, 0, 4]
+look_at = [0, 0, 0]
+[shading]
+model = "wavy"
+waves = 5
+[reflection]
+model = "phong"
+[[object]]
+type = "cube"
+shading = "phong"
+[[object]]
+type = "sphere"
+shading = "wavy"
+[[object]]
+type = "torus"
+)"),
+                             registry);
+    CHECK(std::get<double>(scene.objects[1].shading.parameters.get("waves")) == 2);
+    CHECK(std::get<double>(scene.objects[2].shading.parameters.get("waves")) == 5);
+    CHECK((written_and_read(scene, directory, registry) == scene));
+
+    Scene beyond_words = scene;
+    beyond_words.objects[1].shading.parameters.set("waves", 6.0);
+    CHECK(refusal(beyond_words)
+              .find("objects number 1 and number 2 have shading models with different parameters") !=
+          std::string::npos);
+}
+
+TEST_CASE("what the format cannot say is refused, not changed") {
+    const Scene scene = read({});
+    CHECK(refusal(scene).empty());
+    Scene other = scene;
+    other.objects[0].color = {0.5f, 0, 0};
+    CHECK(refusal(other).find("0.5 in a colour is no whole number") != std::string::npos);
+    other = scene;
+    other.objects[0].label = "cube";
+    CHECK(refusal(other).find("cube is neither a name in quotes nor 'number 0'") != std::string::npos);
+    other = scene;
+    other.lights[0].label =
+        "'l\xe9"
+        "on'";
+    CHECK(refusal(other).find("is not UTF-8") != std::string::npos);
+    other = scene;
+    other.room.height = std::numeric_limits<float>::infinity();
+    CHECK_FALSE(refusal(other).empty());
+    other = scene;
+    other.lights[0].model.parameters = candela::ParamSet(scene.lights[0].model.parameters.schema());
+    CHECK(refusal(other).find("'lamp': 'position' has no value") != std::string::npos);
+}
