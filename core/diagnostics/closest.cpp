@@ -33,12 +33,24 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return d[a.size()][b.size()];
 }
 
+/// How many letters may be wrong between names of these lengths.
+std::size_t allowed_distance(std::size_t a, std::size_t b) {
+    return std::max<std::size_t>(1, (std::max(a, b) + 1) / 3);
+}
+
 }  // namespace
 
 std::optional<std::string> closest(std::string_view name, std::span<const std::string> candidates) {
+    // Nobody misspells what is longer than this; a wrong file may hold a name of millions.
+    constexpr std::size_t k_longest = 256;
     const std::string* best = nullptr;
     std::size_t best_distance = 0;
+    if (name.size() > k_longest) return std::nullopt;
     for (const std::string& candidate : candidates) {
+        // Each letter that one has more is a wrong one.
+        const std::size_t more =
+            name.size() > candidate.size() ? name.size() - candidate.size() : candidate.size() - name.size();
+        if (candidate.size() > k_longest || more > allowed_distance(name.size(), candidate.size())) continue;
         const std::size_t distance = edit_distance(name, candidate);
         if (best == nullptr || distance < best_distance) {
             best = &candidate;
@@ -46,9 +58,7 @@ std::optional<std::string> closest(std::string_view name, std::span<const std::s
         }
     }
     if (best == nullptr) return std::nullopt;
-    const std::size_t longest = std::max(name.size(), best->size());
-    const std::size_t allowed = std::max<std::size_t>(1, (longest + 1) / 3);
-    return best_distance <= allowed ? std::optional(*best) : std::nullopt;
+    return best_distance <= allowed_distance(name.size(), best->size()) ? std::optional(*best) : std::nullopt;
 }
 
 }  // namespace candela

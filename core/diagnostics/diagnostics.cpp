@@ -39,18 +39,28 @@ void Diagnostics::remember_source(const std::string& file, std::string text) {
     sources_.insert_or_assign(file, std::move(text));
 }
 
-std::vector<Diagnostic> Diagnostics::sorted() const {
-    using Rank =
-        std::tuple<std::ptrdiff_t, int, int, std::size_t>;  // last, the order in which they were found
+std::vector<std::size_t> Diagnostics::order_of_places() const {
+    std::map<std::string_view, std::size_t> file_ranks;
+    for (const std::string& file : files_) file_ranks.try_emplace(file, file_ranks.size());
+    using Rank = std::tuple<std::size_t, int, int, std::size_t>;  // last, the order in which they were found
     std::vector<Rank> ranks;
+    ranks.reserve(all_.size());
     for (std::size_t i = 0; i < all_.size(); ++i) {
         const SourcePlace& place = all_[i].place;
-        const auto file = std::ranges::find(files_, place.file) - files_.begin();
-        ranks.emplace_back(file, place.line, place.column, i);
+        const auto known = file_ranks.find(place.file);
+        ranks.emplace_back(known != file_ranks.end() ? known->second : files_.size(), place.line,
+                           place.column, i);
     }
     std::ranges::sort(ranks);
+    std::vector<std::size_t> order;
+    order.reserve(ranks.size());
+    for (const Rank& rank : ranks) order.push_back(std::get<3>(rank));
+    return order;
+}
+
+std::vector<Diagnostic> Diagnostics::sorted() const {
     std::vector<Diagnostic> result;
-    for (const Rank& rank : ranks) result.push_back(all_[std::get<3>(rank)]);
+    for (const std::size_t i : order_of_places()) result.push_back(all_[i]);
     return result;
 }
 
@@ -68,6 +78,20 @@ std::optional<std::string> Diagnostics::source_line(const SourcePlace& place) co
     std::string_view line = text.substr(begin, end == std::string_view::npos ? end : end - begin);
     if (line.ends_with('\r')) line.remove_suffix(1);
     return std::string(line);
+}
+
+std::string shortened(std::string_view text) {
+    constexpr std::size_t k_longest = 40;
+    std::string result(text.substr(0, k_longest));
+    // No half character at the end.
+    while (text.size() > k_longest && !result.empty() &&
+           (static_cast<unsigned char>(text[result.size()]) & 0xc0) == 0x80) {
+        result.pop_back();
+    }
+    for (char& c : result) {
+        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    }
+    return result.size() < text.size() ? result + "..." : result;
 }
 
 }  // namespace candela

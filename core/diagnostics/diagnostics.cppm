@@ -80,12 +80,17 @@ class CANDELA_API Diagnostics {
     static constexpr std::size_t k_most_shown = 50;
 
   private:
+    std::vector<std::size_t> order_of_places() const;
+
     std::vector<Diagnostic> all_;
     std::vector<std::string> files_;  // in reading order
     std::map<std::string, std::string, std::less<>> sources_;
     ExitCode exit_code_ = ExitCode::ok;
     std::size_t errors_ = 0;
 };
+
+/// As much of what somebody wrote as fits a message, on one line.
+CANDELA_API std::string shortened(std::string_view text);
 
 /// The candidate that `name` was most likely meant to be, if one is near enough: at most a third of its
 /// letters wrong, a swap of neighbours counting once (Damerau 1964).

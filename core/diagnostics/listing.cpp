@@ -36,11 +36,29 @@ std::vector<std::string> characters_of(std::string_view line) {
     for (const char c : line) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte >= 0x80 && byte < 0xc0 && !result.empty()) {
-            result.back() += c;
+            // U+0080 to U+009F are commands, too.
+            if (result.back() == "\xc2" && byte < 0xa0) {
+                result.back() = "?";
+            } else {
+                result.back() += c;
+            }
         } else {
             const bool is_control = (byte < 0x20 && c != '\t') || byte == 0x7f;
             result.emplace_back(1, is_control ? '?' : c);
         }
+    }
+    return result;
+}
+
+/// A sentence, which may quote what somebody wrote: on one line, without commands to the terminal, and not
+/// longer than anybody reads.
+std::string sentence(std::string_view text) {
+    constexpr std::size_t k_longest = 1000;
+    std::string result;
+    std::size_t count = 0;
+    for (const std::string& character : characters_of(text.substr(0, 4 * k_longest))) {
+        if (++count > k_longest) return result + "...";
+        result += character;
     }
     return result;
 }
@@ -50,21 +68,26 @@ std::vector<std::string> characters_of(std::string_view line) {
 std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& place) {
     constexpr std::size_t k_widest = 160;
     constexpr std::size_t k_before = 60;
-    const std::vector<std::string> characters = characters_of(line);
-    const auto marked = std::min(static_cast<std::size_t>(std::max(place.column, 1)) - 1, characters.size());
-    std::size_t first = 0;
-    std::size_t last = characters.size();
-    if (last > k_widest) {
-        first = marked > k_before ? marked - k_before : 0;
-        last = std::min(first + k_widest, last);
+    const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+    const auto all = static_cast<std::size_t>(std::ranges::count_if(line, is_first_byte));
+    auto marked = std::min(static_cast<std::size_t>(std::max(place.column, 1)) - 1, all);
+    const std::size_t left_out = all > k_widest && marked > k_before ? marked - k_before : 0;
+    for (std::size_t i = 0; i < left_out; ++i) {
+        do {
+            line.remove_prefix(1);
+        } while (!line.empty() && !is_first_byte(line.front()));
     }
-    std::string shown = first > 0 ? "..." : "";
-    std::string marks = first > 0 ? "   " : "";
-    for (std::size_t i = first; i < last; ++i) {
+    marked -= left_out;
+    const std::vector<std::string> characters = characters_of(line.substr(0, 4 * k_widest));
+    const std::size_t last = std::min(k_widest, characters.size());
+    const bool goes_on = all - left_out > last;
+    std::string shown = left_out > 0 ? "..." : "";
+    std::string marks = left_out > 0 ? "   " : "";
+    for (std::size_t i = 0; i < last; ++i) {
         shown += characters[i];
         if (i < marked) marks += characters[i] == "\t" ? '\t' : ' ';
     }
-    if (last < characters.size()) shown += "...";
+    if (goes_on) shown += "...";
     const std::size_t room = last > marked ? last - marked : 1;
     marks.append(std::clamp<std::size_t>(static_cast<std::size_t>(std::max(place.length, 1)), 1, room), '^');
     return {shown, marks};
@@ -77,25 +100,25 @@ std::string_view word(Severity severity) { return severity == Severity::error ? 
 std::string Diagnostics::text(bool in_color, std::size_t most) const {
     const Paint paint{in_color};
     std::string result;
-    const std::vector<Diagnostic> found = sorted();
-    for (std::size_t i = 0; i < std::min(most, found.size()); ++i) {
-        const Diagnostic& d = found[i];
+    const std::vector<std::size_t> order = order_of_places();
+    for (std::size_t i = 0; i < std::min(most, order.size()); ++i) {
+        const Diagnostic& d = all_[order[i]];
         result += fmt::format(
-            "{}{} {} {}\n", paint("1", location(d.place)), d.place.file.empty() ? "" : ":",
+            "{}{} {} {}\n", paint("1", sentence(location(d.place))), d.place.file.empty() ? "" : ":",
             paint(d.severity == Severity::error ? "1;31" : "1;35", fmt::format("{}:", word(d.severity))),
-            paint("1", d.message));
+            paint("1", sentence(d.message)));
         if (const auto line = source_line(d.place)) {
             const auto [shown, marks] = excerpt(*line, d.place);
             result += fmt::format("{:5} | {}\n{:5} | {}", d.place.line, shown, "", paint("1;32", marks));
-            result += d.hint.empty() ? "\n" : fmt::format(" {}\n", d.hint);
+            result += d.hint.empty() ? "\n" : fmt::format(" {}\n", sentence(d.hint));
         } else if (!d.hint.empty()) {
-            result += fmt::format("      {}\n", d.hint);
+            result += fmt::format("      {}\n", sentence(d.hint));
         }
     }
-    if (found.size() > most) {
-        const auto rest = std::ranges::count(found.begin() + static_cast<std::ptrdiff_t>(most), found.end(),
-                                             Severity::error, &Diagnostic::severity);
-        result += fmt::format("and {} more ({} of them errors)\n", found.size() - most, rest);
+    if (order.size() > most) {
+        const auto rest = std::count_if(order.begin() + static_cast<std::ptrdiff_t>(most), order.end(),
+                                        [&](std::size_t i) { return all_[i].severity == Severity::error; });
+        result += fmt::format("and {} more ({} of them errors)\n", order.size() - most, rest);
     }
     return result;
 }

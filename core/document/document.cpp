@@ -5,11 +5,8 @@ module;
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,9 +23,6 @@ namespace candela {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Larger than any scene that somebody wrote; a wrong file named by mistake may be anything.
-constexpr std::uintmax_t k_largest_file = 64u << 20;
 
 SourcePlace place_of(const toml::source_region& region, const std::string& file) {
     SourcePlace place{file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column), 0};
@@ -76,49 +70,53 @@ Node plain(const toml::node& node, const std::string& file) {
     return result;
 }
 
-std::string shortened(std::string text) {
-    constexpr std::size_t k_longest = 40;
-    if (text.size() > k_longest) text = text.substr(0, k_longest) + "...";
-    for (char& c : text) {
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+/// The line of a place.
+std::string_view line_of(std::string_view text, int number) {
+    for (; number > 1 && !text.empty(); --number) {
+        const std::size_t end = text.find('\n');
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
+    text = text.substr(0, text.find('\n'));
+    if (text.ends_with('\r')) text.remove_suffix(1);
     return text;
 }
 
-/// Says why a file cannot be read, or returns its text.
-std::optional<std::string> text_of_file(const fs::path& file, const std::string& shown_name,
-                                        Diagnostics& diagnostics) {
-    const SourcePlace place{shown_name, 0, 0, 0};
-    const auto fail = [&](const std::string& message, const std::string& hint = {}) {
-        diagnostics.failure(place, message, hint);
-        return std::nullopt;
-    };
-    const auto no_scene = [&](const std::string& message) {
-        diagnostics.error(place, message);
-        return std::nullopt;
-    };
-    std::error_code problem;
-    const fs::file_status status = fs::status(file, problem);
-    if (status.type() == fs::file_type::not_found)
-        return fail("there is no such file", file_suggestion(file));
-    if (status.type() == fs::file_type::none)
-        return fail(fmt::format("it cannot be looked at: {}", problem.message()));
-    if (status.type() == fs::file_type::directory) return fail("this is a directory; a scene is a file");
-    if (status.type() != fs::file_type::regular)
-        return fail("this is no ordinary file (a pipe or a device?)");
-    const std::uintmax_t size = fs::file_size(file, problem);
-    if (!problem && size > k_largest_file) {
-        return fail(
-            fmt::format("the file is too large: {} bytes, where a scene may have {}", size, k_largest_file));
+void report(const toml::parse_error& problem, std::string_view text, const std::string& shown_name,
+            Diagnostics& diagnostics) {
+    SourcePlace place = place_of(problem.source(), shown_name);
+    const std::string_view line = line_of(text, place.line);
+    // At the end of the file toml++ counts the last line's end as a character.
+    const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+    place.column = std::min(place.column, 1 + static_cast<int>(std::ranges::count_if(line, is_first_byte)));
+    SyntaxProblem said = syntax_problem(problem.description(), line, place.column);
+    diagnostics.error(std::move(place), std::move(said.message), std::move(said.hint));
+}
+
+/// Whether toml++ may see the text at all; reports where not.
+bool can_be_parsed(std::string_view text, const std::string& shown_name, std::size_t& values_left,
+                   Diagnostics& diagnostics) {
+    if (const auto place = first_invalid_character(text, shown_name)) {
+        diagnostics.error(*place, "this is not UTF-8 text", "save the file as UTF-8");
+        return false;
     }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return fail(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (in.bad()) return fail(fmt::format("the file cannot be read: {}", std::strerror(errno)));
-    if (text.find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");
-    if (text.find('\0') != std::string::npos)
-        return no_scene("this is a binary file; a scene is text (TOML)");
-    return text;
+    const auto excess = first_excess(text, shown_name, values_left);
+    if (!excess) return true;
+    // It may be too deep only because a bracket was not closed before.
+    constexpr std::size_t k_worth_parsing = 1u << 20;
+    try {
+        if (excess->offset < k_worth_parsing) {
+            static_cast<void>(toml::parse(text.substr(0, excess->offset), shown_name));
+        }
+    } catch (const toml::parse_error& problem) {
+        const auto& begin = problem.source().begin;
+        if (std::pair(static_cast<int>(begin.line), static_cast<int>(begin.column)) <
+            std::pair(excess->place.line, excess->place.column)) {
+            report(problem, text, shown_name, diagnostics);
+            return false;
+        }
+    }
+    diagnostics.error(excess->place, excess->message, "no scene needs that");
+    return false;
 }
 
 }  // namespace
@@ -151,22 +149,33 @@ std::string description(const Node& node) {
     return std::visit(Describer{}, node.value);
 }
 
-std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
-                                        Diagnostics& diagnostics) {
+namespace {
+
+std::optional<TableNode> parse(std::string_view text, const std::string& shown_name, std::size_t& values_left,
+                               Diagnostics& diagnostics) {
     diagnostics.remember_source(shown_name, std::string(text));
+    if (!can_be_parsed(text, shown_name, values_left, diagnostics)) return std::nullopt;
     try {
         return plain_table(toml::parse(text, shown_name), shown_name);
     } catch (const toml::parse_error& problem) {
-        diagnostics.error(place_of(problem.source(), shown_name), std::string(problem.description()));
+        report(problem, text, shown_name, diagnostics);
         return std::nullopt;
     }
 }
 
+}  // namespace
+
+std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
+                                        Diagnostics& diagnostics) {
+    std::size_t values_left = ReadingLimits::k_most_values;
+    return parse(text, shown_name, values_left, diagnostics);
+}
+
 std::optional<TableNode> read_document(const fs::path& file, const std::string& shown_name,
-                                       Diagnostics& diagnostics) {
-    const auto text = text_of_file(file, shown_name, diagnostics);
+                                       ReadingLimits& left, Diagnostics& diagnostics) {
+    const auto text = text_of_file(file, shown_name, left, diagnostics);
     if (!text) return std::nullopt;
-    return parse_document(*text, shown_name, diagnostics);
+    return parse(*text, shown_name, left.values, diagnostics);
 }
 
 std::optional<Node> parse_value(std::string_view text, const SourcePlace& place, Diagnostics& diagnostics) {
@@ -184,21 +193,30 @@ std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
         result.value = std::string(text);
         return result;
     }
+    const auto refuse = [&](const std::string& why) {
+        diagnostics.error(place, fmt::format("'{}' is no value: {}", shortened(text), why),
+                          "write a number, [three, of, them], true, false or a text");
+        return std::nullopt;
+    };
+    const std::string line = fmt::format("value = {}", text);
+    if (first_invalid_character(line, place.file)) return refuse("it is not UTF-8 text");
+    std::size_t values_left = ReadingLimits::k_most_values;
+    if (const auto excess = first_excess(line, place.file, values_left)) return refuse(excess->message);
     try {
-        const toml::table table = toml::parse(fmt::format("value = {}\n", text));
+        const toml::table table = toml::parse(line);
         const toml::node* const value = table.get("value");
         if (table.size() != 1 || value == nullptr) {
-            diagnostics.error(place, fmt::format("'{}' is not one value", shortened(std::string(text))));
+            diagnostics.error(place, fmt::format("'{}' is not one value", shortened(text)));
             return std::nullopt;
         }
         result = plain(*value, place.file);
         result.place = place;
         return result;
     } catch (const toml::parse_error& problem) {
-        diagnostics.error(
-            place, fmt::format("'{}' is no value: {}", shortened(std::string(text)), problem.description()),
-            "write a number, [three, of, them], true, false or a text");
-        return std::nullopt;
+        const auto& begin = problem.source().begin;
+        return refuse(syntax_problem(problem.description(), line_of(line, static_cast<int>(begin.line)),
+                                     static_cast<int>(begin.column))
+                          .message);
     }
 }
 

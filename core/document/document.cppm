@@ -3,6 +3,7 @@ module;
 
 #include "candela/api.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -53,10 +54,22 @@ struct TableNode::Entry {
 /// What a value is, to a person: `a string, "red"`, "the number 0.5", "a table".
 CANDELA_API std::string description(const Node& node);
 
+/// What the files of one scene may be together: far more than anybody writes, but a wrong file named by
+/// mistake may be anything, and a tree of values takes a hundred times a text's memory.
+struct ReadingLimits {
+    std::uintmax_t bytes = k_most_bytes;
+    std::size_t values = k_most_values;
+
+    static constexpr std::uintmax_t k_most_bytes = 64u << 20;
+    static constexpr std::size_t k_most_values = 5'000'000;  // counted by their separators
+};
+
 /// Reads and parses a file. Reports what is wrong (R11: each way of not being readable has its own message)
-/// and returns nothing then. `shown_name` is how the file is called in diagnostics.
+/// and returns nothing then. `shown_name` is how the file is called in diagnostics. A file beyond `left` is
+/// refused; else what it holds is taken off.
 CANDELA_API std::optional<TableNode> read_document(const std::filesystem::path& file,
-                                                   const std::string& shown_name, Diagnostics& diagnostics);
+                                                   const std::string& shown_name, ReadingLimits& left,
+                                                   Diagnostics& diagnostics);
 
 /// "did you mean 'scene.toml'?", from what lies where `missing` does not; or empty.
 CANDELA_API std::string file_suggestion(const std::filesystem::path& missing);
@@ -76,5 +89,37 @@ CANDELA_API std::string toml_text(std::string_view text);
 CANDELA_API std::string toml_text(double x);
 CANDELA_API std::string toml_text(float x);
 CANDELA_API std::string toml_key(std::string_view key);
+
+}  // namespace candela
+
+// What this module's own units share.
+namespace candela {
+
+/// Says why a file cannot be read, or returns its text: UTF-8 or not, but no binary file, and not empty.
+std::optional<std::string> text_of_file(const std::filesystem::path& file, const std::string& shown_name,
+                                        ReadingLimits& left, Diagnostics& diagnostics);
+
+/// Where a text is not UTF-8.
+std::optional<SourcePlace> first_invalid_character(std::string_view text, const std::string& shown_name);
+
+struct Excess {
+    std::size_t offset = 0;  // in bytes; what is before it is not too much
+    SourcePlace place;
+    std::string message;
+};
+
+/// Where brackets nest so deep, or keys have so many parts, that going down there by recursion is a danger;
+/// or where there are more than `values_left` values. Else takes off how many there are.
+std::optional<Excess> first_excess(std::string_view text, const std::string& shown_name,
+                                   std::size_t& values_left);
+
+struct SyntaxProblem {
+    std::string message;
+    std::string hint;
+};
+
+/// What toml++ says of a text, as a person says it. `line` is the line of the problem, `column` its place
+/// therein.
+SyntaxProblem syntax_problem(std::string_view description, std::string_view line, int column);
 
 }  // namespace candela

@@ -6,6 +6,7 @@ module;
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -230,19 +231,28 @@ Rgb decoded(Vec3 color, ColorEncoding encoding) noexcept {
     return {channel(color.x), channel(color.y), channel(color.z)};
 }
 
-ParamSet::ParamSet(std::vector<Parameter> schema) : schema_(std::move(schema)) {
-    for (const Parameter& p : schema_) values_.push_back(p.fallback);
+ParamSet::ParamSet() {
+    static const auto k_empty = std::make_shared<const std::vector<Parameter>>();
+    schema_ = k_empty;
+}
+
+ParamSet::ParamSet(std::vector<Parameter> schema)
+    : ParamSet(std::make_shared<const std::vector<Parameter>>(std::move(schema))) {}
+
+ParamSet::ParamSet(SharedSchema schema) : schema_(std::move(schema)) {
+    values_.reserve(schema_->size());
+    for (const Parameter& p : *schema_) values_.push_back(p.fallback);
 }
 
 std::size_t ParamSet::index_of(std::string_view name) const noexcept {
-    const auto found = std::ranges::find_if(schema_, [&](const Parameter& p) { return p.name == name; });
-    return static_cast<std::size_t>(found - schema_.begin());
+    const auto found = std::ranges::find_if(*schema_, [&](const Parameter& p) { return p.name == name; });
+    return static_cast<std::size_t>(found - schema_->begin());
 }
 
 void ParamSet::set(std::string_view name, Value value) {
     const std::size_t index = index_of(name);
-    if (index == schema_.size()) throw std::invalid_argument(fmt::format("no parameter '{}'", name));
-    const ParamType type = schema_[index].type;
+    if (index == schema_->size()) throw std::invalid_argument(fmt::format("no parameter '{}'", name));
+    const ParamType type = (*schema_)[index].type;
     if (const auto* whole = std::get_if<std::int64_t>(&value);
         whole != nullptr && (type == ParamType::real || type == ParamType::triple)) {
         value = static_cast<double>(*whole);
@@ -253,9 +263,9 @@ void ParamSet::set(std::string_view name, Value value) {
     }
     if (!holds(value, type)) {
         throw std::invalid_argument(
-            fmt::format("{} for '{}': expected {}", text_of(value), name, expectation(schema_[index])));
+            fmt::format("{} for '{}': expected {}", text_of(value), name, expectation((*schema_)[index])));
     }
-    if (const auto wrong = complaint(schema_[index], value)) {
+    if (const auto wrong = complaint((*schema_)[index], value)) {
         throw std::invalid_argument(fmt::format("'{}': {}", name, *wrong));
     }
     values_[index] = std::move(value);
@@ -263,15 +273,15 @@ void ParamSet::set(std::string_view name, Value value) {
 
 const Value& ParamSet::get(std::string_view name) const {
     const std::size_t index = index_of(name);
-    if (index == schema_.size() || !values_[index])
+    if (index == schema_->size() || !values_[index])
         throw std::invalid_argument(fmt::format("'{}' has no value", name));
     return *values_[index];
 }
 
 std::vector<ParamValue> ParamSet::delivered(ColorEncoding encoding) const {
-    std::vector<ParamValue> result(schema_.size());
-    for (std::size_t i = 0; i < schema_.size(); ++i) {
-        const Parameter& p = schema_[i];
+    std::vector<ParamValue> result(schema_->size());
+    for (std::size_t i = 0; i < schema_->size(); ++i) {
+        const Parameter& p = (*schema_)[i];
         if (!values_[i]) throw std::invalid_argument(fmt::format("'{}' must be given", p.name));
         const Value& value = *values_[i];
         const auto put = [&](Vec3 v) {

@@ -10,6 +10,7 @@ module;
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -137,13 +138,17 @@ CANDELA_API float linear_to_srgb(float linear) noexcept;
 /// A scene colour 0-255 as intensities 0 to 1; 256 counts as 255.
 CANDELA_API Rgb decoded(Vec3 color, ColorEncoding encoding) noexcept;
 
+/// A schema that many sets have in common. Never null.
+using SharedSchema = std::shared_ptr<const std::vector<Parameter>>;
+
 /// The values of one schema: every parameter has one, except required ones not yet set.
 class CANDELA_API ParamSet {
   public:
-    ParamSet() = default;
+    ParamSet();
     explicit ParamSet(std::vector<Parameter> schema);
+    explicit ParamSet(SharedSchema schema);
 
-    const std::vector<Parameter>& schema() const noexcept { return schema_; }
+    const std::vector<Parameter>& schema() const noexcept { return *schema_; }
     std::size_t index_of(std::string_view name) const noexcept;  // schema().size() where there is none
 
     /// Throws std::invalid_argument where there is no such parameter or the value does not fit it.
@@ -163,7 +168,7 @@ class CANDELA_API ParamSet {
     friend bool operator==(const ParamSet&, const ParamSet&) = default;
 
   private:
-    std::vector<Parameter> schema_;
+    SharedSchema schema_;
     std::vector<std::optional<Value>> values_;
 };
 

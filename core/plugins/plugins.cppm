@@ -74,6 +74,7 @@ CANDELA_API Manifest manifest_from_json(std::string_view text);
 struct PluginFile {
     Manifest manifest;
     std::filesystem::path library;
+    SharedSchema schema;                           // the manifest's parameters
     const PluginDescriptor* descriptor = nullptr;  // once it is loaded
 };
 

@@ -136,6 +136,7 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
                         file->manifest.abi, host_abi()));
     }
     file->library = library;
+    file->schema = std::make_shared<const std::vector<Parameter>>(file->manifest.parameters);
     return (found_[id] = std::move(file)).get();
 }
 
@@ -241,7 +242,7 @@ std::vector<std::string> Registry::extensions() {
 }
 
 ParamSet Registry::parameters(PluginKind kind, std::string_view name) {
-    return ParamSet(require(kind, name).manifest.parameters);
+    return ParamSet(require(kind, name).schema);
 }
 
 const PluginDescriptor& Registry::load(const PluginFile& file) {

@@ -12,6 +12,7 @@ module;
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -32,6 +33,22 @@ std::string place_text(const SourcePlace& place) {
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
+// Far beyond what people write; a program that writes scenes may go wrong.
+constexpr int k_deepest_include = 32;
+constexpr std::size_t k_most_files = 1000;
+constexpr std::size_t k_most_lights_or_objects = 100'000;
+
+void report_too_many(const TableNode& root, Diagnostics& diagnostics) {
+    for (const char* const kind : {"light", "object"}) {
+        const TableNode::Entry* const entry = root.find(kind);
+        const ArrayNode* const all = entry != nullptr ? entry->node.array() : nullptr;
+        if (all == nullptr || all->size() <= k_most_lights_or_objects) continue;
+        diagnostics.error((*all)[k_most_lights_or_objects].place,
+                          fmt::format("the scene has {} {}s; it may have at most {}", all->size(), kind,
+                                      k_most_lights_or_objects));
+    }
+}
+
 class Gatherer {
   public:
     explicit Gatherer(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -39,7 +56,8 @@ class Gatherer {
     void add_file(const fs::path& file, const SourcePlace* included_at) {
         const std::string shown = file.string();
         std::error_code problem;
-        const fs::path canonical = fs::weakly_canonical(file, problem);
+        fs::path canonical = fs::weakly_canonical(file, problem);
+        if (problem) canonical = file;
         if (const auto seen = files_.find(canonical); seen != files_.end()) {
             const SourcePlace place = included_at != nullptr ? *included_at : SourcePlace{shown, 0, 0, 0};
             diagnostics_.error(
@@ -47,13 +65,16 @@ class Gatherer {
                                     : fmt::format("'{}' is read twice", shown));
             return;
         }
+        if (included_at != nullptr && !may_include(*included_at)) return;
         files_[canonical] = true;
+        ++depth_;
         if (included_at != nullptr && !fs::exists(file, problem)) {
             diagnostics_.error(*included_at, fmt::format("there is no file '{}' to include", shown),
                                file_suggestion(file));
-        } else if (auto table = read_document(file, shown, diagnostics_)) {
+        } else if (auto table = read_document(file, shown, left_, diagnostics_)) {
             add(std::move(*table), file.parent_path());
         }
+        --depth_;
         files_[canonical] = false;
     }
 
@@ -64,6 +85,22 @@ class Gatherer {
     TableNode take() { return std::move(root_); }
 
   private:
+    bool may_include(const SourcePlace& place) {
+        if (depth_ > k_deepest_include) {
+            diagnostics_.error(place,
+                               fmt::format("files include one another more than {} deep", k_deepest_include),
+                               "include them from the scene's first file");
+            return false;
+        }
+        if (files_.size() < k_most_files) return true;
+        if (!too_many_files_) {
+            diagnostics_.error(place, fmt::format("the scene is of more than {} files", k_most_files),
+                               "put several into one");
+        }
+        too_many_files_ = true;
+        return false;
+    }
+
     void add(TableNode table, const fs::path& directory) {
         if (const TableNode::Entry* const include = table.find("include")) follow(include->node, directory);
         for (TableNode::Entry& entry : table.entries) {
@@ -79,6 +116,7 @@ class Gatherer {
             return;
         }
         for (const Node& file : *files) {
+            if (too_many_files_) return;
             if (const auto* path = std::get_if<std::string>(&file.value)) {
                 add_file(directory / *path, &file.place);
             } else {
@@ -89,10 +127,13 @@ class Gatherer {
     }
 
     void merge(TableNode::Entry entry) {
-        TableNode::Entry* const before = root_.find(entry.key);
-        if (before == nullptr) {
+        const auto [known, is_new] = index_.try_emplace(entry.key, root_.entries.size());
+        if (is_new) {
             root_.entries.push_back(std::move(entry));
-        } else if (before->node.array() != nullptr && entry.node.array() != nullptr) {
+            return;
+        }
+        TableNode::Entry* const before = &root_.entries[known->second];
+        if (before->node.array() != nullptr && entry.node.array() != nullptr) {
             ArrayNode& all = *before->node.array();
             for (Node& node : *entry.node.array()) all.push_back(std::move(node));
         } else if (entry.key != "version" || before->node.value.index() != entry.node.value.index() ||
@@ -105,7 +146,11 @@ class Gatherer {
 
     Diagnostics& diagnostics_;
     TableNode root_;
-    std::map<fs::path, bool> files_;  // whether it is being read
+    std::unordered_map<std::string, std::size_t> index_;  // of the root's keys
+    std::map<fs::path, bool> files_;                      // whether it is being read
+    ReadingLimits left_;
+    int depth_ = 0;
+    bool too_many_files_ = false;
 };
 
 /// A setting's path, cut at its dots; "quoted parts" may hold dots.
@@ -219,6 +264,8 @@ std::optional<MergedDocument> gather(const SceneRequest& request, Diagnostics& d
     // What cannot be read would only bring forth a heap of errors about what seems to be missing.
     if (diagnostics.has_errors()) return std::nullopt;
     merged.root = gatherer.take();
+    report_too_many(merged.root, diagnostics);
+    if (diagnostics.has_errors()) return std::nullopt;
     for (const Setting& setting : request.settings) Setter(setting, merged.root, diagnostics).apply();
     return merged;
 }

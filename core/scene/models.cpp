@@ -117,12 +117,13 @@ void ModelChooser::read_shading_table() {
 Model ModelChooser::shading_for(const TableNode& object) {
     if (const auto own = named_by(object, "shading", request_.shading)) {
         const PluginFile* const plugin = tables_.known(PluginKind::shading, own->name, own->place);
-        return plugin != nullptr ? Model{own->name, ParamSet(plugin->manifest.parameters)} : Model{};
+        return plugin != nullptr ? Model{own->name, ParamSet(plugin->schema)} : Model{};
     }
     // A model that is not installed has been reported with [shading].
-    if (!shading_ || tables_.registry().find(PluginKind::shading, shading_->name) == nullptr) return {};
-    return {shading_->name,
-            shading_parameters_.value_or(tables_.registry().parameters(PluginKind::shading, shading_->name))};
+    const PluginFile* const plugin =
+        shading_ ? tables_.registry().find(PluginKind::shading, shading_->name) : nullptr;
+    if (plugin == nullptr) return {};
+    return {shading_->name, shading_parameters_ ? *shading_parameters_ : ParamSet(plugin->schema)};
 }
 
 Model ModelChooser::reflection_for(const TableNode& object, const std::string& label,

@@ -175,7 +175,7 @@ class Reader {
             diagnostics_.error(entry->node.place, fmt::format("another {} is called '{}', at {}:{}:{}", kind,
                                                               *name, first.file, first.line, first.column));
         }
-        return fmt::format("'{}'", *name);
+        return fmt::format("'{}'", shortened(*name));
     }
 
     /// A plugin named by `type`, with its parameters, which stand beside the table's own keys.

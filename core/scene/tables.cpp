@@ -89,7 +89,7 @@ const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, c
 
 ParamSet SceneTables::read_plugin(const TableNode& table, const PluginFile& plugin,
                                   const TableContext& context) {
-    ParamSet values = read_parameters(table, plugin.manifest.parameters, context, diagnostics_);
+    ParamSet values = read_parameters(table, plugin.schema, context, diagnostics_);
     check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
     return values;
 }

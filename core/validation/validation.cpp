@@ -8,6 +8,7 @@ module;
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -135,7 +136,7 @@ std::optional<Value> typed_value(const Node& node, const Parameter& parameter, D
     return value;
 }
 
-ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, const TableContext& context,
+ParamSet read_parameters(const TableNode& table, SharedSchema schema, const TableContext& context,
                          Diagnostics& diagnostics) {
     ParamSet values(std::move(schema));
     for (std::size_t i = 0; i < values.schema().size(); ++i) {
@@ -173,6 +174,12 @@ ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, 
         values.set(i, std::move(*value));
     }
     return values;
+}
+
+ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, const TableContext& context,
+                         Diagnostics& diagnostics) {
+    return read_parameters(table, std::make_shared<const std::vector<Parameter>>(std::move(schema)), context,
+                           diagnostics);
 }
 
 void report_unknown_keys(const TableNode& table, std::span<const std::string> known,

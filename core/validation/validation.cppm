@@ -26,6 +26,9 @@ struct TableContext {
 /// The values of the keys that `schema` has; its defaults for those that are missing. Reports wrong types,
 /// values outside their range and missing required keys; those keep their default, or no value. Keys that the
 /// schema does not have are not looked at. Paths become absolute: relative to the file that holds them.
+CANDELA_API ParamSet read_parameters(const TableNode& table, SharedSchema schema, const TableContext& context,
+                                     Diagnostics& diagnostics);
+/// Likewise, by a schema that is not shared.
 CANDELA_API ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema,
                                      const TableContext& context, Diagnostics& diagnostics);
 

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Builds the fuzzing harnesses and runs them, one after another, each from its committed corpus.
+#   scripts/fuzz.sh                       each for 60 seconds
+#   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file
+#   scripts/fuzz.sh --merge [HARNESS…]    puts what was found to reach new code into the corpus, and throws out what no
+#                                         longer adds anything
+# New inputs and findings go to build/fuzz/found/<harness>, never among the sources. The exit code says whether there
+# were findings.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+cd "$root"
+
+seconds=${1-60}
+[ $# -eq 0 ] || shift
+if [ "$seconds" != --merge ] && ! [[ $seconds =~ ^[1-9][0-9]*$ ]]; then
+    sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+fi
+[ $# -gt 0 ] || set -- scene setting manifest mesh mesh_file
+
+"$root/scripts/setup.sh"
+cmake --preset fuzz -DCANDELA_TESTS=ON >/dev/null
+cmake --build --preset fuzz
+
+scratch=$(mktemp -d "$([ -w /dev/shm ] && echo /dev/shm || echo "${TMPDIR:-/tmp}")/candela-fuzz.XXXXXX")
+trap 'rm -rf "$scratch"' EXIT
+export TMPDIR=$scratch
+export ASAN_OPTIONS=${ASAN_OPTIONS-detect_stack_use_after_return=0}
+export UBSAN_OPTIONS=${UBSAN_OPTIONS-print_stacktrace=1}
+
+status=0
+for harness in "$@"; do
+    program=build/fuzz/tests/fuzz/candela_${harness}_fuzz
+    corpus=tests/fuzz/corpus/$harness
+    found=build/fuzz/found/$harness
+    [ -x "$program" ] || { echo "fuzz: there is no harness '$harness'" >&2; exit 2; }
+    mkdir -p "$found/inputs" "$found/findings"
+    options=(-rss_limit_mb=2048 -malloc_limit_mb=1024 -timeout=20 -artifact_prefix="$found/findings/" -print_final_stats=1)
+    case $harness in
+        scene) options+=(-max_len=4096 -dict=tests/fuzz/toml.dict) ;;
+        setting) options+=(-max_len=512 -dict=tests/fuzz/toml.dict) ;;
+        manifest) options+=(-max_len=4096 -dict=tests/fuzz/json.dict) ;;
+        mesh) options+=(-max_len=1024) ;;
+        mesh_file) options+=(-max_len=2048) ;;
+    esac
+    if [ "$seconds" = --merge ]; then
+        # Inputs with a name of their own are regression tests: they stay. The others must add to them.
+        mkdir -p "$scratch/old"
+        find "$corpus" -regextype egrep -regex '.*/[0-9a-f]{40}' -exec mv -t "$scratch/old" {} +
+        "$program" "${options[@]}" -merge=1 "$corpus" "$scratch/old" "$found/inputs" 2>&1 | tail -n 1
+        rm -rf "$scratch/old"
+        continue
+    fi
+    printf '== %s, %s seconds\n' "$harness" "$seconds"
+    if ! "$program" "${options[@]}" -max_total_time="$seconds" "$found/inputs" "$corpus" 2>"$found/log"; then
+        status=1
+        grep -aE 'finding:|SUMMARY|ERROR: |runtime error' "$found/log" || true
+    fi
+    tail -n 12 "$found/log"
+    find "$found/findings" -type f -printf 'finding: %p\n'
+done
+exit "$status"

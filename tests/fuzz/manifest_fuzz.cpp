@@ -1,0 +1,39 @@
+// Any bytes as a plugin's manifest.
+#include <stdexcept>
+
+#include "fuzz/fuzz.h"
+
+namespace {
+
+/// What listings and scenes do with a manifest before the plugin's library is loaded.
+void use(const candela::Manifest& manifest) {
+    for (const candela::Parameter& parameter : manifest.parameters) {
+        static_cast<void>(candela::expectation(parameter));
+        if (!parameter.fallback) continue;
+        static_cast<void>(candela::text_of(*parameter.fallback));
+        fuzz::require(!candela::complaint(parameter, *parameter.fallback),
+                      "a default is not one that a scene might give");
+    }
+    const candela::ParamSet values(manifest.parameters);
+    for (const candela::Relation& relation : manifest.relations) {
+        static_cast<void>(candela::complaint(relation, values));
+    }
+    try {
+        static_cast<void>(values.delivered(candela::ColorEncoding::srgb));
+    } catch (const std::invalid_argument&) {  // a required parameter
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        const candela::Manifest manifest = candela::manifest_from_json(fuzz::text_of(data, size));
+        fuzz::require(candela::manifest_from_json(candela::to_json(manifest)) == manifest,
+                      "a manifest is another one after it was written and read");
+        use(manifest);
+    } catch (const candela::Error& problem) {
+        fuzz::require(!std::string_view(problem.what()).empty(), "a refusal says nothing");
+    }
+    return 0;
+}
