@@ -29,36 +29,27 @@ std::string location(const SourcePlace& place) {
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
-/// Characters of a line, with what a terminal would obey, or cannot show, made visible as a question mark.
-/// Tabs stay.
-std::vector<std::string> characters_of(std::string_view line) {
-    std::vector<std::string> result;
-    for (const char c : line) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x80 && byte < 0xc0 && !result.empty()) {
-            // U+0080 to U+009F are commands, too.
-            if (result.back() == "\xc2" && byte < 0xa0) {
-                result.back() = "?";
-            } else {
-                result.back() += c;
-            }
-        } else {
-            const bool is_control = (byte < 0x20 && c != '\t') || byte == 0x7f;
-            result.emplace_back(1, is_control ? '?' : c);
-        }
-    }
-    return result;
+/// How many bytes a UTF-8 character has that begins so; 0 where none does.
+std::size_t size_by(unsigned char first) {
+    if (first < 0x80) return 1;
+    if (first < 0xc2) return 0;
+    return first < 0xe0 ? 2 : (first < 0xf0 ? 3 : (first < 0xf5 ? 4 : 0));
 }
 
-/// A sentence, which may quote what somebody wrote: on one line, without commands to the terminal, and not
-/// longer than anybody reads.
-std::string sentence(std::string_view text) {
-    constexpr std::size_t k_longest = 1000;
-    std::string result;
-    std::size_t count = 0;
-    for (const std::string& character : characters_of(text.substr(0, 4 * k_longest))) {
-        if (++count > k_longest) return result + "...";
-        result += character;
+/// Characters of a line. What a terminal would obey or cannot show is a question mark; tabs stay.
+std::vector<std::string> characters_of(std::string_view line) {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < line.size();) {
+        const auto first = static_cast<unsigned char>(line[i]);
+        const std::size_t size = size_by(first);
+        const std::string_view character = line.substr(i, std::max<std::size_t>(size, 1));
+        const bool is_whole = size > 0 && character.size() == size &&
+                              std::all_of(character.begin() + 1, character.end(), [](char c) {
+                                  return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+                              });
+        const bool is_control = (first < 0x20 && first != '\t') || first == 0x7f;
+        result.emplace_back(is_whole && !is_control ? character : "?");
+        i += is_whole ? size : 1;
     }
     return result;
 }

@@ -244,6 +244,10 @@ ParamSet::ParamSet(SharedSchema schema) : schema_(std::move(schema)) {
     for (const Parameter& p : *schema_) values_.push_back(p.fallback);
 }
 
+bool operator==(const ParamSet& a, const ParamSet& b) {
+    return (a.schema_ == b.schema_ || *a.schema_ == *b.schema_) && a.values_ == b.values_;
+}
+
 std::size_t ParamSet::index_of(std::string_view name) const noexcept {
     const auto found = std::ranges::find_if(*schema_, [&](const Parameter& p) { return p.name == name; });
     return static_cast<std::size_t>(found - schema_->begin());

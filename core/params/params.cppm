@@ -165,7 +165,7 @@ class CANDELA_API ParamSet {
     std::vector<ParamValue> delivered(ColorEncoding encoding) const;
 
     /// The same schema and the same values.
-    friend bool operator==(const ParamSet&, const ParamSet&) = default;
+    friend CANDELA_API bool operator==(const ParamSet& a, const ParamSet& b);
 
   private:
     SharedSchema schema_;
