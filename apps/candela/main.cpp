@@ -24,6 +24,7 @@ constexpr std::array k_verbs = {
     Verb{"check", "read a scene and say what is wrong with it", run_check},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
+    Verb{"schema", "print the scene file's JSON Schema, or its reference", run_schema},
 };
 
 std::string help() {

@@ -34,7 +34,7 @@ class Reader {
 
     Scene read() {
         read_version();
-        std::vector<std::string> keys{"version", "include"};
+        std::vector<std::string> keys = names_in(top_schema().parameters);
         for (const TableSchema& schema : scene_schema()) keys.push_back(schema.name);
         report_unknown_keys(tables_.root(), keys, {"the scene", "", tables_.whole()}, diagnostics_);
         read_room();
