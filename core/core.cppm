@@ -19,6 +19,7 @@ export import candela.raster;
 export import candela.reflection;
 export import candela.render;
 export import candela.scene;
+export import candela.schema;
 export import candela.shading;
 export import candela.shape;
 export import candela.simd;

@@ -61,15 +61,7 @@ void print(const candela::PluginFile& file) {
                                  p.unit.empty() ? "" : " " + p.unit, "");
         std::cout << fmt::format("  {:<20} {}\n", "", p.meaning);
     }
-    for (const candela::Relation& r : m.relations) {
-        const char* const must = r.type == candela::RelationType::less            ? "is less than"
-                                 : r.type == candela::RelationType::less_or_equal ? "does not exceed"
-                                                                                  : "and";
-        std::cout << (r.type == candela::RelationType::sum_at_most_one
-                          ? fmt::format("  {} and {} together are at most 1{}: else {}\n", r.left, r.right,
-                                        r.only_warns ? " (a warning)" : "", r.meaning)
-                          : fmt::format("  {} {} {}: {}\n", r.left, must, r.right, r.meaning));
-    }
+    for (const candela::Relation& r : m.relations) std::cout << fmt::format("  {}\n", candela::text_of(r));
     if (!m.formats.empty()) std::cout << "\nFormats\n";
     for (const candela::ManifestFormat& f : m.formats)
         std::cout << fmt::format("  .{:<6} {}\n", f.extension, f.title);

@@ -27,6 +27,7 @@ constexpr std::array k_verbs = {
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
     Verb{"plugin", "make, test and find plugins", run_plugin},
+    Verb{"schema", "print the scene file's JSON Schema, or its reference", run_schema},
 };
 
 std::string help() {

@@ -17,5 +17,6 @@ int run_check(const std::vector<std::string>& arguments);
 int run_list(const std::vector<std::string>& arguments);
 int run_describe(const std::vector<std::string>& arguments);
 int run_plugin(const std::vector<std::string>& arguments);
+int run_schema(const std::vector<std::string>& arguments);
 
 std::span<const Verb> verbs();

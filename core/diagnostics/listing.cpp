@@ -54,6 +54,19 @@ std::vector<std::string> characters_of(std::string_view line) {
     return result;
 }
 
+/// A sentence, which may quote what somebody wrote: on one line, without commands to the terminal, and not
+/// longer than anybody reads.
+std::string sentence(std::string_view text) {
+    constexpr std::size_t k_longest = 1000;
+    std::string result;
+    std::size_t count = 0;
+    for (const std::string& character : characters_of(text.substr(0, 4 * k_longest))) {
+        if (++count > k_longest) return result + "...";
+        result += character;
+    }
+    return result;
+}
+
 /// A line, or as much of it as a person can look at, and marks below the place. Tabs stay tabs, so that the
 /// marks stand under their text whatever a tab's width.
 std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& place) {

@@ -139,6 +139,19 @@ std::string text_of(const Value& value) {
     return std::visit(Writer{}, value);
 }
 
+std::string text_of(const Relation& r) {
+    switch (r.type) {
+        case RelationType::less:
+            return fmt::format("{} is less than {}: {}", r.left, r.right, r.meaning);
+        case RelationType::less_or_equal:
+            return fmt::format("{} does not exceed {}: {}", r.left, r.right, r.meaning);
+        case RelationType::sum_at_most_one:
+            break;
+    }
+    return fmt::format("{} and {} together are at most 1{}: else {}", r.left, r.right,
+                       r.only_warns ? " (a warning)" : "", r.meaning);
+}
+
 std::string range_text(const Parameter& p) {
     const bool has_minimum = p.minimum != k_no_minimum;
     const bool has_maximum = p.maximum != k_no_maximum;

@@ -122,6 +122,9 @@ CANDELA_API std::string range_text(const Parameter& parameter);
 /// A value as a person would write it in a scene file.
 CANDELA_API std::string text_of(const Value& value);
 
+/// What a relation asks for: "inner_angle does not exceed outer_angle: the cone of full light …".
+CANDELA_API std::string text_of(const Relation& relation);
+
 /// What is wrong with `value` (which already has the parameter's type), or nothing.
 CANDELA_API std::optional<std::string> complaint(const Parameter& parameter, const Value& value);
 

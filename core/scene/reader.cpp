@@ -36,7 +36,7 @@ class Reader {
 
     SceneDraft read() {
         read_version();
-        std::vector<std::string> keys{"version", "include"};
+        std::vector<std::string> keys = names_in(top_schema().parameters);
         for (const TableSchema& schema : scene_schema()) keys.push_back(schema.name);
         report_unknown_keys(tables_.root(), keys, {"the scene", "", tables_.whole()}, diagnostics_);
         draft_.has_room = is_clean([&] { read_room(); });

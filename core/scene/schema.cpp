@@ -2,15 +2,18 @@
 module;
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 module candela.scene;
 
 import candela.math;
 import candela.params;
+import candela.plugins;
 
 namespace candela {
 
@@ -22,6 +25,18 @@ constexpr const char* k_projections[] = {"perspective", "orthographic"};
 constexpr const char* k_encodings[] = {"srgb", "none"};
 constexpr const char* k_sample_counts[] = {"1", "4", "8", "16"};
 
+constexpr const char* k_versions[] = {"1"};
+
+constexpr ParamSpec k_top[] = {
+    {.name = "version",
+     .type = Type::integer,
+     .meaning = "of the scene file's format; required, once over all files",
+     .required = true,
+     .choices = k_versions},
+    {.name = "include",
+     .type = Type::file,
+     .meaning = "files that are read as if they stood here; relative to this one, none of them twice"},
+};
 constexpr ParamSpec k_room[] = {
     {.name = "height",
      .unit = "m",
@@ -142,27 +157,43 @@ constexpr ParamSpec k_object[] = {
 };
 
 TableSchema table(std::string_view name, std::string_view title, std::string_view meaning,
-                  std::span<const ParamSpec> specs) {
+                  std::span<const ParamSpec> specs, std::vector<PluginKey> plugins = {}) {
     TableSchema result{std::string(name), std::string(title), std::string(meaning), {}};
+    result.repeated = title.starts_with("[[");
+    result.plugins = std::move(plugins);
     for (const ParamSpec& spec : specs) result.parameters.push_back(parameter_of(spec));
     return result;
 }
 
 }  // namespace
 
+const TableSchema& top_schema() {
+    static const TableSchema k_table = [] {
+        TableSchema result = table("", "the top of the file", "before all tables", k_top);
+        result.lists = {"include"};
+        return result;
+    }();
+    return k_table;
+}
+
 std::span<const TableSchema> scene_schema() {
     static const std::array k_tables = {
         table("room", "[room]", "a box around the origin that all things lie in; optional", k_room),
         table("observer", "[observer]", "who sees the scene; required, once over all files", k_observer),
         table("image", "[image]", "the picture; optional", k_image),
-        table("shading", "[shading]", "how normals are found; if it is missing, you are asked", k_shading),
+        table("shading", "[shading]", "how normals are found; if it is missing, you are asked", k_shading,
+              {{"model", PluginKind::shading, ""}}),
         table("reflection", "[reflection]", "how light is reflected; if it is missing, you are asked",
-              k_reflection),
-        table("light", "[[light]]", "a light; as many as you like", k_light),
+              k_reflection, {{"model", PluginKind::reflection}}),
+        table("light", "[[light]]", "a light; as many as you like", k_light,
+              {{"type", PluginKind::light, ""}}),
         table(
             "object", "[[object]]",
             "an object; as many as you like. [object.material] holds the parameters of its reflection model",
-            k_object),
+            k_object,
+            {{"type", PluginKind::shape, ""},
+             {"shading", PluginKind::shading},
+             {"reflection", PluginKind::reflection, "material"}}),
     };
     return k_tables;
 }

@@ -1,0 +1,56 @@
+// candela schema: what a scene file may hold, for editors and for people.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "verbs.h"
+
+namespace po = boost::program_options;
+using candela::Error;
+using candela::ExitCode;
+
+namespace {
+
+struct Format {
+    const char* name;
+    std::string (*write)(std::span<const candela::Manifest> installed);
+};
+
+constexpr Format k_formats[] = {{"json", candela::scene_json_schema}, {"markdown", candela::scene_reference}};
+
+const Format& format_called(const std::string& name) {
+    std::vector<std::string> names;
+    for (const Format& format : k_formats) {
+        if (format.name == name) return format;
+        names.emplace_back(format.name);
+    }
+    const auto near = candela::closest(name, names);
+    throw Error(ExitCode::usage, fmt::format("--format is '{}'; {}it can be json or markdown", name,
+                                             near ? fmt::format("did you mean '{}'? ", *near) : ""));
+}
+
+}  // namespace
+
+int run_schema(const std::vector<std::string>& arguments) {
+    CommandLine line("candela schema [options]",
+                     "Prints what a scene file may hold, with all plugins that are installed: as a JSON "
+                     "Schema, by which\n"
+                     "editors complete and check, or as a page to read.");
+    line.options()("format", po::value<std::string>()->value_name("NAME")->default_value("json"),
+                   "json (a JSON Schema, draft-07) or markdown");
+    add_plugin_options(line);
+    if (!line.parse(arguments)) return 0;
+
+    const Format& format = format_called(line.get<std::string>("format"));
+    candela::Registry registry = registry_from(line);
+    std::vector<candela::Manifest> installed;
+    for (const candela::PluginFile* file : registry.list()) installed.push_back(file->manifest);
+    for (const candela::Refusal& refusal : registry.refusals()) {
+        std::cerr << "candela: warning: " << refusal.reason << '\n';
+    }
+    std::cout << format.write(installed);
+    return 0;
+}
