@@ -125,9 +125,8 @@ TEST_CASE("check says that a valid scene is valid, on standard output") {
     const std::string file = write_file(scratch_directory() / "scene.toml", scene()).string();
     const CommandResult result = run_candela({"check", file});
     CHECK(result.exit_code == 0);
-    for (const char* const part :
-         {"valid", "16 x 16 pixels", "1 (1 point)", "1, 12 triangles",
-          "'box'        cube, 12 triangles, phong shading, phong reflection"}) {
+    for (const char* const part : {"valid", "16 x 16 pixels", "1 (1 point)", "1, 12 triangles",
+                                   "'box'        cube, 12 triangles, phong shading, phong reflection"}) {
         CHECK(holds(result.out, part));
     }
     CHECK(result.err.empty());

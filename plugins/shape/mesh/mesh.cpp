@@ -33,12 +33,12 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 /// assimp also looks into a file for what its name does not say, with forty readers of which we promise none.
 /// Only the one that the extension names may.
-void keep_one_format(Assimp::Importer& importer, const std::string& extension) {
+void keep_one_format(Assimp::Importer& importer, const std::string& file) {
     constexpr std::array<std::string_view, 5> k_extensions = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    const std::string extension = lower_extension(file);
     if (std::ranges::find(k_extensions, extension) == k_extensions.end()) {
-        throw std::runtime_error(
-            "a mesh is an OBJ, PLY, STL, glTF or GLB file, with the extension .obj, .ply, .stl, "
-            ".gltf or .glb");
+        throw std::runtime_error("'" + file +
+                                 "' has not the extension of a mesh: .obj, .ply, .stl, .gltf or .glb");
     }
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
         // Extensions are separated by spaces.
@@ -56,7 +56,7 @@ class FileMesh final : public candela::Shape {
 
     void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
         Assimp::Importer importer;
-        keep_one_format(importer, lower_extension(file_));
+        keep_one_format(importer, file_);
         // Points and lines have no surface.
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         const aiScene* const scene =
