@@ -12,6 +12,7 @@ export import candela.image;
 export import candela.light;
 export import candela.lighting;
 export import candela.math;
+export import candela.memory;
 export import candela.mesh;
 export import candela.params;
 export import candela.plugins;

@@ -2,7 +2,6 @@ module;
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
@@ -13,6 +12,7 @@ module;
 #include <utility>
 #include <variant>
 #include <vector>
+#include "toml.h"
 
 module candela.document;
 

@@ -3,6 +3,8 @@ module;
 #include "candela/kernel.h"
 #include "candela/multiversion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +13,7 @@ module;
 module candela.film;
 
 import candela.math;
+import candela.memory;
 
 namespace candela {
 
@@ -36,6 +39,8 @@ struct EncodeLoop {
 Film::Film(int width, int height, PixelType pixels, ColorEncoding encoding)
     : width_(width), height_(height), pixels_(pixels), encoding_(encoding) {
     const std::size_t channels = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    require_memory(channels * (pixels == PixelType::byte ? sizeof(std::uint8_t) : sizeof(float)),
+                   fmt::format("a picture of {} x {} pixels", width, height));
     if (pixels == PixelType::byte) {
         bytes_.resize(channels);
     } else {

@@ -22,6 +22,7 @@ export namespace candela {
 /// Pixels as their file format wants them: 8-bit, clamped and encoded, or 32-bit float, as computed.
 class CANDELA_API Film {
   public:
+    /// Throws Error where there is not enough memory.
     Film(int width, int height, PixelType pixels, ColorEncoding encoding);
 
     int width() const noexcept { return width_; }

@@ -28,10 +28,16 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 
-/// The unit vector along `a`; a zero vector stays zero.
+/// The unit vector along `a`, however short or long; zero where that is none: for zero, and what is not
+/// finite.
 inline Vec3 normalized(Vec3 a) {
     const float size = length(a);
-    return size > 0 ? (1 / size) * a : a;
+    if (size > 1e-15f && size < 1e15f) return (1 / size) * a;
+    // The squares may have vanished or overflowed.
+    const double x = a.x, y = a.y, z = a.z;
+    const double exact = std::sqrt(x * x + y * y + z * z);
+    if (!(exact > 0) || !std::isfinite(exact)) return {};
+    return {static_cast<float>(x / exact), static_cast<float>(y / exact), static_cast<float>(z / exact)};
 }
 
 /// A colour or an intensity, one number a channel. Scene-linear unless colour management is off.

@@ -16,10 +16,24 @@ module;
 module candela.mesh;
 
 import candela.geometry;
+import candela.memory;
 
 namespace candela {
 
 namespace {
+
+/// Metres. Squares of areas are floats, too.
+constexpr float k_farthest = 1e9f;
+
+/// Roughly what a mesh takes while it is made, checked and drawn.
+std::uint64_t memory_for(const MeshLayout& layout) {
+    const std::uint64_t vectors =
+        5u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) + (layout.has_derivatives ? 2u : 0u);
+    constexpr std::uint64_t k_vector = 3 * sizeof(float);
+    constexpr std::uint64_t k_triangle = 3 * sizeof(std::uint32_t) + k_vector + 40;  // projected
+    const std::uint64_t edges = layout.closedness == Closedness::closed ? 0 : 3 * 16;
+    return layout.vertices * vectors * k_vector + layout.triangles * (k_triangle + edges);
+}
 
 /// What a shape writes, before it is placed.
 class Collector final : public MeshSink {
@@ -32,6 +46,7 @@ class Collector final : public MeshSink {
             throw std::invalid_argument(
                 fmt::format("{} triangles are more than can be numbered", layout.triangles));
         }
+        require_memory(memory_for(layout), fmt::format("a shape of {} triangles", layout.triangles));
         closedness = layout.closedness;
         mesh.position.resize(layout.vertices);
         mesh.corners.resize(3 * layout.triangles);
@@ -100,6 +115,10 @@ void check_finite(const Mesh& mesh) {
         const Vec3 p = mesh.position.span()[i];
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
             throw std::invalid_argument(fmt::format("the position of vertex {} is not a finite number", i));
+        }
+        if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > k_farthest) {
+            throw std::invalid_argument(fmt::format(
+                "vertex {} at [{:g}, {:g}, {:g}] is farther away than {:g} m", i, p.x, p.y, p.z, k_farthest));
         }
     }
 }

@@ -5,7 +5,11 @@ module;
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -97,12 +101,22 @@ Json json_of(const Manifest& m) {
     return json;
 }
 
+[[noreturn]] void refuse(const std::string& reason) { throw Error(ExitCode::failure, reason); }
+
 template <class Named>
 auto named(const Json& json, std::string_view what, Named named_function) {
     const auto name = json.get<std::string>();
     const auto found = named_function(name);
-    if (!found) throw Error(ExitCode::failure, fmt::format("'{}' is no {}", name, what));
+    if (!found) refuse(fmt::format("'{}' is no {}", shortened(name), what));
     return *found;
+}
+
+std::int64_t whole_number(const Json& json) {
+    const bool is_large =
+        json.is_number_unsigned() &&
+        json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (!json.is_number_integer() || is_large) refuse(json.dump() + " is no whole number that can be used");
+    return json.get<std::int64_t>();
 }
 
 Value value_from(const Json& json, ParamType type) {
@@ -110,7 +124,7 @@ Value value_from(const Json& json, ParamType type) {
         case ParamType::real:
             return json.get<double>();
         case ParamType::integer:
-            return json.get<std::int64_t>();
+            return whole_number(json);
         case ParamType::boolean:
             return json.get<bool>();
         case ParamType::choice:
@@ -118,6 +132,7 @@ Value value_from(const Json& json, ParamType type) {
         case ParamType::file:
             return json.get<std::string>();
         default:
+            if (json.size() != 3) refuse("a default has other than three numbers");
             return Vec3{json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
     }
 }
@@ -134,12 +149,27 @@ Parameter parameter_from(const Json& json) {
     p.maximum = json.value(p.maximum_excluded ? "below" : "maximum", k_no_maximum);
     if (json.contains("choices")) p.choices = json["choices"].get<std::vector<std::string>>();
     p.meaning = json.at("meaning").get<std::string>();
+    const auto wrong = [&](const std::string& what) {
+        refuse(fmt::format("parameter '{}': {}", shortened(p.name), what));
+    };
+    if (p.type == ParamType::choice && p.choices.empty()) wrong("there is nothing to choose from");
+    if (std::isnan(p.minimum) || std::isinf(p.minimum) != (p.minimum == k_no_minimum) ||
+        std::isinf(p.maximum) != (p.maximum == k_no_maximum)) {
+        wrong("its range is not one of numbers");
+    }
+    if (p.fallback) {
+        // That it is within its range is the conformance kit's affair; that it can be computed with is ours.
+        Parameter unbounded = p;
+        unbounded.minimum = k_no_minimum;
+        unbounded.maximum = k_no_maximum;
+        if (const auto problem = complaint(unbounded, *p.fallback)) wrong("its default: " + *problem);
+    }
     return p;
 }
 
 Manifest manifest_from(const Json& json) {
-    if (json.at("candela_manifest").get<int>() != k_manifest_version) {
-        throw Error(ExitCode::failure, "it is of another manifest version");
+    if (whole_number(json.at("candela_manifest")) != k_manifest_version) {
+        refuse("it is of another manifest version");
     }
     Manifest m;
     m.abi = json.at("abi").get<std::string>();
@@ -151,6 +181,12 @@ Manifest manifest_from(const Json& json) {
     m.formula = json.at("formula").get<std::string>();
     m.reference = json.at("reference").get<std::string>();
     for (const Json& p : json.at("parameters")) m.parameters.push_back(parameter_from(p));
+    for (std::size_t i = 0; i < m.parameters.size(); ++i) {
+        const bool is_double =
+            std::any_of(m.parameters.begin(), m.parameters.begin() + static_cast<std::ptrdiff_t>(i),
+                        [&](const Parameter& p) { return p.name == m.parameters[i].name; });
+        if (is_double) refuse(fmt::format("two parameters are called '{}'", shortened(m.parameters[i].name)));
+    }
     for (const Json& r : json.at("relations")) {
         m.relations.push_back({named(r.at("type"), "type of a relation", relation_type_named),
                                r.at("left").get<std::string>(), r.at("right").get<std::string>(),

@@ -32,21 +32,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Shipped ones have two or three thousand bytes.
+constexpr std::size_t k_largest_manifest = 1u << 20;
+
 std::string id_of(PluginKind kind, std::string_view name) {
     return fmt::format("{}/{}", name_of(kind), name);
-}
-
-std::optional<std::string> text_of_file(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return std::nullopt;
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (in.bad()) return std::nullopt;
-    return text;
 }
 
 bool is_regular(const fs::path& file) {
     std::error_code ignored;
     return fs::is_regular_file(file, ignored);
+}
+
+/// A manifest's text, or nothing; of a file that is too large to be one, as much as shows that.
+std::optional<std::string> text_of_file(const fs::path& file) {
+    if (!is_regular(file)) return std::nullopt;
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return std::nullopt;
+    std::string text(k_largest_manifest + 1, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (in.bad()) return std::nullopt;
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    return text;
 }
 
 void add_path_list(std::vector<fs::path>& directories, std::string_view list) {
@@ -110,6 +117,9 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
                    : nullptr;
     }
     if (!has_library) return refuse("its manifest is there, the library is not");
+    if (text->size() > k_largest_manifest) {
+        return refuse(fmt::format("its manifest {}.json is larger than {} bytes", stem, k_largest_manifest));
+    }
     if (trust_ != PluginTrust::any) {
         for (const fs::path& part : {directory, library}) {
             if (const std::string who = who_else_can_write(part); !who.empty()) {

@@ -30,7 +30,8 @@ struct MeshView {
         smooth_group;  // a vertex each: vertices of one group share one normal, < group_count
     std::size_t vertex_count = 0;
     std::size_t group_count = 0;
-    ConstVec3Span authored_normal;  // a vertex each, unit, from the object's file; null where it has none
+    ConstVec3Span authored_normal;  // a vertex each, unit, from the object's file; null where it has none,
+                                    // zero at a vertex that has none
 };
 
 /// What a shading model may need beyond the face normal and the interpolated vertex normal.

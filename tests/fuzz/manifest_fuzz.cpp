@@ -1,4 +1,5 @@
 // Any bytes as a plugin's manifest.
+#include <cmath>
 #include <stdexcept>
 
 #include "fuzz/fuzz.h"
@@ -11,15 +12,21 @@ void use(const candela::Manifest& manifest) {
         static_cast<void>(candela::expectation(parameter));
         if (!parameter.fallback) continue;
         static_cast<void>(candela::text_of(*parameter.fallback));
-        fuzz::require(!candela::complaint(parameter, *parameter.fallback),
-                      "a default is not one that a scene might give");
+        static_cast<void>(candela::complaint(parameter, *parameter.fallback));
     }
     const candela::ParamSet values(manifest.parameters);
     for (const candela::Relation& relation : manifest.relations) {
         static_cast<void>(candela::complaint(relation, values));
     }
     try {
-        static_cast<void>(values.delivered(candela::ColorEncoding::srgb));
+        const auto delivered = values.delivered(candela::ColorEncoding::srgb);
+        for (std::size_t i = 0; i < delivered.size(); ++i) {
+            for (const float number : delivered[i].number)
+                fuzz::require(std::isfinite(number), "a default is not finite");
+            if (values.schema()[i].type != candela::ParamType::choice) continue;
+            fuzz::require(static_cast<std::size_t>(delivered[i].integer) < values.schema()[i].choices.size(),
+                          "a default is no choice");
+        }
     } catch (const std::invalid_argument&) {  // a required parameter
     }
 }

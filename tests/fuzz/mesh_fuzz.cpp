@@ -1,5 +1,7 @@
 // Any bytes as what a shape plugin does to its host: layouts, indices and numbers of any kind. What
 // build_mesh() accepts must be a mesh, and render.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,10 +96,14 @@ void check(const candela::Mesh& mesh) {
     require(mesh.face_normal.size() == mesh.triangle_count(), "triangles without normals");
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         require(is_finite(mesh.position.span()[i]), "a position is not finite");
-        require(is_unit_or_zero(mesh.vertex_normal.span()[i]), "a vertex normal is neither unit nor zero");
+        const Vec3 n = mesh.vertex_normal.span()[i];
+        require(is_unit_or_zero(n),
+                fmt::format("vertex normal ({}, {}, {}) is neither unit nor zero", n.x, n.y, n.z));
     }
     for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-        require(is_unit_or_zero(mesh.face_normal.span()[i]), "a face normal is neither unit nor zero");
+        const Vec3 n = mesh.face_normal.span()[i];
+        require(is_unit_or_zero(n),
+                fmt::format("face normal ({}, {}, {}) is neither unit nor zero", n.x, n.y, n.z));
     }
 }
 
@@ -126,6 +132,20 @@ candela::Placement placement_from(Bytes& bytes) {
     const Vec3 scale = finite(bytes, {1, 1, 1});
     if (scale.x > 0 && scale.y > 0 && scale.z > 0) placement.scale = scale;
     return placement;
+}
+
+/// Whether it is in the way of others is asked of every mesh.
+void ask_geometry(const candela::Mesh& mesh) {
+    const auto body_of = [](const candela::Mesh& m) {
+        return candela::Body(m.position.span(), m.vertex_count(), m.corners, m.closed);
+    };
+    static const candela::Mesh k_cube = candela::build_mesh(*instance<candela::Shape>("cube"), {}, {},
+                                                            *instance<candela::ShadingModel>("flat"));
+    static const candela::Body k_block = body_of(k_cube);
+    const candela::Body body = body_of(mesh);
+    static_cast<void>(body.contains({0.25f, 0.125f, 0}));
+    static_cast<void>(overlap(body, k_block));
+    static_cast<void>(overlap(body, body));
 }
 
 void add_lights(candela::CompiledScene& scene) {
@@ -179,6 +199,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     check(object.mesh);
+    ask_geometry(object.mesh);
     scene.objects.push_back(std::move(object));
     add_lights(scene);
     render_small(scene, bytes);

@@ -205,6 +205,19 @@ TEST_CASE("what is no mesh is refused with a reason") {
     CHECK(complaint_about(infinite).find("vertex 2 is not a finite number") != std::string::npos);
 }
 
+TEST_CASE("a shape too far away to compute with is refused with a reason, however it got there") {
+    GivenShape far = tetrahedron();
+    far.vertices[1].z = 2e9f;
+    CHECK(complaint_about(far).find("vertex 1 at [-1, -1, 2e+09] is farther away than 1e+09 m") !=
+          std::string::npos);
+    try {
+        build(tetrahedron(), {.scale = {1e10f, 1, 1}});
+        FAIL("it was taken");
+    } catch (const std::invalid_argument& problem) {
+        CHECK(std::string(problem.what()).find("farther away") != std::string::npos);
+    }
+}
+
 TEST_CASE("a triangle without area has no normal, and does no harm to its neighbours'") {
     GivenShape shape;
     shape.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};

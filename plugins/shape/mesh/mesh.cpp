@@ -2,13 +2,17 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/BaseImporter.h>
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "candela/shape_plugin.h"
 
@@ -27,6 +31,24 @@ std::string lower_extension(const std::filesystem::path& file) {
     return extension;
 }
 
+/// assimp also looks into a file for what its name does not say, with forty readers of which we promise none.
+/// Only the one that the extension names may.
+void keep_one_format(Assimp::Importer& importer, const std::string& file) {
+    constexpr std::array<std::string_view, 5> k_extensions = {".obj", ".ply", ".stl", ".gltf", ".glb"};
+    const std::string extension = lower_extension(file);
+    if (std::ranges::find(k_extensions, extension) == k_extensions.end()) {
+        throw std::runtime_error("'" + file +
+                                 "' has not the extension of a mesh: .obj, .ply, .stl, .gltf or .glb");
+    }
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        // Extensions are separated by spaces.
+        const std::string extensions = std::string(" ") + importer.GetImporterInfo(i)->mFileExtensions + " ";
+        if (extensions.find(" " + extension.substr(1) + " ") != std::string::npos) continue;
+        const std::unique_ptr<Assimp::BaseImporter> reader(importer.GetImporter(i));
+        importer.UnregisterLoader(reader.get());
+    }
+}
+
 /// The triangles of a file, its parts put together and its node transformations applied.
 class FileMesh final : public candela::Shape {
   public:
@@ -34,6 +56,7 @@ class FileMesh final : public candela::Shape {
 
     void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
         Assimp::Importer importer;
+        keep_one_format(importer, file_);
         // Points and lines have no surface.
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         const aiScene* const scene =

@@ -64,6 +64,36 @@ TEST_CASE("shape/mesh: normals from the file go before those of the shading mode
     CHECK(mesh.face_normal.span()[0] == Vec3{0, 0, 1});
 }
 
+TEST_CASE("shape/mesh reads the formats that it names, by their extension, and no other") {
+    const auto directory = scratch_directory();
+    const auto complaint = [&](const char* name, const std::string& content) -> std::string {
+        try {
+            mesh_of(write_file(directory / name, content));
+        } catch (const std::exception& problem) {
+            return problem.what();
+        }
+        return "";
+    };
+    const std::string triangle = std::string(k_triangle) + "f 1 2 3\n";
+    CHECK(complaint("a.OBJ", triangle).empty());
+    for (const char* const name : {"a.dae", "a.3ds", "a.off", "a", "a.ob", "a.toml"}) {
+        INFO(name);
+        CHECK(complaint(name, triangle).find("extension of a mesh: .obj, .ply, .stl, .gltf or .glb") !=
+              std::string::npos);
+    }
+    // assimp itself would look into the file, and find a reader for it.
+    const std::string off = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    CHECK_FALSE(complaint("off.obj", off).empty());
+    CHECK_FALSE(complaint("off.stl", off).empty());
+}
+
+TEST_CASE("shape/mesh: where a file's normals are zero, the shading model makes them") {
+    const Mesh mesh = mesh_of(write_file(scratch_directory() / "n.obj",
+                                         std::string(k_triangle) + "vn 0 0 0\nvn 0 1 0\nf 1//1 2//2 3//1\n"));
+    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[0]], Vec3{0, 0, 1}, 1e-6));
+    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[1]], Vec3{0, 1, 0}, 1e-6));
+}
+
 TEST_CASE("shape/mesh: polygons are cut into triangles") {
     const Mesh mesh = mesh_of(
         write_file(scratch_directory() / "quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));

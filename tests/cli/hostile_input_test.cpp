@@ -1,0 +1,194 @@
+// Input that nobody writes on purpose, or somebody does to do harm: it ends in an error with a place, in
+// bounded time and memory. Inputs are as large as the point needs, not as large as they might be.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <sys/stat.h>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string k_start =
+    "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+    "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
+
+std::string times(std::size_t count, const std::string& part) {
+    std::string result;
+    for (std::size_t i = 0; i < count; ++i) result += part;
+    return result;
+}
+
+CommandResult check(const std::string& text, const std::vector<std::string>& more = {}) {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "a.toml", text);
+    std::vector<std::string> words{"check", "a.toml"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
+}
+
+void expect(const CommandResult& result, int exit_code, const std::vector<std::string>& parts) {
+    INFO(result.err.substr(0, 2000));
+    CHECK(result.exit_code == exit_code);
+    for (const std::string& part : parts) {
+        INFO(part);
+        CHECK(result.err.find(part) != std::string::npos);
+    }
+}
+
+/// One of 4 GB of address space; not for sanitizers, which take terabytes of it.
+CommandResult in_four_gigabytes(const std::string& arguments) {
+    return run_program({"sh", "-c", "ulimit -v 4000000; exec " CANDELA_TEST_COMMAND " " + arguments});
+}
+
+constexpr bool k_has_shadow_memory =
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+    true;
+#else
+    false;
+#endif
+
+}  // namespace
+
+TEST_CASE("what nests deep is an error at the place where it becomes too deep") {
+    constexpr std::size_t k_deep = 200'000;
+    const std::string many_parts = times(k_deep, "a.") + "a";
+    expect(check("a = " + times(k_deep, "[")), 3, {"a.toml:1:37: error: this is nested more than 32 deep"});
+    expect(check("a = " + times(k_deep, "{a=")), 3,
+           {"a.toml:1:101: error: this is nested more than 32 deep"});
+    expect(check("\n[" + many_parts + "]\n"), 3, {"a.toml:2:65: error: this key has more than 32 parts"});
+    expect(check("[[" + many_parts + "]]\n"), 3, {"a.toml:1:66: error: this key has more than 32 parts"});
+    expect(check(many_parts + " = 1\n"), 3, {"a.toml:1:64: error: this key has more than 32 parts"});
+    expect(check("x = {" + many_parts + " = 1}\n"), 3,
+           {"a.toml:1:69: error: this key has more than 32 parts"});
+    expect(check("x = {\"a\"" + times(k_deep, " . 'b'") + " = 1}\n"), 3, {"more than 32 parts"});
+}
+
+TEST_CASE("brackets and points in strings and comments do not nest, nor do many that are closed") {
+    const std::string brackets = times(100, "[") + times(100, "{") + times(100, ".");
+    const std::string texts = "[[light]]\ntype = \"ambient\"\nname = ";
+    for (const std::string& quoted : {"\"" + brackets + "\\\"" + brackets + "\"", "'" + brackets + "\\'",
+                                      "'''" + brackets + "\n''" + brackets + "'''''",
+                                      "\"\"\"" + brackets + "\n\\\"\"\"" + brackets + "\"\"\"\""}) {
+        const CommandResult result = check(k_start + texts + quoted + " # " + brackets + "\n");
+        INFO(result.err);
+        CHECK(result.exit_code == 0);
+    }
+    // A bracket that was not closed before is what is wrong, not the many that follow.
+    expect(check(times(40, "[a\n")), 3, {"a.toml:1:3: error: the header's closing ] is missing"});
+    expect(check("a = [1, 2\n[b]\n" + times(40, "[")), 3, {"a.toml:2:1: error: expected ',' or ']'"});
+}
+
+TEST_CASE("more than a scene can have is an error that says how much it can have") {
+    expect(check(k_start + times(100'001, "[[light]]\n")), 3,
+           {"a.toml:100009:1: error: the scene has 100001 lights; it may have at most 100000"});
+    expect(check(k_start + times(100'001, "[[object]]\n")), 3, {"100001 objects", "at most 100000"});
+    expect(check(k_start + "a = [" + times(5'000'001, "1,") + "]\n"), 3, {"more than 5000000 values"});
+}
+
+TEST_CASE("thousands of errors are counted, not all shown") {
+    const CommandResult result =
+        check(k_start + times(5'000, "[[object]]\ntype = \"cub\"\nsizes = 3\nname = \"same\"\n"));
+    expect(result, 3,
+           {"a.toml:10:8: error: no shape plugin is called 'cub'; did you mean 'cube'?", "and 9949 more"});
+}
+
+TEST_CASE("thousands of keys at the root, and in a table") {
+    std::string keys;
+    for (int i = 0; i < 20'000; ++i) keys += "k" + std::to_string(i) + " = 1\n";
+    expect(check(keys + k_start + "[room]\n" + keys), 3,
+           {"a.toml:1:1: error: unknown key 'k0' in the scene", "and 39950 more"});
+}
+
+TEST_CASE("a message does not repeat megabytes of what was written") {
+    const std::string megabyte(1'000'000, 'x');
+    for (const std::string& text :
+         {"[[light]]\ntype = \"" + megabyte + "\"\n", megabyte + " = 1\n",
+          "[room]\nwidth = \"" + megabyte + "\"\n",
+          "[[light]]\nname = \"" + megabyte + "\"\ntype = \"ambient\"\nintensity = -1\n",
+          "a = " + megabyte + "\n", "include = [\"" + megabyte + "\"]\n"}) {
+        const CommandResult result = check(text + k_start);
+        INFO(result.err.substr(0, 3000));
+        CHECK(result.exit_code == 3);
+        CHECK(result.err.size() < 6000);
+    }
+}
+
+TEST_CASE("what somebody wrote is no command to the terminal that shows the message") {
+    const CommandResult result =
+        check(k_start +
+              "[[light]]\nname = \"\\u001b[2J\"\ntype = \"\\u001b[31m\\u0007\\u009b\"\n"
+              "\"\\u001b[A\\nx\" = 1\n");
+    CHECK(result.exit_code == 3);
+    for (const char* const command : {"\x1b", "\x07", "\xc2\x9b"}) {
+        CHECK(result.err.find(command) == std::string::npos);
+    }
+    CHECK(result.err.find("no light plugin is called '?[31m?\?'") != std::string::npos);
+}
+
+TEST_CASE("files that include one another without end, or without number") {
+    const fs::path d = scratch_directory();
+    for (int i = 0; i < 40; ++i) {
+        write_file(d / ("c" + std::to_string(i) + ".toml"),
+                   "include = [\"c" + std::to_string(i + 1) + ".toml\"]\n");
+    }
+    const CommandSetup there{.input = "", .environment = {}, .directory = d};
+    expect(run_candela({"check", "c0.toml"}, there), 3,
+           {"c32.toml:1:12: error: files include one another more than 32 deep"});
+    std::string names;
+    for (int i = 0; i < 1001; ++i) {
+        write_file(d / ("w" + std::to_string(i) + ".toml"), "[[light]]\ntype = \"ambient\"\n");
+        names += "\"w" + std::to_string(i) + ".toml\", ";
+    }
+    write_file(d / "wide.toml", "include = [" + names + "]\n" + k_start);
+    expect(run_candela({"check", "wide.toml"}, there), 3, {"the scene is of more than 1000 files"});
+    write_file(d / "same.toml", "include = [" + times(5000, "\"w0.toml\", ") + "]\n" + k_start);
+    expect(run_candela({"check", "same.toml"}, there), 3, {"same.toml:1:23: error: 'w0.toml' is read twice"});
+}
+
+TEST_CASE("a file that does not know its size is read no farther than a scene may be long") {
+    if (!fs::exists("/proc/self/pagemap")) SKIP("there is no such file here");
+    expect(run_candela({"check", "/proc/self/pagemap"}), 1,
+           {"the file is too large: more than 67108864 bytes"});
+}
+
+TEST_CASE("a picture, and a shape, that do not fit into memory are errors that say how much they need") {
+    if (k_has_shadow_memory) SKIP("sanitizers need more address space");
+    const fs::path directory = scratch_directory();
+    const std::string output = " -o " + (directory / "a.ppm").string();
+    expect(in_four_gigabytes("render --width 65536 --height 65536" + output), 1,
+           {"a picture of 65536 x 65536 pixels needs 12.9 GB of memory; ", " are available"});
+    const fs::path scene =
+        write_file(directory / "scene.toml",
+                   k_start + "[[object]]\ntype = \"sphere\"\nsegments = 8192\nposition = [2, 0, 0]\n");
+    expect(in_four_gigabytes("render " + scene.string() + output), 1,
+           {"scene.toml:9:1: error: object number 0: a shape of 67", " triangles needs ", " GB of memory; "});
+    CHECK_FALSE(fs::exists(directory / "a.ppm"));
+}
+
+TEST_CASE("manifests that are none are refused, and the other plugins still work") {
+    const fs::path d = scratch_directory();
+    const auto plugin = [&](const std::string& name) {
+        write_file(d / ("light-" + name + ".so"), "no library");
+        return d / ("light-" + name + ".json");
+    };
+    write_file(plugin("deep"), times(1'000'000, "["));
+    write_file(plugin("objects"), times(100'000, "{\"a\":"));
+    write_file(plugin("large"), std::string(2'000'000, ' '));
+    write_file(plugin("latin"), "{\"abi\": \"\xe9\"}");
+    REQUIRE(::mkfifo(plugin("pipe").c_str(), 0600) == 0);
+    const CommandResult result = run_candela({"list", "light", "--plugin-dir", d.string()});
+    CHECK(result.exit_code == 0);
+    CHECK(result.out.find("point") != std::string::npos);
+    for (const char* const name : {"deep", "objects", "latin"}) {
+        INFO(name);
+        CHECK(result.err.find(std::string("its manifest light-") + name +
+                              ".json cannot be used: it is no manifest") != std::string::npos);
+    }
+    CHECK(result.err.find("light-large.json is larger than 1048576 bytes") != std::string::npos);
+    CHECK(result.err.find("its manifest light-pipe.json is not beside it") != std::string::npos);
+}
