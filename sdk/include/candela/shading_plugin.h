@@ -117,7 +117,7 @@ class WeightedNormals {
     }
 
   private:
-    static constexpr std::size_t k_batch = 3 * 64;  // corners of whole triangles
+    static constexpr std::size_t k_batch = 192;  // corners of whole triangles
 
     struct Edges {
         std::array<float, k_batch> x, y, z;
