@@ -47,7 +47,8 @@ std::vector<std::string> characters_of(std::string_view line) {
                               std::all_of(character.begin() + 1, character.end(), [](char c) {
                                   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
                               });
-        const bool is_control = (first < 0x20 && first != '\t') || first == 0x7f;
+        const bool is_c1 = first == 0xc2 && is_whole && static_cast<unsigned char>(character[1]) < 0xa0;
+        const bool is_control = (first < 0x20 && first != '\t') || first == 0x7f || is_c1;
         result.emplace_back(is_whole && !is_control ? character : "?");
         i += is_whole ? size : 1;
     }

@@ -34,6 +34,18 @@ std::vector<float> sent_to(const Values& values, const std::vector<Vec3>& points
     return sum;
 }
 
+/// Whether a way that goes on from there in a direction goes away from each sample of the light.
+bool is_beyond_all_samples(const Values& values, Vec3 point, Vec3 direction) {
+    Arrays in = inputs_for(1);
+    in.vec3(18).set(0, point);
+    in.vec3(0).set(0, -direction);
+    for (const Call& call : batch_subject(values).calls) {
+        if (call.name == "illuminate_ambient") continue;
+        if (dot(outputs_of(call, in).at(0, 0), direction) > 0) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 TEST_CASE("directions: where light comes from is a unit vector, to a millionth", "[light]") {
@@ -90,12 +102,15 @@ TEST_CASE("fall-off, as declared: constant, or never brighter farther away", "[l
                 "it declares attenuation by distance, and has no parameter 'position' that the distance is "
                 "from");
         for (const Vec3 d : {Vec3{0, -1, 0}, Vec3{0.6f, -0.64f, 0.48f}, Vec3{-0.48f, 0.6f, 0.64f}}) {
-            // Beyond the size of a source of several samples.
+            float distance = 50;
+            while (distance < 1e6f && !is_beyond_all_samples(values, *position + distance * d, d))
+                distance *= 2;
             const std::vector<float> sent =
-                sent_to(values, {*position + 50.0f * d, *position + 100.0f * d}, -d);
+                sent_to(values, {*position + distance * d, *position + 2 * distance * d}, -d);
             if (sent[1] > sent[0] * 1.001f)
-                FAIL("declared to fade by distance, it sends " << sent[0] << " to 50 m and " << sent[1]
-                                                               << " to 100 m, with " << values.text);
+                FAIL("declared to fade by distance, it sends " << sent[0] << " to " << distance << " m and "
+                                                               << sent[1] << " to " << 2 * distance
+                                                               << " m, with " << values.text);
         }
     }
 }

@@ -46,7 +46,10 @@ TEST_CASE("all lights x reflection models x shading models x shapes render witho
                "v 0.5 0.5 0.5\nv -0.5 -0.5 0.5\nv -0.5 0.5 -0.5\nv 0.5 -0.5 -0.5\nf 1 2 4\nf 1 3 2\nf 1 4 "
                "3\nf 2 3 4\n");
     const std::vector<std::string> lights = {
-        "type = \"ambient\"\n", "type = \"directional\"\ndirection = [-1, -1, -2]\n",
+        "type = \"ambient\"\n",
+        "type = \"hemisphere\"\n",
+        "type = \"distributed\"\nposition = [1, 1, 2]\nintensity = 5\n",
+        "type = \"directional\"\ndirection = [-1, -1, -2]\n",
         "type = \"point\"\nposition = [1, 1, 2]\nintensity = 5\n",
         "type = \"spot\"\nposition = [1, 1, 2]\ndirection = [-1, -1, -2]\nintensity = 5\n"};
     const std::vector<std::string> shapes = {"sphere", "cube", "torus", "teapot", "mesh"};
@@ -54,7 +57,8 @@ TEST_CASE("all lights x reflection models x shading models x shapes render witho
     for (const std::string& shape : shapes) {
         for (const std::string& light : lights) {
             for (const char* const reflection : {"lambert", "half-lambert", "phong", "blinn-phong"}) {
-                for (const char* const shading : {"flat", "gouraud", "phong"}) {
+                for (const char* const shading : {"flat", "gouraud", "phong", "derivative", "angle-weighted",
+                                                  "area-weighted", "max-weighted"}) {
                     const std::string scene = fmt::format(
                         "version = 1\n[observer]\nposition = [1, 2, 3]\nlook_at = [0, 0, 0]\n[image]\nwidth "
                         "= 48\nheight = 48\n"
@@ -73,5 +77,5 @@ TEST_CASE("all lights x reflection models x shading models x shapes render witho
             }
         }
     }
-    CHECK(rendered == 4 * 4 * 3 * 5);
+    CHECK(rendered == 6 * 4 * 7 * 5);
 }

@@ -40,4 +40,5 @@ constexpr auto k_fields = fields(
 
 }  // namespace
 
-CANDELA_PLUGIN(reflection, EveryType, k_fields, {.title = "Every type"})
+CANDELA_PLUGIN(reflection, EveryType, k_fields,
+               {.title = "Every type", .summary = "It reflects nothing.", .reference = "none"})

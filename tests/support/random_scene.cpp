@@ -198,8 +198,10 @@ class Generator {
     double real_of(const Parameter& p) {
         const bool has_low = p.minimum != candela::k_no_minimum,
                    has_high = p.maximum != candela::k_no_maximum;
-        const double low = has_low ? static_cast<double>(p.minimum) : -100;
-        const double high = has_high ? static_cast<double>(p.maximum) : low + std::pow(10, number(-3, 4));
+        // A limit is the decimal number that describes it: 1e20, not the float nearest to that.
+        const auto decimal = [](float limit) { return std::stod(fmt::format("{}", limit)); };
+        const double low = has_low ? decimal(p.minimum) : -100;
+        const double high = has_high ? decimal(p.maximum) : low + std::pow(10, number(-3, 4));
         if (has_low && !p.minimum_excluded && chance(0.1)) return low;
         if (has_high && !p.maximum_excluded && chance(0.1)) return high;
         return low + (high - low) * number(0.001, 0.999);

@@ -2,6 +2,11 @@
 //
 //     Incident x_illuminate(XLight light, Receiver r)     what a light with one direction sends
 //     vec3 x_illuminate_ambient(XLight light, Receiver r) what an ambient light sends
+//
+// A source that is modelled by several samples, which add up:
+//
+//     int x_sample_count(XLight light)                          at least 1
+//     Incident x_illuminate(XLight light, Receiver r, int index) what sample `index` sends, 0 to the count
 #pragma once
 
 #include "candela/multiversion.h"
@@ -46,11 +51,14 @@ CANDELA_KERNEL_INLINE void put(const Vec3Span& span, std::size_t i, vec3 v) {
 
 template <class Params, auto illuminate>
 struct IlluminateLoop {
-    CANDELA_BATCH_LOOP static void run(Params light, ReceiverBatch receivers, IncidentBatch incident) {
+    /// `index` is the number of the sample where the kernel function asks for it.
+    template <class... Index>
+    CANDELA_BATCH_LOOP static void run(Params light, ReceiverBatch receivers, IncidentBatch incident,
+                                       Index... index) {
         const std::size_t count = receivers.count;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const kernel::Incident sent = call<illuminate>(light, receiver_at(receivers, i));
+            const kernel::Incident sent = call<illuminate>(light, receiver_at(receivers, i), index...);
             put(incident.to_light, i, sent.to_light);
             put(incident.diffuse, i, sent.diffuse);
             put(incident.specular, i, sent.specular);
@@ -83,6 +91,21 @@ class KernelLight final : public Light {
     Params params_;
 };
 
+template <class Params, auto illuminate_, auto sample_count_>
+class KernelSampledLight final : public Light {
+  public:
+    explicit KernelSampledLight(const Params& params) : params_(params) {}
+    int sample_count() const noexcept override { return call<sample_count_>(params_); }
+    bool has_ambient() const noexcept override { return false; }
+    void illuminate(int sample, const ReceiverBatch& receivers,
+                    const IncidentBatch& incident) const override {
+        multiversion<IlluminateLoop<Params, illuminate_>>(params_, receivers, incident, sample);
+    }
+
+  private:
+    Params params_;
+};
+
 template <class Params, auto illuminate_ambient_>
 class KernelAmbientLight final : public Light {
   public:
@@ -102,6 +125,14 @@ class KernelAmbientLight final : public Light {
 /// A plugin from the kernel function `prefix_illuminate`; `Params` is its first argument.
 #define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                                    \
     CANDELA_KERNEL_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), \
+                          prefix, Params, fields, __VA_ARGS__)
+
+/// A plugin from the kernel functions `prefix_illuminate` and `prefix_sample_count` of a source of several
+/// samples; `Params` is their first argument.
+#define CANDELA_SAMPLED_LIGHT_PLUGIN(prefix, Params, fields, ...)                                          \
+    CANDELA_KERNEL_PLUGIN(light,                                                                           \
+                          (candela::sdk::KernelSampledLight<Params, &candela::kernel::prefix##_illuminate, \
+                                                            &candela::kernel::prefix##_sample_count>),     \
                           prefix, Params, fields, __VA_ARGS__)
 
 /// A plugin from the kernel function `prefix_illuminate_ambient`; `Params` is its first argument.

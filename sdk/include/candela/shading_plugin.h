@@ -2,7 +2,22 @@
 //
 //     vec3 x_normal(ShadingPoint p)                  the unit normal at a point, or
 //     vec3 x_normal(XShading shading, ShadingPoint p)    with parameters
+//
+// Where the normals of the vertices are to be another sum of the faces' normals than the plain one, also
+//
+//     float x_corner_weight(FaceCorner c)                 the weight of a face at one of its corners, or
+//     float x_corner_weight(XShading shading, FaceCorner c)
+//
+// A model that needs texture coordinates or derivatives names its ShadingNeeds as the last argument of
+// KernelShading, in CANDELA_KERNEL_PLUGIN.
 #pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "candela/multiversion.h"
 #include "candela/plugin.h"
@@ -38,7 +53,7 @@ struct NormalLoop {
 };
 
 template <class Params, LightingRate rate, auto normal, ShadingNeeds needs_ = ShadingNeeds{}>
-class KernelShading final : public ShadingModel {
+class KernelShading : public ShadingModel {
   public:
     explicit KernelShading(const Params& params) : params_(params) {}
     LightingRate lighting_rate() const noexcept override { return rate; }
@@ -47,8 +62,106 @@ class KernelShading final : public ShadingModel {
         multiversion<NormalLoop<Params, normal, needs_>>(params_, points, normals);
     }
 
+  protected:
+    const Params& params() const noexcept { return params_; }
+
   private:
     [[no_unique_address]] Params params_;
+};
+
+template <class Params, auto weight>
+struct CornerWeightLoop {
+    CANDELA_BATCH_LOOP static void run(Params params, std::size_t count, ConstVec3Span to_next,
+                                       ConstVec3Span to_previous, float* weights) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            kernel::FaceCorner c;
+            c.to_next = kernel_vector(to_next[i]);
+            c.to_previous = kernel_vector(to_previous[i]);
+            weights[i] = call<weight>(params, c);
+        }
+    }
+};
+
+/// A power of two that makes the mesh about one unit large, so that products of its edges stay within the
+/// range of a float; exact, so that it changes nothing else.
+inline float unit_scale(const MeshView& mesh) {
+    float largest = 0;
+    for (const float* const axis : {mesh.position.x, mesh.position.y, mesh.position.z}) {
+        const auto [low, high] = std::minmax_element(axis, axis + mesh.vertex_count);
+        if (low != high) largest = std::max(largest, *high - *low);
+    }
+    const bool is_usual = largest > 1e-30f && largest < 1e30f;
+    return is_usual ? std::ldexp(1.0f, -std::ilogb(largest)) : 1.0f;
+}
+
+/// The normals of the faces that share a vertex, added up by `weight` of the face's corner there.
+template <class Params, auto weight>
+class WeightedNormals {
+  public:
+    WeightedNormals(const Params& params, const MeshView& mesh)
+        : params_(params), mesh_(mesh), scale_(unit_scale(mesh)), sum_(mesh.group_count) {}
+
+    /// Overwrites `normals` except where all weights are zero or beyond a number's range.
+    void write(const Vec3Span& normals) {
+        const std::size_t corners = mesh_.corners.size();
+        for (std::size_t first = 0; first < corners; first += k_batch)
+            add(first, std::min(k_batch, corners - first));
+        for (std::size_t group = 0; group < sum_.size(); ++group) {
+            const auto& [x, y, z] = sum_[group];
+            const double length = std::sqrt(x * x + y * y + z * z);
+            if (!(length > 0) || !std::isfinite(length)) continue;
+            normals.set(group, {static_cast<float>(x / length), static_cast<float>(y / length),
+                                static_cast<float>(z / length)});
+        }
+    }
+
+  private:
+    static constexpr std::size_t k_batch = 192;  // corners of whole triangles
+
+    struct Edges {
+        std::array<float, k_batch> x, y, z;
+        Vec3Span span() { return {x.data(), y.data(), z.data()}; }
+    };
+
+    void add(std::size_t first, std::size_t count) {
+        const auto vertex = [&](std::size_t corner) { return mesh_.position[mesh_.corners[corner]]; };
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t corner = first + i;
+            const std::size_t triangle = corner - i % 3;
+            const Vec3 here = vertex(corner);
+            to_next_.span().set(i, scale_ * (vertex(triangle + (i + 1) % 3) - here));
+            to_previous_.span().set(i, scale_ * (vertex(triangle + (i + 2) % 3) - here));
+        }
+        multiversion<CornerWeightLoop<Params, weight>>(params_, count, ConstVec3Span(to_next_.span()),
+                                                       ConstVec3Span(to_previous_.span()), weights_.data());
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 normal = mesh_.face_normal[(first + i) / 3];
+            auto& sum = sum_[mesh_.smooth_group[mesh_.corners[first + i]]];
+            sum[0] += static_cast<double>(weights_[i]) * normal.x;
+            sum[1] += static_cast<double>(weights_[i]) * normal.y;
+            sum[2] += static_cast<double>(weights_[i]) * normal.z;
+        }
+    }
+
+    Params params_;
+    const MeshView& mesh_;
+    float scale_;
+    std::vector<std::array<double, 3>> sum_;
+    Edges to_next_, to_previous_;
+    std::array<float, k_batch> weights_;
+};
+
+/// Vertex normals are weighted; the plain sum stands in where no face has a weight, and authored normals go
+/// before all.
+template <class Params, LightingRate rate, auto normal, auto weight, ShadingNeeds needs = ShadingNeeds{}>
+class WeightedShading final : public KernelShading<Params, rate, normal, needs> {
+  public:
+    using KernelShading<Params, rate, normal, needs>::KernelShading;
+    void vertex_normals(const MeshView& mesh, const Vec3Span& normals) const override {
+        ShadingModel::vertex_normals(mesh, normals);
+        if (!mesh.authored_normal) WeightedNormals<Params, weight>(this->params(), mesh).write(normals);
+    }
 };
 
 }  // namespace candela::sdk
@@ -58,4 +171,12 @@ class KernelShading final : public ShadingModel {
     CANDELA_KERNEL_PLUGIN(shading,                                                          \
                           (candela::sdk::KernelShading<Params, candela::LightingRate::rate, \
                                                        &candela::kernel::prefix##_normal>), \
+                          prefix, Params, fields, __VA_ARGS__)
+
+/// The same with vertex normals weighted by the kernel function `prefix_corner_weight`.
+#define CANDELA_WEIGHTED_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
+    CANDELA_KERNEL_PLUGIN(shading,                                                                   \
+                          (candela::sdk::WeightedShading<Params, candela::LightingRate::rate,        \
+                                                         &candela::kernel::prefix##_normal,          \
+                                                         &candela::kernel::prefix##_corner_weight>), \
                           prefix, Params, fields, __VA_ARGS__)

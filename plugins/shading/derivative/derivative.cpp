@@ -1,0 +1,20 @@
+#include "candela/shading_plugin.h"
+
+namespace candela::kernel {
+#include "derivative.kernel"
+}
+
+using namespace candela::sdk;
+
+using Derivative =
+    KernelShading<NoParams, candela::LightingRate::fragment, &candela::kernel::derivative_normal,
+                  candela::ShadingNeeds{.derivatives = true}>;
+
+CANDELA_KERNEL_PLUGIN(
+    shading, Derivative, derivative, NoParams, k_no_fields,
+    {.title = "Partial derivatives",
+     .summary =
+         "Lit at every pixel, with the normal of the surface itself where the shape knows its derivatives; "
+         "elsewhere facets show.",
+     .formula = "N = (dp/du x dp/dv) / |dp/du x dp/dv|",
+     .reference = "Blinn (1978), Simulation of wrinkled surfaces, SIGGRAPH, 286-292"})
