@@ -209,8 +209,8 @@ std::optional<std::string> complaint(const Parameter& p, const Value& value) {
         return fmt::format("{} is not one of {}", text_of(value), fmt::join(p.choices, ", "));
     }
     for (const double x : numbers_of(value)) {
-        if (std::isnan(x)) return "nan is not a number that can be used";
-        if (!std::isfinite(x) || std::abs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
+        if (!std::isfinite(x)) return fmt::format("{} is not a number that can be used", x);
+        if (std::abs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
             return fmt::format("{} is too large (at most {:.3g})", x, std::numeric_limits<float>::max());
         }
         if (p.type == ParamType::color ? (x < 0 || x > 256) : (below(x, p) || above(x, p))) {

@@ -119,6 +119,12 @@ std::int64_t whole_number(const Json& json) {
     return json.get<std::int64_t>();
 }
 
+float channel(const Json& json) {
+    const std::int64_t number = whole_number(json);
+    if (number < 0 || number > 256) refuse(json.dump() + " is no channel of a colour: 0 to 255");
+    return static_cast<float>(number);
+}
+
 Value value_from(const Json& json, ParamType type) {
     switch (type) {
         case ParamType::real:
@@ -133,6 +139,8 @@ Value value_from(const Json& json, ParamType type) {
             return json.get<std::string>();
         default:
             if (json.size() != 3) refuse("a default has other than three numbers");
+            if (type == ParamType::color)
+                return Vec3{channel(json.at(0)), channel(json.at(1)), channel(json.at(2))};
             return Vec3{json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
     }
 }

@@ -89,8 +89,11 @@ const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, c
 
 ParamSet SceneTables::read_plugin(const TableNode& table, const PluginFile& plugin,
                                   const TableContext& context) {
+    const std::size_t before = diagnostics_.error_count();
     ParamSet values = read_parameters(table, plugin.schema, context, diagnostics_);
-    check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
+    // Where a value was refused its default stands, which nobody chose beside the others.
+    if (diagnostics_.error_count() == before)
+        check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
     return values;
 }
 

@@ -181,7 +181,7 @@ TEST_CASE("a value outside its range is an error that names the range") {
     check_error(std::string("version = 1\n") + k_observer + "fov = 179.9999999999\n" + k_models, 5, 7,
                 "less than 180");
     check_error(whole() + "size = nan\n", 15, 8, "nan");
-    check_error(whole() + "size = inf\n", 15, 8, "too large");
+    check_error(whole() + "size = inf\n", 15, 8, "not a number");
     check_error(whole() + "size = 1e39\n", 15, 8, "too large");
     check_error(whole() + "scale = 0\n", 15, 9, "greater than 0");
     check_error(whole() + "[image]\nsamples = 2\n", 16, 11, "2 is not one of 1, 4, 8, 16");

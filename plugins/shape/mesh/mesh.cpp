@@ -8,6 +8,7 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -49,6 +50,24 @@ void keep_one_format(Assimp::Importer& importer, const std::string& file) {
     }
 }
 
+/// assimp 5.2 reads on for ever where a PLY file's header has no end.
+void require_end_of_header(const std::string& file) {
+    constexpr std::string_view k_end = "end_header";
+    constexpr std::size_t k_longest_header = 1 << 20;
+    std::string header(k_longest_header, ' ');
+    std::ifstream input(file, std::ios::binary);
+    input.read(header.data(), static_cast<std::streamsize>(header.size()));
+    header.resize(static_cast<std::size_t>(input.gcount()));
+    for (std::size_t at = header.find(k_end); at != std::string::npos; at = header.find(k_end, at + 1)) {
+        const std::size_t after = at + k_end.size();
+        const bool is_line = at > 0 && (header[at - 1] == '\n' || header[at - 1] == '\r') &&
+                             after < header.size() &&
+                             std::isspace(static_cast<unsigned char>(header[after])) != 0;
+        if (is_line) return;
+    }
+    throw std::runtime_error("'" + file + "' is no PLY file: it has no line 'end_header'");
+}
+
 /// The triangles of a file, its parts put together and its node transformations applied.
 class FileMesh final : public candela::Shape {
   public:
@@ -57,6 +76,7 @@ class FileMesh final : public candela::Shape {
     void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
         Assimp::Importer importer;
         keep_one_format(importer, file_);
+        if (lower_extension(file_) == ".ply") require_end_of_header(file_);
         // Points and lines have no surface.
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         const aiScene* const scene =

@@ -1,0 +1,40 @@
+// One thing wrong, one message.
+#include "support/broken_scene.h"
+
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/plugins.h"
+
+TEST_CASE("one constraint broken at random is found where it is, and only that one") {
+    const std::filesystem::path file = scratch_directory() / "scene.toml";
+    std::map<std::string, int> found;
+    for (unsigned seed = 0; seed < 1000; ++seed) {
+        const BrokenScene broken = broken_scene(seed);
+        std::filesystem::remove(file);
+        write_file(file, broken.text);
+        candela::Diagnostics diagnostics;
+        candela::SceneRequest request;
+        request.files = {file};
+        const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
+        if (draft) candela::compile(*draft, test_registry(), diagnostics);
+
+        INFO("seed " << seed << ", " << broken.rule << "\n" << diagnostics.text(false) << broken.text);
+        CHECK(diagnostics.error_count() == 1);
+        for (const candela::Diagnostic& d : diagnostics.sorted()) {
+            if (d.severity != candela::Severity::error) continue;
+            CHECK(d.message.find(broken.message) != std::string::npos);
+            if (broken.line > 0) CHECK(d.place.line == broken.line);
+        }
+        ++found[broken.rule];
+    }
+    CHECK(found.size() >= 30);
+    for (const auto& [rule, times] : found) {
+        INFO(rule);
+        CHECK(times >= 3);
+    }
+}
