@@ -45,11 +45,12 @@ enum class PixelType : int {
     real,  // 32-bit float: the computed intensities
 };
 
-/// A kind of file that an image plugin writes.
+/// A kind of file that an image plugin writes, and reads if it says so.
 struct FileFormat {
     const char* extension = "";  // lower case, without the dot
     const char* title = "";
     PixelType pixels = PixelType::byte;
+    bool reads = false;
 };
 
 /// The mathematics of a plugin as text, for programs that are generated from it.

@@ -111,4 +111,8 @@ struct VertexSide {
 CANDELA_API void gather_vertices(const ProjectedMesh& mesh, std::span<const VertexSide> vertices,
                                  PointNeeds needs, SurfacePoints& points);
 
+/// Fills `points` with points on triangles, their barycentric coordinates given; all are seen from the front.
+CANDELA_API void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles,
+                               ConstVec3Span barycentric, PointNeeds needs, SurfacePoints& points);
+
 }  // namespace candela

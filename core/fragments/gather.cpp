@@ -125,6 +125,20 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
     }
 }
 
+/// Point `i` of a batch: a place on a triangle.
+void put_place(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
+               SurfacePoints& points) {
+    const Indices vertices = corners_of(mesh, triangle);
+    const auto blended = [&](const Vec3Arrays& arrays) {
+        return blend(corners(arrays, vertices), weight.x, weight.y, weight.z);
+    };
+    points.position.span().set(i, blended(mesh.position));
+    points.face_normal.span().set(i, mesh.face_normal.span()[triangle]);
+    points.vertex_normal.span().set(i, blended(mesh.vertex_normal));
+    points.barycentric.span().set(i, weight);
+    if (needs.uv || needs.derivatives) blend_attributes(mesh, vertices, needs, i, 1, points);
+}
+
 }  // namespace
 
 SurfacePoints::SurfacePoints() {
@@ -190,17 +204,19 @@ void gather_fragments(const ProjectedMesh& source, const FragmentList& fragments
 void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> triangles, PointNeeds needs,
                   SurfacePoints& points) {
     constexpr float k_third = 1.0f / 3.0f;
-    const Mesh& mesh = source.mesh;
     points.count = triangles.size();
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const Indices vertices = corners_of(mesh, triangles[i]);
-        points.position.span().set(i, blend(corners(mesh.position, vertices), k_third, k_third, k_third));
-        points.face_normal.span().set(i, mesh.face_normal.span()[triangles[i]]);
-        points.vertex_normal.span().set(
-            i, blend(corners(mesh.vertex_normal, vertices), k_third, k_third, k_third));
-        points.barycentric.span().set(i, {k_third, k_third, k_third});
+        put_place(source.mesh, triangles[i], {k_third, k_third, k_third}, needs, i, points);
         points.facing[i] = source.is_back(triangles[i]) ? -1.0f : 1.0f;
-        if (needs.uv || needs.derivatives) blend_attributes(mesh, vertices, needs, i, 1, points);
+    }
+}
+
+void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, ConstVec3Span barycentric,
+                   PointNeeds needs, SurfacePoints& points) {
+    points.count = triangles.size();
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        put_place(mesh, triangles[i], barycentric[i], needs, i, points);
+        points.facing[i] = 1;
     }
 }
 

@@ -1,8 +1,17 @@
+module;
+
+#include <stdexcept>
+
 module candela.image;
 
 namespace candela {
 
 ByteSink::~ByteSink() = default;
+PictureSink::~PictureSink() = default;
 ImageFormat::~ImageFormat() = default;
+
+void ImageFormat::read(const char*, PictureSink&) const {
+    throw std::runtime_error("this plugin writes pictures and reads none");
+}
 
 }  // namespace candela

@@ -11,6 +11,7 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -134,12 +135,27 @@ PointNeeds SurfaceModels::needs() const {
     return {.uv = needs.uv, .derivatives = needs.derivatives || reflection->needs_tangent()};
 }
 
-Lighting::Lighting(std::span<const LitSource> lights, const Camera& camera)
-    : lights_(lights), camera_(camera) {
+void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {
+    const ShadingNeeds needs = surface.shading->needs();
+    const ShadingPointBatch batch{
+        .count = points.count,
+        .face_normal = points.face_normal.span(),
+        .vertex_normal = points.vertex_normal.span(),
+        .barycentric = points.barycentric.span(),
+        .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
+        .dpdu = needs.derivatives ? points.dpdu.span() : ConstVec3Span{},
+        .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{}};
+    surface.shading->normals(batch, normal);
+}
+
+Lighting::Lighting(std::span<const LitSource> lights, const Environment& environment, const Camera& camera)
+    : lights_(lights), environment_(environment), camera_(camera) {
     for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
     for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard);
     mark_ends();
 }
+
+Lighting::~Lighting() = default;
 
 std::vector<Vec3Arrays*> Lighting::written_by_plugins() {
     return {&normal_, &to_light_, &light_diffuse_, &light_specular_, &ambient_, &diffuse_, &specular_};
@@ -178,30 +194,23 @@ void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::si
 }
 
 void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
-    const ShadingNeeds needs = surface.shading->needs();
-    const ShadingPointBatch batch{
-        .count = points.count,
-        .face_normal = points.face_normal.span(),
-        .vertex_normal = points.vertex_normal.span(),
-        .barycentric = points.barycentric.span(),
-        .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
-        .dpdu = needs.derivatives ? points.dpdu.span() : ConstVec3Span{},
-        .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{}};
     guarded(PluginKind::shading, surface.shading_plugin,
-            [&] { surface.shading->normals(batch, normal_.span()); });
+            [&] { shading_normals(surface, points, normal_.span()); });
     multiversion<FlipLoop>(points.facing.data(), points.count, normal_.span());
 }
 
-float Lighting::light(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& intensity) {
-    add_up(surface, points, Scrutiny::none);
+float Lighting::light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+                      const Vec3Span& intensity) {
+    add_up(surface, interior, points, Scrutiny::none);
     multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
                           std::as_const(specular_).span(), points.count, intensity);
     const float largest = largest_of(ConstVec3Span(intensity), points.count);
-    if (!std::isfinite(largest) || !are_ends_intact()) add_up(surface, points, Scrutiny::each_step);
+    if (!std::isfinite(largest) || !are_ends_intact()) add_up(surface, interior, points, Scrutiny::each_step);
     return largest;
 }
 
-void Lighting::add_up(const SurfaceModels& surface, const SurfacePoints& points, Scrutiny scrutiny) {
+void Lighting::add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+                      Scrutiny scrutiny) {
     const std::size_t count = points.count;
     const auto look_at = [&](PluginKind kind, const std::string& plugin,
                              std::initializer_list<const Vec3Arrays*> results) {
@@ -220,7 +229,8 @@ void Lighting::add_up(const SurfaceModels& surface, const SurfacePoints& points,
                              .normal = normal,
                              .to_observer = to_observer_.span(),
                              .tangent = needs_tangent ? ConstVec3Span(tangent_.span()) : ConstVec3Span{},
-                             .color = surface.color};
+                             .color = surface.color,
+                             .position = points.position.span()};
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
 
@@ -245,6 +255,13 @@ void Lighting::add_up(const SurfaceModels& surface, const SurfacePoints& points,
                     [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
             look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
         }
+    }
+    if (surface.reflection->shows_surroundings()) {
+        if (surroundings_ == nullptr) surroundings_ = std::make_unique<ObjectSurroundings>(environment_);
+        surroundings_->set_object(surface, interior);
+        guarded(PluginKind::reflection, surface.reflection_plugin,
+                [&] { surface.reflection->show_surroundings(batch, *surroundings_, reflected); });
+        look_at(PluginKind::reflection, surface.reflection_plugin, {&specular_});
     }
 }
 

@@ -5,6 +5,7 @@ module;
 #include "candela/api.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <span>
@@ -13,7 +14,9 @@ module;
 
 export module candela.lighting;
 
+import candela.environment;
 import candela.fragments;
+import candela.geometry;
 import candela.light;
 import candela.math;
 import candela.mesh;
@@ -40,20 +43,32 @@ struct SurfaceModels {
     PointNeeds needs() const;
 };
 
+/// An object's inside, for a model that light goes through.
+struct Interior {
+    const Mesh* mesh = nullptr;
+    const TriangleTree* tree =
+        nullptr;  // of that mesh; null: light that enters does not meet the object again
+};
+
+class ObjectSurroundings;
+
 /// Evaluates light, batch by batch. Holds the batch's arrays: one for each thread.
 class CANDELA_API Lighting {
   public:
-    Lighting(std::span<const LitSource> lights, const Camera& camera);
+    Lighting(std::span<const LitSource> lights, const Environment& environment, const Camera& camera);
+    ~Lighting();
 
     /// Writes the intensity that `points` send to the observer: I_a + sum of I_d + I_s over the lights (CA
     /// DD6). Returns the largest of them. Throws Error, naming the plugin, where one throws, gives what is no
     /// finite number, or writes beyond its batch.
-    float light(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& intensity);
+    float light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+                const Vec3Span& intensity);
 
   private:
     /// Looks at what each plugin gave right after its turn, instead of once at the end.
     enum class Scrutiny : bool { none, each_step };
-    void add_up(const SurfaceModels& surface, const SurfacePoints& points, Scrutiny scrutiny);
+    void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+                Scrutiny scrutiny);
     void find_normals(const SurfaceModels& surface, const SurfacePoints& points);
     std::vector<Vec3Arrays*> written_by_plugins();
     void mark_ends();
@@ -62,10 +77,46 @@ class CANDELA_API Lighting {
                        std::initializer_list<const Vec3Arrays*> results);
 
     std::span<const LitSource> lights_;
+    const Environment& environment_;
+    std::unique_ptr<ObjectSurroundings> surroundings_;  // once a model asks
     Camera camera_;
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;
     Vec3Arrays ambient_, diffuse_, specular_;
+};
+
+}  // namespace candela
+
+namespace candela {
+
+/// The normals that an object's shading model finds, on the side that triangles are seen from the front.
+void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
+
+/// What one object's models see of the world around it.
+class ObjectSurroundings final : public Surroundings {
+  public:
+    explicit ObjectSurroundings(const Environment& environment) : environment_(environment) {}
+
+    /// The object that the calls to come are about.
+    void set_object(const SurfaceModels& surface, const Interior& interior) {
+        surface_ = &surface;
+        interior_ = interior;
+    }
+
+    void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) override;
+    void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+               const ExitBatch& exit) override;
+
+  private:
+    void leave_batch(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                     const ExitBatch& exit);
+
+    const Environment& environment_;
+    const SurfaceModels* surface_ = nullptr;
+    Interior interior_;
+    SurfacePoints points_;  // where rays left
+    Vec3Arrays barycentric_, normal_;
+    std::vector<std::uint32_t> triangles_, rays_;
 };
 
 }  // namespace candela

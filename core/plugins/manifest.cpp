@@ -94,7 +94,8 @@ Json json_of(const Manifest& m) {
         for (const ManifestFormat& f : m.formats) {
             json["formats"].push_back({{"extension", f.extension},
                                        {"title", f.title},
-                                       {"pixels", f.pixels == PixelType::byte ? "byte" : "real"}});
+                                       {"pixels", f.pixels == PixelType::byte ? "byte" : "real"},
+                                       {"reads", f.reads}});
         }
     }
     if (m.has_kernel) json["kernel"] = {{"prefix", m.kernel_prefix}, {"parameters", m.kernel_parameters}};
@@ -207,8 +208,8 @@ Manifest manifest_from(const Json& json) {
         for (const Json& f : json["formats"]) {
             const auto pixels =
                 f.at("pixels").get<std::string>() == "byte" ? PixelType::byte : PixelType::real;
-            m.formats.push_back(
-                {f.at("extension").get<std::string>(), f.at("title").get<std::string>(), pixels});
+            m.formats.push_back({f.at("extension").get<std::string>(), f.at("title").get<std::string>(),
+                                 pixels, f.at("reads").get<bool>()});
         }
     }
     m.has_kernel = json.contains("kernel");
@@ -245,7 +246,7 @@ Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
     for (const ParamSpec& spec : d.parameters) m.parameters.push_back(parameter_of(spec));
     for (const RelationSpec& spec : d.relations) m.relations.push_back(relation_of(spec));
     for (const Property& p : d.properties) m.properties.emplace_back(p.name, p.value);
-    for (const FileFormat& f : d.formats) m.formats.push_back({f.extension, f.title, f.pixels});
+    for (const FileFormat& f : d.formats) m.formats.push_back({f.extension, f.title, f.pixels, f.reads});
     m.has_kernel = d.kernel.text != nullptr && d.kernel.prefix != nullptr;
     if (m.has_kernel) {
         m.kernel_prefix = d.kernel.prefix;
@@ -268,6 +269,12 @@ Manifest manifest_from_json(std::string_view text) {
     } catch (const Json::exception& problem) {
         throw Error(ExitCode::failure, fmt::format("it is no manifest: {}", problem.what()));
     }
+}
+
+std::string abi_from_json(std::string_view text) {
+    const Json json = Json::parse(text, nullptr, false);
+    const bool says_so = json.is_object() && json.contains("abi") && json["abi"].is_string();
+    return says_so ? json["abi"].get<std::string>() : "";
 }
 
 }  // namespace candela

@@ -30,6 +30,7 @@ struct ManifestFormat {
     std::string extension;
     std::string title;
     PixelType pixels = PixelType::byte;
+    bool reads = false;
 
     friend bool operator==(const ManifestFormat&, const ManifestFormat&) = default;
 };
@@ -69,6 +70,9 @@ CANDELA_API std::string to_json(const Manifest& manifest);
 CANDELA_API std::string to_json(std::span<const Manifest> manifests);
 /// Throws Error with a plain sentence about `text`.
 CANDELA_API Manifest manifest_from_json(std::string_view text);
+/// What a plugin was built for, also where this Candela cannot read the rest of its manifest; empty where the
+/// manifest does not say.
+CANDELA_API std::string abi_from_json(std::string_view text);
 
 /// A plugin that was found.
 struct PluginFile {
@@ -116,6 +120,9 @@ enum class PluginTrust : int {
     any,
 };
 
+/// What a picture's file is to be done with.
+enum class FormatUse : bool { write, read };
+
 /// The plugins of a search path. Reads a manifest when it is asked for, loads a library when an instance is
 /// wanted. Any thread; returned pointers live as long as the registry.
 class CANDELA_API Registry {
@@ -138,11 +145,11 @@ class CANDELA_API Registry {
     /// The candidates that list() and find() have passed over.
     std::vector<Refusal> refusals() const;
 
-    /// The image plugin that writes `.extension`, or null. One with the property "fallback" yields to one
-    /// without.
-    const PluginFile* find_format(std::string_view extension);
-    /// All extensions that an image plugin writes, sorted.
-    std::vector<std::string> extensions();
+    /// The image plugin that writes, or reads, `.extension`, or null. One with the property "fallback" yields
+    /// to one without.
+    const PluginFile* find_format(std::string_view extension, FormatUse use = FormatUse::write);
+    /// All extensions that an image plugin writes, or reads, sorted.
+    std::vector<std::string> extensions(FormatUse use = FormatUse::write);
 
     /// An empty set of a plugin's parameters: its defaults. Throws Error as require() does.
     ParamSet parameters(PluginKind kind, std::string_view name);

@@ -132,6 +132,11 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
     }
     auto file = std::make_unique<PluginFile>();
     try {
+        if (const std::string abi = abi_from_json(*text); !abi.empty() && abi != host_abi()) {
+            return refuse(
+                fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                            shortened(abi), host_abi()));
+        }
         file->manifest = manifest_from_json(*text);
     } catch (const Error& problem) {
         return refuse(fmt::format("its manifest {}.json cannot be used: {}", stem, problem.what()));
@@ -139,11 +144,6 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
     if (file->manifest.id() != id) {
         return refuse(fmt::format("its manifest is that of {}; a plugin's file is called <kind>-<name>.so",
                                   file->manifest.id()));
-    }
-    if (file->manifest.abi != host_abi()) {
-        return refuse(
-            fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
-                        file->manifest.abi, host_abi()));
     }
     file->library = library;
     file->schema = std::make_shared<const std::vector<Parameter>>(file->manifest.parameters);
@@ -224,29 +224,31 @@ std::vector<Refusal> Registry::refusals() const {
     return result;
 }
 
-const PluginFile* Registry::find_format(std::string_view extension) {
+const PluginFile* Registry::find_format(std::string_view extension, FormatUse use) {
     // The plugin called after its format is looked at first: it spares reading all the others' manifests.
-    const auto writes = [&](const PluginFile* file) {
-        const auto& formats = file->manifest.formats;
-        return std::ranges::any_of(
-            formats, [&](const ManifestFormat& format) { return format.extension == extension; });
+    const auto is_able = [&](const PluginFile* file) {
+        return std::ranges::any_of(file->manifest.formats, [&](const ManifestFormat& format) {
+            return format.extension == extension && (use == FormatUse::write || format.reads);
+        });
     };
     const auto is_fallback = [](const PluginFile* file) {
         return file->manifest.property("fallback").has_value();
     };
-    if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && writes(file))
+    if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && is_able(file))
         return file;
     const PluginFile* best = nullptr;
     for (const PluginFile* file : list()) {
-        if (writes(file) && (best == nullptr || (is_fallback(best) && !is_fallback(file)))) best = file;
+        if (is_able(file) && (best == nullptr || (is_fallback(best) && !is_fallback(file)))) best = file;
     }
     return best;
 }
 
-std::vector<std::string> Registry::extensions() {
+std::vector<std::string> Registry::extensions(FormatUse use) {
     std::set<std::string> all;
     for (const PluginFile* file : list()) {
-        for (const ManifestFormat& format : file->manifest.formats) all.insert(format.extension);
+        for (const ManifestFormat& format : file->manifest.formats) {
+            if (use == FormatUse::write || format.reads) all.insert(format.extension);
+        }
     }
     return {all.begin(), all.end()};
 }

@@ -33,6 +33,13 @@ Camera Camera::looking(Vec3 eye, Vec3 look_at, Vec3 up, Projection projection, f
             .height = height};
 }
 
+Vec3 Camera::view_through(float x, float y) const {
+    if (projection == Projection::orthographic) return forward;
+    const float to_right = (x - 0.5f * static_cast<float>(width)) / pixels_per_unit;
+    const float to_top = (0.5f * static_cast<float>(height) - y) / pixels_per_unit;
+    return normalized(forward + to_right * right + to_top * up);
+}
+
 std::span<const SamplePosition> sample_pattern(int samples) noexcept {
     static constexpr SamplePosition k_one[] = {{8, 8}};
     static constexpr SamplePosition k_four[] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};

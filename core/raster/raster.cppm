@@ -31,6 +31,9 @@ struct CANDELA_API Camera {
     /// height.
     static Camera looking(Vec3 eye, Vec3 look_at, Vec3 up, Projection projection, float size, int width,
                           int height);
+
+    /// The unit vector from the eye through a point of the picture, in pixels from its top left.
+    Vec3 view_through(float x, float y) const;
 };
 
 inline constexpr std::uint32_t k_no_triangle = 0xffff'ffffu;

@@ -2,6 +2,9 @@ module candela.reflection;
 
 namespace candela {
 
+Surroundings::~Surroundings() = default;
 ReflectionModel::~ReflectionModel() = default;
+
+void ReflectionModel::show_surroundings(const SurfaceBatch&, Surroundings&, const ReflectedBatch&) const {}
 
 }  // namespace candela

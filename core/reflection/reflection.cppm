@@ -20,6 +20,7 @@ struct SurfaceBatch {
     ConstVec3Span to_observer;  // V
     ConstVec3Span tangent;      // along dp/du, orthogonal to N; null unless needs_tangent()
     Rgb color;                  // C_o, the object's colour, 0 to 1, the same for the whole batch
+    ConstVec3Span position{};   // metres
 };
 
 /// What one sample of a light sends to each of the points.
@@ -35,6 +36,28 @@ struct ReflectedBatch {
     Vec3Span ambient;   // I_a
     Vec3Span diffuse;   // I_d
     Vec3Span specular;  // I_s
+};
+
+/// Where rays within an object leave it. World space.
+struct ExitBatch {
+    Vec3Span position;
+    Vec3Span normal;            // unit, as the object's shading model finds it; points away from the surface
+    float* distance = nullptr;  // along the ray, metres; negative where the surface is open: no exit there
+};
+
+/// What an object is surrounded by. Light stays local (CA AS2): no other object is seen. The host's; of one
+/// batch and one thread.
+class CANDELA_API Surroundings {
+  public:
+    virtual ~Surroundings();
+
+    /// The intensity, per channel, that arrives from far away where one looks `towards` (unit vectors).
+    virtual void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) = 0;
+
+    /// Follows rays within the object from `origin`, on its surface, along `direction` (unit vectors) to
+    /// where they leave it. No array is another one.
+    virtual void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                       const ExitBatch& exit) = 0;
 };
 
 /// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays need
@@ -53,6 +76,14 @@ class CANDELA_API ReflectionModel : public Instance {
     /// Adds what each point reflects of light from everywhere to `reflected.ambient`.
     virtual void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
                                  const ReflectedBatch& reflected) const = 0;
+
+    /// Whether something is seen in the surface, or through it, so that show_surroundings() is called.
+    virtual bool shows_surroundings() const noexcept { return false; }
+
+    /// Adds to `reflected.specular` what each point shows of the surroundings, by mirroring and refraction
+    /// (CA LC1).
+    virtual void show_surroundings(const SurfaceBatch& surface, Surroundings& surroundings,
+                                   const ReflectedBatch& reflected) const;
 };
 
 }  // namespace candela

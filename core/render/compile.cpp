@@ -16,6 +16,7 @@ module candela.render;
 
 import candela.constraints;
 import candela.diagnostics;
+import candela.environment;
 import candela.light;
 import candela.mesh;
 import candela.params;
@@ -36,6 +37,7 @@ class Compiler {
         compiled_.observer = scene_.observer;
         compiled_.image = scene_.image;
         if (draft.is_complete) make_models();
+        if (draft.is_complete) make_environment();
         place_shapes();
         check(draft);
     }
@@ -80,6 +82,14 @@ class Compiler {
         }
     }
 
+    void make_environment() {
+        compiled_.environment = Environment(decoded(scene_.image.background, encoding()));
+        if (scene_.image.environment.empty()) return;
+        guarded("environment", scene_.image.environment_place, [&] {
+            compiled_.environment = read_environment(scene_.image.environment, registry_, encoding());
+        });
+    }
+
     /// What a shape plugin or a shading model does to an object.
     template <class Work>
     void guarded(const Object& object, PluginKind kind, const std::string& plugin, Work work) {
@@ -119,6 +129,9 @@ class Compiler {
         SolidObject& solid = compiled_.objects[i];
         guarded(object, PluginKind::shading, object.shading.name,
                 [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
+        if (solid.surface.reflection->shows_surroundings())
+            solid.tree.emplace(std::as_const(solid.mesh.position).span(), solid.mesh.vertex_count(),
+                               solid.mesh.corners);
         if (!solid.mesh.closed) {
             diagnostics_.warning(
                 object.place,

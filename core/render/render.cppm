@@ -13,8 +13,10 @@ module;
 export module candela.render;
 
 import candela.diagnostics;
+import candela.environment;
 import candela.film;
 import candela.fragments;
+import candela.geometry;
 import candela.lighting;
 import candela.math;
 import candela.mesh;
@@ -29,13 +31,16 @@ struct SolidObject {
     std::string label;
     Mesh mesh;
     SurfaceModels surface;
+    std::optional<TriangleTree> tree{};  // of the mesh, where the reflection model shows its surroundings
 };
 
 /// A scene with its plugins loaded and its objects tessellated: what is the same for every picture of it. Not
-/// changed by rendering; between pictures its observer, lights, colours and models may be replaced at will.
+/// changed by rendering; between pictures its observer, lights, colours and models may be replaced at will
+/// (one that shows its surroundings wants its object's tree).
 struct CompiledScene {
     Observer observer;
     ImageSettings image;
+    Environment environment;  // what is seen where there is no object
     std::vector<LitSource> lights;
     std::vector<SolidObject> objects;
 };
@@ -97,7 +102,8 @@ class TileShader {
     void shade_fragments(const ProjectedMesh& mesh, const FragmentList& fragments);
     void shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments);
     void shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments);
-    void light(const SurfaceModels& surface, const Vec3Span& intensity);
+    void fill_background();
+    void light(std::uint32_t object, const Vec3Span& intensity);
     void add(const FragmentList& fragments, std::size_t first, std::size_t count, ConstVec3Span intensity);
 
     const CompiledScene& scene_;

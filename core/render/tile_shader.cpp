@@ -43,24 +43,25 @@ VertexSide corner(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t
 }  // namespace
 
 TileShader::TileShader(const CompiledScene& scene, const ProjectedScene& projected)
-    : scene_(scene), projected_(projected), lighting_(scene.lights, projected.camera) {
+    : scene_(scene), projected_(projected), lighting_(scene.lights, scene.environment, projected.camera) {
     batch_.resize(k_batch_size);
 }
 
 void TileShader::run(int tile, Film& film) {
-    const Rgb background = decoded(scene_.image.background, scene_.image.color_management);
-    if (!rasterize(projected_, tile, scene_.image.samples, visibility_)) {
-        return film.fill(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height, background);
+    const bool is_empty = !rasterize(projected_, tile, scene_.image.samples, visibility_);
+    if (is_empty && scene_.environment.is_uniform()) {
+        return film.fill(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height,
+                         scene_.environment.seen({}));
     }
-    fragments_.collect(projected_, visibility_, background_weight_);
-
-    const std::size_t plane = visibility_.plane();
-    pixels_.resize(plane);
-    for (std::size_t i = 0; i < plane; ++i) {
-        const Rgb rgb = background_weight_[i] * background;
-        pixels_.span().set(i, {rgb.r, rgb.g, rgb.b});
+    if (is_empty) {
+        background_weight_.assign(visibility_.plane(), 1);
+    } else {
+        fragments_.collect(projected_, visibility_, background_weight_);
     }
-    for (const FragmentList& list : fragments_.lists()) shade(list);
+    fill_background();
+    if (!is_empty) {
+        for (const FragmentList& list : fragments_.lists()) shade(list);
+    }
 
     for (int row = 0; row < visibility_.height; ++row) {
         const auto first = background_weight_.begin() + std::ptrdiff_t{row} * visibility_.stride;
@@ -69,6 +70,30 @@ void TileShader::run(int tile, Film& film) {
     }
     film.store(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height,
                std::as_const(pixels_).span(), visibility_.stride);
+}
+
+/// What is seen beside the objects, as much of each pixel as shows it.
+void TileShader::fill_background() {
+    const std::size_t plane = visibility_.plane();
+    pixels_.resize(plane);
+    const Vec3Span pixels = pixels_.span();
+    const auto put = [&](std::size_t i, Rgb seen) {
+        const Rgb rgb = background_weight_[i] * seen;
+        pixels.set(i, {rgb.r, rgb.g, rgb.b});
+    };
+    if (scene_.environment.is_uniform()) {
+        for (std::size_t i = 0; i < plane; ++i) put(i, scene_.environment.seen({}));
+        return;
+    }
+    for (int row = 0; row < visibility_.height; ++row) {
+        for (int column = 0; column < visibility_.width; ++column) {
+            const auto i = static_cast<std::size_t>(row * visibility_.stride + column);
+            const Vec3 towards =
+                projected_.camera.view_through(static_cast<float>(visibility_.x0 + column) + 0.5f,
+                                               static_cast<float>(visibility_.y0 + row) + 0.5f);
+            put(i, background_weight_[i] > 0 ? scene_.environment.seen(towards) : Rgb{});
+        }
+    }
 }
 
 void TileShader::shade(const FragmentList& fragments) {
@@ -84,8 +109,10 @@ void TileShader::shade(const FragmentList& fragments) {
     }
 }
 
-void TileShader::light(const SurfaceModels& surface, const Vec3Span& intensity) {
-    brightest_ = std::max(brightest_, lighting_.light(surface, points_, intensity));
+void TileShader::light(std::uint32_t object, const Vec3Span& intensity) {
+    const SolidObject& solid = scene_.objects[object];
+    const Interior interior{&solid.mesh, solid.tree ? &*solid.tree : nullptr};
+    brightest_ = std::max(brightest_, lighting_.light(solid.surface, interior, points_, intensity));
     points_lit_ += points_.count;
 }
 
@@ -104,7 +131,7 @@ void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& 
     for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, fragments.size() - first);
         gather_fragments(mesh, fragments, first, count, surface.needs(), points_);
-        light(surface, batch_.span());
+        light(fragments.object, batch_.span());
         add(fragments, first, count, std::as_const(batch_).span());
     }
 }
@@ -118,7 +145,7 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
     for (std::size_t first = 0; first < triangles_.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, triangles_.size() - first);
         gather_faces(mesh, std::span(triangles_).subspan(first, count), surface.needs(), points_);
-        light(surface, places_.span().from(first));
+        light(fragments.object, places_.span().from(first));
     }
     for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, fragments.size() - first);
@@ -144,7 +171,7 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
     for (std::size_t first = 0; first < vertices_.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, vertices_.size() - first);
         gather_vertices(mesh, std::span(vertices_).subspan(first, count), surface.needs(), points_);
-        light(surface, places_.span().from(first));
+        light(fragments.object, places_.span().from(first));
     }
     const ConstVec3Span intensity = std::as_const(places_).span();
     for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {

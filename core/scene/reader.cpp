@@ -145,8 +145,16 @@ class Reader {
                         .height = integer(values, "height"),
                         .samples = integer(values, "samples"),
                         .background = vector(values, "background"),
+                        .environment = text(values, "environment"),
                         .color_management = text(values, "color_management") == "none" ? ColorEncoding::none
                                                                                        : ColorEncoding::srgb};
+        const TableNode* const table = tables_.single("image");
+        const TableNode::Entry* const environment = table != nullptr ? table->find("environment") : nullptr;
+        if (environment == nullptr) return;
+        scene_.image.environment_place = environment->node.place;
+        if (const TableNode::Entry* const unused = table->find("background"))
+            diagnostics_.warning(unused->key_place,
+                                 "'background' has no effect where there is an environment");
     }
 
     template <class Visit>

@@ -53,10 +53,17 @@ struct ImageSettings {
     int width = 512;
     int height = 512;
     int samples = 1;
-    Vec3 background;  // 0-255
+    Vec3 background;            // 0-255
+    std::string environment{};  // absolute path of a picture all around; empty: the background
+    SourcePlace environment_place{};
     ColorEncoding color_management = ColorEncoding::srgb;
 
-    friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
+    /// Wherever it stands in its file.
+    friend inline bool operator==(const ImageSettings& a, const ImageSettings& b) {
+        return a.width == b.width && a.height == b.height && a.samples == b.samples &&
+               a.background == b.background && a.environment == b.environment &&
+               a.color_management == b.color_management;
+    }
 };
 
 /// A plugin, and values for its parameters.

@@ -107,6 +107,11 @@ constexpr ParamSpec k_image[] = {
      .type = Type::color,
      .meaning = "colour where there is no object",
      .fallback = {{0, 0, 0}}},
+    {.name = "environment",
+     .type = Type::file,
+     .meaning = "a picture of latitudes and longitudes all around, seen where there is no object, and in "
+                "objects that mirror or refract; instead of background",
+     .fallback = {.text = ""}},
     {.name = "color_management",
      .type = Type::choice,
      .meaning = "\"srgb\": colours are decoded, light is added up in linear light, 8-bit pictures are "

@@ -150,6 +150,7 @@ class Writer {
         add("height", fmt::format("{}", image.height));
         add("samples", fmt::format("{}", image.samples));
         add("background", color_text(image.background));
+        if (!image.environment.empty()) add("environment", toml_text(image.environment));
         add("color_management", image.color_management == ColorEncoding::srgb ? "\"srgb\"" : "\"none\"");
         end();
     }

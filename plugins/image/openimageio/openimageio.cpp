@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -74,24 +75,46 @@ class OpenImageIo final : public candela::ImageFormat {
         }
         file.send(sink);
     }
+
+    void read(const char* path, candela::PictureSink& sink) const override {
+        const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
+        if (input == nullptr) throw std::runtime_error(OIIO::geterror());
+        const OIIO::ImageSpec& spec = input->spec();
+        if (spec.nchannels < 1) throw std::runtime_error("it has no channels");
+        const bool is_float = spec.format.is_floating_point();
+        const std::span<float> pixels = sink.allocate(spec.width, spec.height, !is_float);
+        // Grey pictures have one channel; what comes after the third is alpha and the like.
+        const int channels = std::min(spec.nchannels, 3);
+        std::vector<float> row(static_cast<std::size_t>(spec.width) *
+                               static_cast<std::size_t>(spec.nchannels));
+        std::size_t next = 0;
+        for (int y = 0; y < spec.height; ++y) {
+            if (!input->read_scanline(spec.y + y, 0, OIIO::TypeFloat, row.data()))
+                throw std::runtime_error(input->geterror());
+            for (std::size_t x = 0; x < row.size(); x += static_cast<std::size_t>(spec.nchannels)) {
+                for (int c = 0; c < 3; ++c)
+                    pixels[next++] = row[x + static_cast<std::size_t>(channels < 3 ? 0 : c)];
+            }
+        }
+    }
 };
 
 using candela::PixelType;
 
 constexpr candela::FileFormat k_formats[] = {
-    {"exr", "OpenEXR, float", PixelType::real},
-    {"hdr", "Radiance RGBE, float", PixelType::real},
-    {"pfm", "Portable float map", PixelType::real},
-    {"tif", "TIFF"},
-    {"tiff", "TIFF"},
-    {"jpg", "JPEG"},
-    {"jpeg", "JPEG"},
-    {"bmp", "Windows bitmap"},
-    {"tga", "Targa"},
-    {"webp", "WebP"},
-    {"ppm", "Portable pixmap"},
-    {"pnm", "Portable anymap"},
-    {"png", "Portable Network Graphics"},
+    {"exr", "OpenEXR, float", PixelType::real, true},
+    {"hdr", "Radiance RGBE, float", PixelType::real, true},
+    {"pfm", "Portable float map", PixelType::real, true},
+    {"tif", "TIFF", PixelType::byte, true},
+    {"tiff", "TIFF", PixelType::byte, true},
+    {"jpg", "JPEG", PixelType::byte, true},
+    {"jpeg", "JPEG", PixelType::byte, true},
+    {"bmp", "Windows bitmap", PixelType::byte, true},
+    {"tga", "Targa", PixelType::byte, true},
+    {"webp", "WebP", PixelType::byte, true},
+    {"ppm", "Portable pixmap", PixelType::byte, true},
+    {"pnm", "Portable anymap", PixelType::byte, true},
+    {"png", "Portable Network Graphics", PixelType::byte, true},
 };
 
 constexpr candela::Property k_properties[] = {{"fallback"}};

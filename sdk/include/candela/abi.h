@@ -4,7 +4,7 @@
 #include <cstddef>  // defines the standard library's own macros
 
 // Raised whenever an interface class, a struct that crosses the boundary, or the descriptor changes.
-#define CANDELA_INTERFACE_VERSION 1
+#define CANDELA_INTERFACE_VERSION 2
 
 #define CANDELA_ABI_TEXT(x) CANDELA_ABI_TEXT_(x)
 #define CANDELA_ABI_TEXT_(x) #x

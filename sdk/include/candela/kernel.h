@@ -257,6 +257,14 @@ CANDELA_KERNEL_INLINE vec3 normalize(vec3 a) { return a * inversesqrt(max(dot(a,
 CANDELA_KERNEL_INLINE constexpr vec3 reflect(vec3 incident, vec3 normal) {
     return incident - 2.0f * dot(normal, incident) * normal;
 }
+/// Snell's law; zero beyond the critical angle. `eta`: n_1 / n_2; `normal` points towards where light comes
+/// from.
+CANDELA_KERNEL_INLINE vec3 refract(vec3 incident, vec3 normal, float eta) {
+    const float cosine = dot(normal, incident);
+    const float k = 1.0f - eta * eta * (1.0f - cosine * cosine);
+    const vec3 refracted = eta * incident - (eta * cosine + sqrt(max(k, 0.0f))) * normal;
+    return k < 0.0f ? vec3(0.0f) : refracted;
+}
 CANDELA_KERNEL_INLINE constexpr vec3 min(vec3 a, vec3 b) {
     return vec3(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z));
 }

@@ -1,0 +1,187 @@
+// A reflection model that shows what surrounds the object, in five kernel functions:
+//
+//     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)          as in reflection_plugin.h
+//     vec3 x_reflect_ambient(XMaterial m, Surface s)                      likewise
+//     Refracted x_enter(XMaterial m, Surface s)                           where the line of sight comes in
+//     Refracted x_leave(XMaterial m, vec3 direction, vec3 normal)         where it comes to the surface from
+//     within vec3 x_transmit(XMaterial m, vec3 color, float distance)            what is left of light on a
+//     way through
+//
+// The material has a member `int internal_reflections`.
+#pragma once
+
+#include "candela/reflection_plugin.h"
+
+namespace candela::sdk {
+
+/// Room for three numbers of each ray of a batch.
+template <std::size_t size>
+struct RayArrays {
+    float x[size], y[size], z[size];
+
+    Vec3Span span() { return {x, y, z}; }
+};
+
+/// Lines of sight on their way, as many as are followed at once.
+struct Rays {
+    static constexpr std::size_t k_size = 64;
+
+    RayArrays<k_size> origin, direction, weight;  // `weight`: the share of what they meet that is seen
+    RayArrays<k_size> towards, share, seen;       // where they look now, and how much of that is seen
+    RayArrays<k_size> exit_position, exit_normal;
+    float distance[k_size];
+    std::size_t count = 0;
+};
+
+/// At the surface: a part looks where the mirror image is, the rest goes in.
+template <class Material, auto enter, Tangent tangent>
+struct EnterLoop {
+    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, Rays* rays) {
+        const vec3 color = kernel_vector(surface.color);
+        const std::size_t count = surface.count;
+        Rays& r = *rays;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const kernel::Surface s = surface_at<tangent>(surface, color, i);
+            const kernel::Refracted refracted = call<enter>(material, s);
+            const vec3 mirrored = kernel::reflect(-s.to_observer, s.normal);
+            r.towards.x[i] = mirrored.x;
+            r.towards.y[i] = mirrored.y;
+            r.towards.z[i] = mirrored.z;
+            r.share.x[i] = r.share.y[i] = r.share.z[i] = refracted.mirrored;
+            r.direction.x[i] = refracted.direction.x;
+            r.direction.y[i] = refracted.direction.y;
+            r.direction.z[i] = refracted.direction.z;
+            r.weight.x[i] = r.weight.y[i] = r.weight.z[i] = 1.0f - refracted.mirrored;
+            r.origin.x[i] = surface.position.x[i];
+            r.origin.y[i] = surface.position.y[i];
+            r.origin.z[i] = surface.position.z[i];
+        }
+    }
+};
+
+/// At the surface, from within: a part goes out and looks there, the rest stays.
+template <class Material, auto leave, auto transmit>
+struct LeaveLoop {
+    CANDELA_BATCH_LOOP static void run(Material material, Rgb object_color, Rays* rays, bool is_last) {
+        const vec3 color = kernel_vector(object_color);
+        Rays& r = *rays;
+        const std::size_t count = r.count;
+        const float last = is_last ? 1.0f : 0.0f;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const vec3 direction(r.direction.x[i], r.direction.y[i], r.direction.z[i]);
+            const vec3 normal(r.exit_normal.x[i], r.exit_normal.y[i], r.exit_normal.z[i]);
+            const kernel::Refracted refracted = call<leave>(material, direction, normal);
+            const bool is_lost = r.distance[i] < 0.0f;  // the surface is open there
+            const bool is_free = refracted.mirrored < 1.0f;
+            // At the end all that is left goes out, so that no light is lost: straight on where it cannot.
+            const float out = is_lost ? 1.0f : kernel::max(1.0f - refracted.mirrored, last);
+            const float refracts = !is_lost && is_free ? 1.0f : 0.0f;
+            const vec3 towards = refracts * refracted.direction + (1.0f - refracts) * direction;
+            const vec3 kept = call<transmit>(material, color, is_lost ? 0.0f : r.distance[i]);
+            const vec3 weight = vec3(r.weight.x[i], r.weight.y[i], r.weight.z[i]) * kept;
+            r.towards.x[i] = towards.x;
+            r.towards.y[i] = towards.y;
+            r.towards.z[i] = towards.z;
+            r.share.x[i] = weight.x * out;
+            r.share.y[i] = weight.y * out;
+            r.share.z[i] = weight.z * out;
+            r.weight.x[i] = weight.x * (1.0f - out);
+            r.weight.y[i] = weight.y * (1.0f - out);
+            r.weight.z[i] = weight.z * (1.0f - out);
+            const vec3 inwards = kernel::reflect(direction, normal);
+            r.direction.x[i] = inwards.x;
+            r.direction.y[i] = inwards.y;
+            r.direction.z[i] = inwards.z;
+            r.origin.x[i] = r.exit_position.x[i];
+            r.origin.y[i] = r.exit_position.y[i];
+            r.origin.z[i] = r.exit_position.z[i];
+        }
+    }
+};
+
+struct AddSeenLoop {
+    CANDELA_BATCH_LOOP static void run(const Rays* rays, Vec3Span sum) {
+        const Rays& r = *rays;
+        const std::size_t count = r.count;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            sum.x[i] += r.share.x[i] * r.seen.x[i];
+            sum.y[i] += r.share.y[i] * r.seen.y[i];
+            sum.z[i] += r.share.z[i] * r.seen.z[i];
+        }
+    }
+};
+
+/// Which of the SurfaceBatch's points from `first` on.
+inline SurfaceBatch part_of(const SurfaceBatch& surface, std::size_t first, std::size_t count) {
+    const auto from = [&](const ConstVec3Span& span) { return span ? span.from(first) : span; };
+    return {count,         from(surface.normal),  from(surface.to_observer), from(surface.tangent),
+            surface.color, from(surface.position)};
+}
+
+template <class Material, auto reflect_, auto reflect_ambient_, auto enter_, auto leave_, auto transmit_,
+          Tangent tangent = Tangent::unused>
+class KernelRefraction final : public ReflectionModel {
+  public:
+    explicit KernelRefraction(const Material& material) : surface_(material), material_(material) {}
+
+    bool needs_tangent() const noexcept override { return surface_.needs_tangent(); }
+    bool shows_surroundings() const noexcept override { return true; }
+
+    void reflect(const SurfaceBatch& surface, const LightingBatch& light,
+                 const ReflectedBatch& reflected) const override {
+        surface_.reflect(surface, light, reflected);
+    }
+    void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
+                         const ReflectedBatch& reflected) const override {
+        surface_.reflect_ambient(surface, ambient, reflected);
+    }
+    void show_surroundings(const SurfaceBatch& surface, Surroundings& surroundings,
+                           const ReflectedBatch& reflected) const override {
+        for (std::size_t first = 0; first < surface.count; first += Rays::k_size) {
+            const std::size_t left = surface.count - first;
+            follow(part_of(surface, first, left < Rays::k_size ? left : Rays::k_size), surroundings,
+                   reflected.specular.from(first));
+        }
+    }
+
+  private:
+    /// The mirrored part, then what leaves at the far side, then what leaves after one more reflection within
+    /// …
+    void follow(const SurfaceBatch& surface, Surroundings& surroundings, const Vec3Span& sum) const {
+        Rays rays;
+        rays.count = surface.count;
+        multiversion<EnterLoop<Material, enter_, tangent>>(material_, surface, &rays);
+        look(rays, surroundings, sum);
+        for (int within = 0; within <= material_.internal_reflections; ++within) {
+            surroundings.leave(rays.count, rays.origin.span(), rays.direction.span(),
+                               {rays.exit_position.span(), rays.exit_normal.span(), rays.distance});
+            multiversion<LeaveLoop<Material, leave_, transmit_>>(material_, surface.color, &rays,
+                                                                 within == material_.internal_reflections);
+            look(rays, surroundings, sum);
+        }
+    }
+
+    static void look(Rays& rays, Surroundings& surroundings, const Vec3Span& sum) {
+        surroundings.look(rays.count, rays.towards.span(), rays.seen.span());
+        multiversion<AddSeenLoop>(&rays, sum);
+    }
+
+    KernelReflection<Material, reflect_, reflect_ambient_, tangent> surface_;
+    Material material_;
+};
+
+}  // namespace candela::sdk
+
+/// A plugin from the kernel functions `prefix_reflect`, `prefix_reflect_ambient`, `prefix_enter`,
+/// `prefix_leave` and `prefix_transmit`; `Material` is their first argument.
+#define CANDELA_REFRACTION_PLUGIN(prefix, Material, fields, ...)                                            \
+    CANDELA_KERNEL_PLUGIN(                                                                                  \
+        reflection,                                                                                         \
+        (candela::sdk::KernelRefraction<Material, &candela::kernel::prefix##_reflect,                       \
+                                        &candela::kernel::prefix##_reflect_ambient,                         \
+                                        &candela::kernel::prefix##_enter, &candela::kernel::prefix##_leave, \
+                                        &candela::kernel::prefix##_transmit>),                              \
+        prefix, Material, fields, __VA_ARGS__)
