@@ -4,6 +4,7 @@ export module candela.core;
 
 export import candela.constraints;
 export import candela.diagnostics;
+export import candela.environment;
 export import candela.files;
 export import candela.film;
 export import candela.fragments;

@@ -68,4 +68,5 @@ trap 'rm -f "$sheet"' EXIT
 contact_sheet >"$sheet"
 render "$sheet" -o "$out/contact-sheet.png"
 render "$root/docs/examples/still-life.toml" -o "$out/still-life.png"
+render "$root/docs/examples/glass.toml" -o "$out/glass.png"
 render --samples 16 -o "$out/default-scene.png"

@@ -3,7 +3,9 @@ module;
 
 #include "candela/multiversion.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -36,6 +38,23 @@ struct PointSpans {
     return {b0 * c.at[0].x + b1 * c.at[1].x + b2 * c.at[2].x,
             b0 * c.at[0].y + b1 * c.at[1].y + b2 * c.at[2].y,
             b0 * c.at[0].z + b1 * c.at[1].z + b2 * c.at[2].z};
+}
+
+/// Scales homogeneous coordinates that are so large, or so small, that products of two leave the range of
+/// floats. By a power of two, so that nothing is rounded.
+void keep_in_range(TriangleAttributes& t) {
+    constexpr float k_largest_picture = 65536;
+    constexpr float k_large = 0x1p40f;
+    float largest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        largest =
+            std::max({largest, std::abs(t.x[k]), std::abs(t.y[k]), k_largest_picture * std::abs(t.w[k])});
+    if (largest == 0 || (largest < k_large && largest > 1 / k_large)) return;
+    const int exponent = -std::ilogb(largest);
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (float* const coordinate : {&t.x[k], &t.y[k], &t.w[k]})
+            *coordinate = std::ldexp(*coordinate, exponent);
+    }
 }
 
 /// A run of fragments of one triangle.
@@ -183,6 +202,7 @@ void gather_fragments(const ProjectedMesh& source, const FragmentList& fragments
             t.y[k] = source.scene.y[v];
             t.w[k] = perspective ? source.scene.distance[v] : 1.0f;
         }
+        keep_in_range(t);
         t.position = corners(mesh.position, vertices);
         t.normal = corners(mesh.vertex_normal, vertices);
         multiversion<RunLoop>(

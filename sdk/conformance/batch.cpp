@@ -61,6 +61,25 @@ constexpr std::size_t k_dpdv = 30;
 constexpr std::size_t k_uv = 33;  // two
 constexpr std::size_t k_inputs = 35;
 
+/// Another colour in every direction, and an object of no particular form: where a ray leaves it depends on
+/// that ray alone.
+class ColorfulSurroundings final : public candela::Surroundings {
+  public:
+    void look(std::size_t count, const candela::ConstVec3Span& towards,
+              const candela::Vec3Span& intensity) override {
+        for (std::size_t i = 0; i < count; ++i) intensity.set(i, Vec3{0.5f, 0.5f, 0.5f} + 0.5f * towards[i]);
+    }
+    void leave(std::size_t count, const candela::ConstVec3Span& origin,
+               const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 d = direction[i];
+            exit.position.set(i, origin[i] + d);
+            exit.normal.set(i, candela::normalized(d + 0.8f * Vec3{d.y, -d.z, d.x}));
+            exit.distance[i] = d.x > 0.9f ? -1.0f : 1.0f;
+        }
+    }
+};
+
 BatchSubject reflection_subject(const Values& values) {
     const std::shared_ptr<candela::ReflectionModel> model = make<candela::ReflectionModel>(values);
     const auto surface = [model](std::size_t count, const Arrays& in) {
@@ -69,26 +88,37 @@ BatchSubject reflection_subject(const Values& values) {
             .normal = in.vec3(k_normal),
             .to_observer = in.vec3(k_observer),
             .tangent = model->needs_tangent() ? in.vec3(k_tangent) : candela::ConstVec3Span{},
-            .color = {0.8f, 0.5f, 0.2f}};
+            .color = {0.8f, 0.5f, 0.2f},
+            .position = in.vec3(k_position)};
     };
     const auto reflected = [](Arrays& out) {
         return candela::ReflectedBatch{
             .ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)};
     };
     const std::vector<std::string> outputs{"ambient", "diffuse", "specular"};
-    return {model,
-            k_inputs,
-            {{"reflect", outputs, true, declares("may-be-negative"),
-              [=](std::size_t count, const Arrays& in, Arrays& out) {
-                  model->reflect(surface(count, in),
-                                 {.to_light = in.vec3(k_light),
-                                  .diffuse = in.vec3(k_diffuse),
-                                  .specular = in.vec3(k_specular)},
-                                 reflected(out));
-              }},
-             {"reflect_ambient", outputs, true, false, [=](std::size_t count, const Arrays& in, Arrays& out) {
-                  model->reflect_ambient(surface(count, in), in.vec3(k_diffuse), reflected(out));
-              }}}};
+    BatchSubject subject{
+        model,
+        k_inputs,
+        {{"reflect", outputs, true, declares("may-be-negative"),
+          [=](std::size_t count, const Arrays& in, Arrays& out) {
+              model->reflect(surface(count, in),
+                             {.to_light = in.vec3(k_light),
+                              .diffuse = in.vec3(k_diffuse),
+                              .specular = in.vec3(k_specular)},
+                             reflected(out));
+          }},
+         {"reflect_ambient", outputs, true, false, [=](std::size_t count, const Arrays& in, Arrays& out) {
+              model->reflect_ambient(surface(count, in), in.vec3(k_diffuse), reflected(out));
+          }}}};
+    if (model->shows_surroundings()) {
+        subject.calls.push_back({"show_surroundings", outputs, true, false,
+                                 [=](std::size_t count, const Arrays& in, Arrays& out) {
+                                     ColorfulSurroundings surroundings;
+                                     model->show_surroundings(surface(count, in), surroundings,
+                                                              reflected(out));
+                                 }});
+    }
+    return subject;
 }
 
 BatchSubject light_subject(const Values& values) {

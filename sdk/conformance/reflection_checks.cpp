@@ -214,3 +214,43 @@ TEST_CASE("isotropic, where it is declared: turning the surface about its normal
         }
     }
 }
+
+TEST_CASE("surroundings: where one intensity comes from everywhere, no more than that is seen in the object",
+          "[reflection]") {
+    class Furnace final : public candela::Surroundings {
+      public:
+        void look(std::size_t count, const candela::ConstVec3Span&,
+                  const candela::Vec3Span& intensity) override {
+            for (std::size_t i = 0; i < count; ++i) intensity.set(i, {1, 1, 1});
+        }
+        void leave(std::size_t count, const candela::ConstVec3Span& origin,
+                   const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
+            for (std::size_t i = 0; i < count; ++i) {
+                exit.position.set(i, origin[i]);
+                exit.normal.set(i, direction[i]);
+                exit.distance[i] = 0;
+            }
+        }
+    };
+    for (const Values& values : many_values()) {
+        const auto model = make<ReflectionModel>(values);
+        if (!model->shows_surroundings()) SKIP("it does not show what surrounds the object");
+        const Arrays in = inputs_for(1000);
+        Arrays out(9, in.count());
+        Furnace furnace;
+        model->show_surroundings({.count = in.count(),
+                                  .normal = in.vec3(0),
+                                  .to_observer = in.vec3(3),
+                                  .tangent = model->needs_tangent() ? in.vec3(6) : candela::ConstVec3Span{},
+                                  .color = {1, 1, 1},
+                                  .position = in.vec3(18)},
+                                 furnace,
+                                 {.ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
+        for (std::size_t i = 0; i < in.count(); ++i) {
+            const float seen = largest(out.at(6, i));
+            if (seen > 1.001f)
+                FAIL("surrounded by 1, it shows " << seen << ", for " << text_of_input(in, i) << ", with "
+                                                  << values.text);
+        }
+    }
+}

@@ -82,6 +82,7 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"reflection-leaves-a-thread", "instances", "failed", "threads running"},
         {"reflection-lies-about-reciprocity", "reciprocal", "failed", "it is not reciprocal"},
         {"reflection-makes-energy", "energy-bounded", "failed", "times the light that falls in"},
+        {"reflection-outshines-its-surroundings", "surroundings", "failed", "surrounded by 1, it shows 1.2"},
         {"reflection-lies-about-isotropy", "isotropic", "failed", "turned by 0.5 rad about N"},
         {"reflection-lights-the-night", "horizon", "failed", "degrees below the horizon is reflected"},
         {"reflection-rolls-dice", "repeatable", "failed", "another result the second time"},

@@ -126,6 +126,7 @@ TEST_CASE("the default scene and the examples are the same after they have been 
     CHECK((written_and_read(standard, directory) == standard));
     int examples = 0;
     for (const auto& entry : fs::directory_iterator(fs::path(CANDELA_TEST_SOURCE) / "docs/examples")) {
+        if (entry.path().extension() != ".toml") continue;
         const Scene scene = read(entry.path());
         CHECK((written_and_read(scene, directory) == scene));
         ++examples;

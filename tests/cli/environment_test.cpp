@@ -1,0 +1,76 @@
+// Pictures that surround the scene, and what cannot be one.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+CommandResult render(const std::string& image, const fs::path& directory) {
+    write_file(directory / "scene.toml",
+               "version = 1\n[image]\nwidth = 16\nheight = 8\n" + image +
+                   "\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+                   "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"dielectric\"\n"
+                   "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"sphere\"\n");
+    return run_candela({"render", "scene.toml", "-o", "out.ppm"},
+                       {.input = "", .environment = {}, .directory = directory});
+}
+
+void expect(const CommandResult& result, int exit_code, const std::vector<std::string>& parts) {
+    INFO(result.err);
+    CHECK(result.exit_code == exit_code);
+    for (const std::string& part : parts) {
+        INFO(part);
+        CHECK(result.err.find(part) != std::string::npos);
+    }
+}
+
+/// Four pixels: red to the left of the picture's middle, blue to the right.
+const std::string k_picture = std::string("P6\n4 1\n255\n") + "\xff" + std::string(2, '\0') + "\xff" +
+                              std::string(4, '\0') + "\xff" + std::string(2, '\0') + "\xff";
+
+}  // namespace
+
+TEST_CASE("an environment picture, relative to the scene's file, is seen around the object") {
+    const fs::path d = scratch_directory();
+    write_file(d / "sky.ppm", k_picture);
+    const CommandResult result = render("environment = \"sky.ppm\"", d);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const std::string picture = read_file(d / "out.ppm");
+    const std::size_t first = picture.size() - std::size_t{16} * 8 * 3;
+    CHECK(static_cast<unsigned char>(picture[first]) > 150);  // red at the left edge
+    CHECK(static_cast<unsigned char>(picture[first + 15 * 3]) < 150);
+    CHECK(static_cast<unsigned char>(picture[first + 15 * 3 + 2]) > 150);  // blue at the right
+}
+
+TEST_CASE("mistakes of the environment are said at its place") {
+    const fs::path d = scratch_directory();
+    write_file(d / "sky.ppm", k_picture);
+    expect(render("environment = \"sea.ppm\"", d), 3, {"scene.toml:5:15: error: 'sea.ppm' does not exist"});
+    expect(render("environment = \".\"", d), 3, {"scene.toml:5:15: error: '.' is a directory, not a file"});
+    expect(render("environment = 3", d), 3, {"scene.toml:5:15: error: 'environment' is the whole number 3; expected"});
+    expect(render("background = [1, 2, 3]\nenvironment = \"sky.ppm\"", d), 0,
+           {"scene.toml:5:1: warning: 'background' has no effect where there is an environment"});
+}
+
+TEST_CASE("an environment that cannot be read as a picture is a failure that names the file") {
+    const fs::path d = scratch_directory();
+    write_file(d / "sky.txt", "blue");
+    write_file(d / "sky.png", "blue");
+    write_file(d / "short.ppm", k_picture.substr(0, 14));
+    write_file(d / "sky.pfm",
+               std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
+    expect(render("environment = \"sky.txt\"", d), 1,
+           {"scene.toml:5:15: error: environment: ", "sky.txt' is of no format that an image plugin reads",
+            "exr"});
+    expect(render("environment = \"sky.png\"", d), 1, {"sky.png' cannot be read as a picture"});
+    expect(render("environment = \"short.ppm\"", d), 1, {"short.ppm' cannot be read as a picture"});
+    expect(render("environment = \"sky.pfm\"", d), 1,
+           {"sky.pfm' cannot be read as a picture: it has a pixel that is no finite number"});
+    CHECK_FALSE(fs::exists(d / "out.ppm"));
+}
