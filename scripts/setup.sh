@@ -43,7 +43,7 @@ packages=(
   libassimp-dev libopenimageio-dev
 )
 if [ "$everything" = yes ]; then
-  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema)
+  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file)
 fi
 
 # Boost: Debian 12 has 1.81 beside its default 1.74; later releases need no such choice.

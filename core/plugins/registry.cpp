@@ -80,6 +80,14 @@ std::string who_else_can_write(const fs::path& path) {
     return {};
 }
 
+/// Whole, for its last part may be the one that differs; a manifest may also hold anything else in its place.
+std::string fingerprint_text(std::string_view abi) {
+    constexpr std::size_t k_longest = 100;
+    const bool is_plain =
+        abi.size() <= k_longest && std::ranges::all_of(abi, [](char c) { return c >= ' ' && c <= '~'; });
+    return is_plain ? std::string(abi) : shortened(abi);
+}
+
 }  // namespace
 
 std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
@@ -135,7 +143,7 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
         if (const std::string abi = abi_from_json(*text); !abi.empty() && abi != host_abi()) {
             return refuse(
                 fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
-                            shortened(abi), host_abi()));
+                            fingerprint_text(abi), host_abi()));
         }
         file->manifest = manifest_from_json(*text);
     } catch (const Error& problem) {

@@ -1,4 +1,6 @@
 // What the documentation shows must be so.
+#include "candela/abi.h"
+
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -51,6 +53,15 @@ TEST_CASE("the scene of docs/scene-file.md is valid") {
         check(write_file(directory / "scene.toml", block("docs/scene-file.md", "toml")));
     INFO(result.err);
     CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("docs/versioning.md speaks of this interface version, and of this fingerprint") {
+    const std::string text = read_file(k_source / "docs/versioning.md");
+    const std::string version = std::to_string(CANDELA_INTERFACE_VERSION);
+    CHECK(block("docs/versioning.md", "text") == std::string(CANDELA_ABI) + "\n");
+    CHECK(text.find("| interface version, `" + version + "` |") != std::string::npos);
+    CHECK(text.find("`candela-plugin-interface-" + version + "`") != std::string::npos);
+    CHECK(text.find("this is '" + std::string(CANDELA_ABI)) != std::string::npos);
 }
 
 TEST_CASE("the example scenes are valid") {

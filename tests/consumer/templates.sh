@@ -2,7 +2,7 @@
 # With an installed Candela alone: a new plugin of each kind is made, built, tested, listed, rendered with, installed and
 # removed.
 #   templates.sh BUILD_DIR SCRATCH_DIR CMAKE CXX      installs the build first
-#   templates.sh --installed PREFIX SCRATCH_DIR CMAKE CXX
+#   templates.sh --installed PREFIX SCRATCH_DIR CMAKE CXX [KIND...]      all kinds by default
 set -euo pipefail
 say() { printf '== %s\n' "$*"; }
 fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
@@ -10,6 +10,7 @@ quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
 
 if [ "$1" = --installed ]; then
     prefix=$2 scratch=$3 cmake=$4 cxx=$5
+    kinds=("${@:6}")
     rm -rf "$scratch"
     mkdir -p "$scratch"
 else
@@ -19,12 +20,14 @@ else
     "$cmake" --install "$build" --prefix "$scratch/first" >/dev/null
     mv "$scratch/first" "$scratch/prefix"
     prefix=$scratch/prefix
+    kinds=()
 fi
+[ ${#kinds[@]} -gt 0 ] || kinds=(light reflection shading shape)
 export PATH=$prefix/bin:$PATH HOME=$scratch/home XDG_DATA_HOME=$scratch/home/data
 mkdir -p "$HOME"
 cd "$scratch"
 
-for kind in light reflection shading shape; do
+for kind in "${kinds[@]}"; do
     name=try-$kind
     say "$kind: new, build, test"
     quiet candela plugin new "$kind" "$name"
@@ -65,7 +68,7 @@ for wrong in 'plugin new reflection Bad_Name' 'plugin new lihgt x' 'plugin new' 
     [ "$code" -eq 2 ] || fail "exit code $code for candela $wrong"
 done
 code=0
-candela plugin new light try-light 2>"$scratch/log" || code=$?
+candela plugin new "${kinds[0]}" "try-${kinds[0]}" 2>"$scratch/log" || code=$?
 { [ "$code" -eq 1 ] && grep -q 'already there' "$scratch/log"; } || fail "a project was written over"
 code=0
 candela plugin test "$scratch/none.so" 2>"$scratch/log" || code=$?

@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# Makes the Debian packages of a build, installs them into a root of their own, renders and writes a plugin with them,
+# removes them, and looks whether anything is left. Nothing outside of SCRATCH_DIR is written, and root is not needed.
+#   packages.sh BUILD_DIR SCRATCH_DIR CMAKE CXX
+# Exit code 77: it cannot be tried here; it says why.
+set -euo pipefail
+build=$1 scratch=$2 cmake=$3 cxx=$4
+here=$(cd "$(dirname "$0")" && pwd)
+say() { printf '== %s\n' "$*"; }
+fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
+skip() { printf 'SKIPPED: %s\n' "$*"; exit 77; }
+quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
+
+for tool in dpkg dpkg-deb dpkg-query dpkg-shlibdeps file; do
+    command -v "$tool" >/dev/null || skip "there is no $tool here"
+done
+for package in clang-19 clang-tools-19 cmake ninja-build; do
+    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
+        skip "candela-dev needs $package, which is not installed as a package here"
+done
+rm -rf "$scratch"
+mkdir -p "$scratch/bin"
+
+say "make the packages"
+quiet "$(dirname "$cmake")/cpack" --config "$build/CPackConfig.cmake" -B "$scratch/packages"
+runtime=("$scratch"/packages/candela_*.deb)
+development=("$scratch"/packages/candela-dev_*.deb)
+{ [ -f "${runtime[0]}" ] && [ -f "${development[0]}" ]; } || fail "not both packages were made"
+[ "$(dpkg-deb -f "${development[0]}" Version)" = "$(dpkg-deb -f "${runtime[0]}" Version)" ] || fail "versions differ"
+dpkg-deb -f "${runtime[0]}" Depends | grep -q libtbb || fail "the core's libraries are not among the dependencies"
+
+# A root with the machine's list of packages, so that dpkg itself decides whether all dependencies are met. The scripts,
+# which call ldconfig, run outside of it (there is no shell in it), and must not write the machine's cache.
+root=$scratch/root
+mkdir -p "$root/var/lib/dpkg/info" "$root/var/lib/dpkg/updates" "$root/usr/lib"
+ln -s usr/lib "$root/lib"
+touch "$root/usr/lib/of-another-package"  # dpkg removes a folder once nothing is in it
+for file in status arch info/format; do
+    [ ! -e "/var/lib/dpkg/$file" ] || cp "/var/lib/dpkg/$file" "$root/var/lib/dpkg/$file"
+done
+printf '#!/bin/sh\necho "ldconfig for $DPKG_ROOT" >>"%s/ldconfig"\n' "$scratch" >"$scratch/bin/ldconfig"
+chmod +x "$scratch/bin/ldconfig"
+package_manager() {
+    PATH=$scratch/bin:$PATH:/usr/sbin:/sbin dpkg --root="$root" --log="$scratch/dpkg.log" --no-triggers \
+        --force-not-root --force-script-chrootless "$@"
+}
+files() { (cd "$root" && find . -path ./var -prune -o -print | sort); }
+files >"$scratch/before"
+
+say "a package without what it depends on is refused"
+if package_manager -i "${development[@]}" >"$scratch/log" 2>&1; then fail "candela-dev was installed without candela"; fi
+grep -q "candela-dev depends on candela (= " "$scratch/log" || { cat "$scratch/log" >&2; fail "it was refused for another reason"; }
+quiet package_manager --purge candela-dev
+
+say "install"
+quiet package_manager -i "${runtime[@]}"
+grep -q "ldconfig for $root" "$scratch/ldconfig" || fail "the loader's cache was not asked to be written"
+[ "$(dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${db:Status-Status}' candela)" = installed ] || fail "not installed"
+candela=$root/usr/bin/candela
+quiet "$candela" render -o "$scratch/picture.png"
+[ "$(head -c 8 "$scratch/picture.png" | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a ] || fail "no PNG was rendered"
+"$build/bin/candela" render -o "$scratch/built.png" 2>"$scratch/log"
+cmp -s "$scratch/picture.png" "$scratch/built.png" || fail "the installed command renders another picture than the built one"
+"$candela" plugin doctor --plugin-dir "$root/usr/lib/candela/plugins" >"$scratch/log" || { cat "$scratch/log" >&2; fail "the doctor"; }
+code=0
+"$candela" plugin test "$root/usr/lib/candela/plugins/light-point.so" 2>"$scratch/log" || code=$?
+{ [ "$code" -eq 1 ] && grep -q 'package candela-dev' "$scratch/log"; } || fail "nothing says that the kit is in candela-dev"
+
+say "a plugin from nothing, with the installed packages alone"
+quiet package_manager -i "${development[@]}"
+bash "$here/templates.sh" --installed "$root/usr" "$scratch/templates" "$cmake" "$cxx" light
+interface=$(sed -n 's/^#define CANDELA_INTERFACE_VERSION //p' "$root/usr/include/candela/abi.h")
+[ "$(dpkg-deb -f "${runtime[0]}" Provides)" = "candela-plugin-interface-$interface" ] || fail "the interface is not provided"
+
+say "found through /lib, it is the same package"
+mkdir "$scratch/through-lib"
+cat >"$scratch/through-lib/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.28)
+project(through-lib LANGUAGES CXX)
+find_package(candela REQUIRED PATHS ${ROOT}/lib/cmake/candela NO_DEFAULT_PATH)
+get_target_property(directories candela::core INTERFACE_INCLUDE_DIRECTORIES)
+foreach(directory IN LISTS directories)
+    if(NOT EXISTS ${directory}/candela/plugin.h)
+        message(FATAL_ERROR "${directory} has no candela/plugin.h")
+    endif()
+endforeach()
+END
+quiet "$cmake" -G Ninja -S "$scratch/through-lib" -B "$scratch/through-lib/build" -DCMAKE_CXX_COMPILER="$cxx" -DROOT="$root"
+
+say "remove"
+quiet package_manager --purge candela candela-dev
+if dpkg-query --admindir="$root/var/lib/dpkg" -W candela candela-dev >"$scratch/log" 2>&1; then fail "dpkg still knows them"; fi
+files >"$scratch/after"
+diff "$scratch/before" "$scratch/after" >&2 || fail "this is left behind"
+say "all well"

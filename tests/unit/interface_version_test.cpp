@@ -1,0 +1,105 @@
+// docs/versioning.md: a plugin works with the interface version that it was built for, and with no other.
+#include "candela/abi.h"
+
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "support/command.h"
+#include "support/plugins.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* k_progress = "CANDELA_TEST_OTHER_INTERFACE";
+
+/// A fingerprint like this host's, with another interface version.
+std::string fingerprint(int version) {
+    std::string abi(candela::host_abi());
+    const std::string here = "candela interface " + std::to_string(CANDELA_INTERFACE_VERSION) + ";";
+    REQUIRE(abi.starts_with(here));
+    return abi.replace(0, here.size(), "candela interface " + std::to_string(version) + ";");
+}
+
+/// A folder with the plugin that was built for `version`, and a manifest that says `abi`.
+fs::path installed(int version, const std::string& abi, const std::string& folder) {
+    const fs::path directory = scratch_directory() / (folder + "-" + std::to_string(version));
+    fs::create_directory(directory);
+    const std::string built = "interface_" + std::to_string(version) + ".so";
+    fs::copy_file(fs::path(CANDELA_TEST_LIBRARIES) / built, directory / "reflection-other-interface.so");
+    candela::Manifest manifest;
+    manifest.abi = abi;
+    manifest.kind = candela::PluginKind::reflection;
+    manifest.name = "other-interface";
+    manifest.version = "1.0.0";
+    manifest.title = "Other interface";
+    write_file(directory / "reflection-other-interface.json", candela::to_json(manifest));
+    return directory;
+}
+
+/// What is said when an instance of the model is wanted; empty where it is made.
+std::string refusal(const fs::path& directory) {
+    ::unsetenv(k_progress);
+    candela::Registry registry({directory});
+    try {
+        registry.create<candela::ReflectionModel>(
+            "other-interface", registry.parameters(candela::PluginKind::reflection, "other-interface"),
+            candela::ColorEncoding::none);
+    } catch (const candela::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// How far the host went: "" not loaded, "loaded", "made" an instance.
+std::string progress() {
+    const char* const value = std::getenv(k_progress);
+    return value != nullptr ? value : "";
+}
+
+std::string expected(const fs::path& directory, int version) {
+    return "plugin '" + (directory / "reflection-other-interface.so").string() +
+           "' is refused: it was built for '" + fingerprint(version) + "', this is '" +
+           std::string(candela::host_abi()) + "'; build it again with this Candela's SDK";
+}
+
+}  // namespace
+
+TEST_CASE("a plugin of the interface before or after this one is refused by its manifest, and not loaded") {
+    const int version = GENERATE(CANDELA_INTERFACE_VERSION - 1, CANDELA_INTERFACE_VERSION + 1);
+    const fs::path directory = installed(version, fingerprint(version), "honest");
+    CHECK(refusal(directory) == expected(directory, version));
+    CHECK(progress().empty());
+}
+
+TEST_CASE(
+    "a plugin of another interface whose manifest lies is refused by the handshake, and makes nothing") {
+    const int version = GENERATE(CANDELA_INTERFACE_VERSION - 1, CANDELA_INTERFACE_VERSION + 1);
+    const fs::path directory = installed(version, std::string(candela::host_abi()), "lying");
+    CHECK(refusal(directory) == expected(directory, version));
+    CHECK(progress() == "loaded");
+}
+
+TEST_CASE("the same plugin built for this interface makes its model") {
+    const fs::path directory =
+        installed(CANDELA_INTERFACE_VERSION, std::string(candela::host_abi()), "equal");
+    CHECK(refusal(directory).empty());
+    CHECK(progress() == "made");
+}
+
+TEST_CASE("the command refuses a plugin of the interface before this one, and writes no picture") {
+    const int version = CANDELA_INTERFACE_VERSION - 1;
+    const bool lies = GENERATE(false, true);
+    const fs::path directory = installed(
+        version, lies ? std::string(candela::host_abi()) : fingerprint(version), lies ? "lies" : "told");
+    const fs::path picture = directory / "picture.png";
+    const CommandResult result = run_candela({"render", "--plugin-dir", directory.string(), "--reflection",
+                                              "other-interface", "-o", picture.string()});
+    INFO(result.err);
+    CHECK(result.exit_code == (lies ? 1 : 3));  // found while checking the input, if the manifest is honest
+    CHECK(result.err.find(expected(directory, version)) != std::string::npos);
+    CHECK_FALSE(fs::exists(picture));
+}

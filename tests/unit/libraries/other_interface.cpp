@@ -1,0 +1,27 @@
+// A sound reflection model, built against the interface version that CANDELA_TEST_INTERFACE says. The
+// environment tells how far a host went with it.
+#include <cstdlib>
+
+#include "candela/reflection_plugin.h"
+
+#undef CANDELA_INTERFACE_VERSION
+#define CANDELA_INTERFACE_VERSION CANDELA_TEST_INTERFACE
+
+namespace {
+
+[[maybe_unused]] const int loaded = ::setenv("CANDELA_TEST_OTHER_INTERFACE", "loaded", 1);
+
+class OtherInterface final : public candela::ReflectionModel {
+  public:
+    explicit OtherInterface(const candela::sdk::NoParams&) {
+        ::setenv("CANDELA_TEST_OTHER_INTERFACE", "made", 1);
+    }
+    void reflect(const candela::SurfaceBatch&, const candela::LightingBatch&,
+                 const candela::ReflectedBatch&) const override {}
+    void reflect_ambient(const candela::SurfaceBatch&, const candela::ConstVec3Span&,
+                         const candela::ReflectedBatch&) const override {}
+};
+
+}  // namespace
+
+CANDELA_PLUGIN(reflection, OtherInterface, candela::sdk::k_no_fields, {.title = "Other interface"})
