@@ -17,9 +17,10 @@ constexpr auto k_fields = fields(
     real(&WardMaterial::roughness_u, "roughness_u", 0.1f, "slope of the surface along u").range(0.05f, 1),
     real(&WardMaterial::roughness_v, "roughness_v", 0.3f, "slope of the surface across u").range(0.05f, 1),
     choice(&WardMaterial::form, "form", k_forms,
-           "Ward's own, or the one that does not darken at grazing angles"));
+           "Ward's own, or the one that does not darken at grazing angles and whose energy is bounded"));
 
-constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}};
+// Not "energy-bounded": Ward's own form is not in the last half degree above the surface.
+constexpr candela::Property k_properties[] = {{"reciprocal"}};
 
 }  // namespace
 

@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "candela/shape_plugin.h"
+#include "derivatives.h"
 
 using namespace candela::sdk;
 
@@ -73,7 +74,7 @@ class FileMesh final : public candela::Shape {
   public:
     explicit FileMesh(const MeshShape& shape) : file_(shape.file != nullptr ? shape.file : "") {}
 
-    void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
+    void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         Assimp::Importer importer;
         keep_one_format(importer, file_);
         if (lower_extension(file_) == ".ply") require_end_of_header(file_);
@@ -95,6 +96,9 @@ class FileMesh final : public candela::Shape {
         // An STL file has normals of facets, not of vertices.
         if (lower_extension(file_) == ".stl") layout.has_normals = false;
         layout.has_smooth_groups = !layout.has_normals;
+        // Zero without texture coordinates: then a triangle's edges, which differ from its neighbours', would
+        // be no better as tangents.
+        layout.has_derivatives = request.derivatives;
         if (layout.triangles == 0) throw std::runtime_error("'" + file_ + "' has no triangles");
 
         const candela::MeshSpans mesh = sink.allocate(layout);
@@ -123,6 +127,7 @@ class FileMesh final : public candela::Shape {
                 }
             }
         }
+        if (layout.has_derivatives && layout.has_uv) derivatives_from_uv(mesh, vertex);
         if (layout.has_smooth_groups) weld_by_position(mesh.position, vertex, mesh.smooth_group);
     }
 

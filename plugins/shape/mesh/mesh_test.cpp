@@ -32,6 +32,13 @@ std::string soup_of(const Mesh& mesh) {
     return text;
 }
 
+/// With derivatives, as a reflection model with a tangent asks for them.
+Mesh with_derivatives(const std::string& obj) {
+    return candela::build_mesh(
+        *instance<Shape>("mesh", {{"file", write_file(scratch_directory() / "d.obj", obj).string()}}),
+        {.uv = true, .derivatives = true}, {}, *instance<candela::ShadingModel>("phong"));
+}
+
 Mesh built(const Shape& shape) {
     return candela::build_mesh(shape, {}, {}, *instance<candela::ShadingModel>("phong"));
 }
@@ -137,5 +144,50 @@ TEST_CASE("a teapot that lost its normals and its shared vertices looks like the
     for (std::size_t corner = 0; corner < read.corners.size(); ++corner) {
         REQUIRE(agree(read.vertex_normal.span()[read.corners[corner]],
                       original.vertex_normal.span()[original.corners[corner]], 1e-4, 1e-4));
+    }
+}
+
+TEST_CASE(
+    "shape/mesh: derivatives along texture coordinates are those of the map, on every triangle of a plane") {
+    // p(u, v) = u (2, 1, 0) + v (-1, 3, 1), at u, v in {0, 1} x {0, 2}.
+    const Mesh mesh = with_derivatives(
+        "v 0 0 0\nv 2 1 0\nv 0 7 2\nv -2 6 2\nvt 0 0\nvt 1 0\nvt 1 2\nvt 0 2\nf 1/1 2/2 3/3\nf 1/1 3/3 "
+        "4/4\n");
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        CHECK(agree(mesh.dpdu.span()[i], Vec3{2, 1, 0}, 1e-5, 1e-5));
+        CHECK(agree(mesh.dpdv.span()[i], Vec3{-1, 3, 1}, 1e-5, 1e-5));
+    }
+}
+
+TEST_CASE("shape/mesh: derivatives on a cylinder run around it and along it, within the width of a facet") {
+    // u once around, v up: dp/du is 2 pi times the unit tangent, dp/dv (0, 3, 0).
+    constexpr int k_facets = 48;
+    std::string obj;
+    for (int i = 0; i <= k_facets; ++i) {
+        const double phi = 2 * std::acos(-1.0) * i / k_facets;
+        for (const int v : {0, 1})
+            obj += fmt::format("v {} {} {}\nvt {} {}\n", std::cos(phi), 3 * v, -std::sin(phi),
+                               double(i) / k_facets, v);
+    }
+    for (int i = 0; i < k_facets; ++i) {
+        const int a = 2 * i + 1;
+        obj += fmt::format("f {0}/{0} {1}/{1} {2}/{2}\nf {0}/{0} {2}/{2} {3}/{3}\n", a, a + 2, a + 3, a + 1);
+    }
+    const Mesh mesh = with_derivatives(obj);
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        const Double3 p = exact(mesh.position.span()[i]), du = exact(mesh.dpdu.span()[i]);
+        CHECK(dot(unit(du), Double3{p.z, 0, -p.x}) > std::cos(4 * std::acos(-1.0) / k_facets));
+        CHECK(agree(length(du), 2 * std::acos(-1.0), 2e-3));
+        CHECK(agree(mesh.dpdv.span()[i], Vec3{0, 3, 0}, 1e-4, 1e-4));
+    }
+}
+
+TEST_CASE("shape/mesh: without texture coordinates, or with useless ones, derivatives are zero") {
+    for (const char* const face : {"f 1 2 3\n", "vt 0.5 0.5\nf 1/1 2/1 3/1\n"}) {
+        const Mesh mesh = with_derivatives(std::string(k_triangle) + face);
+        for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+            CHECK(mesh.dpdu.span()[i] == Vec3{0, 0, 0});
+            CHECK(mesh.dpdv.span()[i] == Vec3{0, 0, 0});
+        }
     }
 }
