@@ -74,10 +74,3 @@ TEST_CASE("the example scenes are valid") {
     }
     CHECK(checked > 0);
 }
-
-TEST_CASE("the model of docs/adding-a-model.md is the one that the consumer test builds") {
-    const fs::path toon = k_source / "tests/consumer/toon";
-    CHECK(block("docs/adding-a-model.md", "glsl") == read_file(toon / "toon.kernel"));
-    CHECK(block("docs/adding-a-model.md", "cpp") == read_file(toon / "toon.cpp"));
-    CHECK(block("docs/adding-a-model.md", "cmake") == read_file(toon / "CMakeLists.txt"));
-}
