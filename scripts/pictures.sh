@@ -17,7 +17,8 @@ object() {
     printf 'position = [%s, %s, 0.0]\nshading = "%s"\nreflection = "%s"\n%s\n' "$2" "$3" "$4" "$5" "$6"
 }
 
-contact_sheet() {
+# The light of both sheets.
+sheet_head() {
     cat <<'TOML'
 version = 1
 [room]
@@ -45,6 +46,10 @@ intensity = 0.25
 type  = "ambient"
 color = [150, 155, 180]
 TOML
+}
+
+contact_sheet() {
+    sheet_head
     local row=0 shading column reflection x y material
     for shading in flat gouraud phong; do
         column=0
@@ -63,10 +68,36 @@ TOML
     done
 }
 
+# Every reflection model that is not clear, on the same fine sphere and teapot.
+reflection_sheet() {
+    sheet_head
+    local i=0 x y reflection material
+    for reflection in lambert half-lambert oren-nayar minnaert phong blinn-phong cook-torrance ggx ward ashikhmin-shirley toon gooch; do
+        x=$(awk "BEGIN { print -3.9 + 2.6 * ($i % 4) }")
+        y=$(awk "BEGIN { print 1.5 - 1.5 * int($i / 4) }")
+        case $reflection in
+            *phong) material='material = { kd = 0.6, ks = 0.4, shininess = 30.0 }' ;;
+            oren-nayar) material='material = { sigma = 40.0 }' ;;
+            cook-torrance | ggx) material='material = { kd = 0.6, ks = 0.4, roughness = 0.25, ior = 3.0 }' ;;
+            ward) material='material = { kd = 0.4, ks = 0.6 }' ;;
+            ashikhmin-shirley) material='material = { ks = 0.2 }' ;;
+            toon) material='material = { bands = 3, ks = 0.4 }' ;;
+            *) material= ;;
+        esac
+        object 'type = "sphere"; radius = 0.48; rotation = [12.0, 20.0, 0.0]; color = [200, 96, 48]' \
+            "$(awk "BEGIN { print $x - 0.74 }")" "$y" phong "$reflection" "$material"
+        object 'type = "teapot"; size = 0.72; segments = 16; rotation = [24.0, 20.0, 0.0]; color = [70, 130, 190]' \
+            "$(awk "BEGIN { print $x + 0.42 }")" "$y" phong "$reflection" "$material"
+        i=$((i + 1))
+    done
+}
+
 sheet=$(mktemp --suffix=.toml)
 trap 'rm -f "$sheet"' EXIT
 contact_sheet >"$sheet"
 render "$sheet" -o "$out/contact-sheet.png"
+reflection_sheet >"$sheet"
+render "$sheet" -o "$out/reflection-models.png"
 render "$root/docs/examples/still-life.toml" -o "$out/still-life.png"
 render "$root/docs/examples/glass.toml" -o "$out/glass.png"
 render --samples 16 -o "$out/default-scene.png"

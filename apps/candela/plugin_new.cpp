@@ -68,7 +68,7 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> words = line.all("arguments");
     if (words.size() < 2)
-        throw Error(ExitCode::usage, "candela plugin new needs a kind and a name, such as: reflection toon");
+        throw Error(ExitCode::usage, "candela plugin new needs a kind and a name, such as: reflection cel");
     const std::vector<std::string> kinds{"light", "reflection", "shading", "shape"};
     if (std::ranges::find(kinds, words[0]) == kinds.end()) {
         const auto near = candela::closest(words[0], kinds);

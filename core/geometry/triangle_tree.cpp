@@ -67,7 +67,7 @@ std::optional<RayExit> TriangleTree::exit_of(Vec3 origin, Vec3 direction) const 
 
         bool intersectVolume(const AlignedBox& volume) const {
             double first = -tree.rounding;
-            double last = static_cast<double>(nearest.distance);
+            auto last = static_cast<double>(nearest.distance);
             for (int axis = 0; axis < 3; ++axis) {
                 const double t0 = (volume.min()[axis] - tree.rounding - point[axis]) / direction[axis];
                 const double t1 = (volume.max()[axis] + tree.rounding - point[axis]) / direction[axis];

@@ -87,7 +87,9 @@ void TileShader::fill_background() {
     }
     for (int row = 0; row < visibility_.height; ++row) {
         for (int column = 0; column < visibility_.width; ++column) {
-            const auto i = static_cast<std::size_t>(row * visibility_.stride + column);
+            const std::size_t i =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(visibility_.stride) +
+                static_cast<std::size_t>(column);
             const Vec3 towards =
                 projected_.camera.view_through(static_cast<float>(visibility_.x0 + column) + 0.5f,
                                                static_cast<float>(visibility_.y0 + row) + 0.5f);

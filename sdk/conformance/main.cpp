@@ -131,7 +131,7 @@ int run(int argc, char** argv) {
             std::cout << group << '\n';
         return 0;
     }
-    if (options.files.empty()) return usage("name one plugin or more, such as build/reflection-toon.so");
+    if (options.files.empty()) return usage("name one plugin or more, such as build/reflection-cel.so");
     options.json = values.contains("json");
 
     bool all_conform = true;

@@ -19,12 +19,12 @@ candela=$scratch/prefix/bin/candela
 before=$(sha256sum "$scratch/prefix/lib/libcandela_core.so")
 
 say "build a plugin that only knows the installation"
-cp -r "$here/toon" "$scratch/toon"
-"$cmake" -G Ninja -S "$scratch/toon" -B "$scratch/toon/build" -DCMAKE_BUILD_TYPE=Release \
+cp -r "$here/cel" "$scratch/cel"
+"$cmake" -G Ninja -S "$scratch/cel" -B "$scratch/cel/build" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 ||
     { cat "$scratch/configure.log" >&2; fail "configuring the plugin"; }
-"$cmake" --build "$scratch/toon/build" >"$scratch/build.log" 2>&1 || { cat "$scratch/build.log" >&2; fail "building the plugin"; }
-plugin=$scratch/toon/build/reflection-toon
+"$cmake" --build "$scratch/cel/build" >"$scratch/build.log" 2>&1 || { cat "$scratch/build.log" >&2; fail "building the plugin"; }
+plugin=$scratch/cel/build/reflection-cel
 [ -f "$plugin.so" ] && [ -f "$plugin.json" ] || fail "no plugin was built"
 exported=$(nm -D --defined-only "$plugin.so" | awk '{ print $NF }' | grep -v '^candela_' || true)
 [ -z "$exported" ] || fail "the plugin exports more than candela_*: $exported"
@@ -35,22 +35,22 @@ cp "$plugin.so" "$plugin.json" "$scratch/plugins/"
 export CANDELA_PLUGIN_PATH=$scratch/plugins
 "$candela" list reflection >"$scratch/out"
 expect "$scratch/out" "Brightness in steps" "candela list"
-"$candela" describe reflection/toon >"$scratch/out"
+"$candela" describe reflection/cel >"$scratch/out"
 expect "$scratch/out" "steps of brightness" "candela describe"
 expect "$scratch/out" "version 1.2.3" "candela describe"
 "$candela" schema >"$scratch/out"
-expect "$scratch/out" "toon: steps of brightness (a whole number, 1 to 16)" "candela schema"
-"$candela" render --reflection toon --set object.cube.material.bands=2 -o "$scratch/toon.ppm" 2>"$scratch/out"
+expect "$scratch/out" "cel: steps of brightness (a whole number, 1 to 16)" "candela schema"
+"$candela" render --reflection cel --set object.cube.material.bands=2 -o "$scratch/cel.ppm" 2>"$scratch/out"
 "$candela" render -o "$scratch/phong.ppm" 2>"$scratch/out"
-cmp -s "$scratch/toon.ppm" "$scratch/phong.ppm" && fail "toon looks like Phong"
+cmp -s "$scratch/cel.ppm" "$scratch/phong.ppm" && fail "cel looks like Phong"
 # Two bands, no highlight, 1/r^2 from the lamp still: not a constant picture, not a black one.
-[ "$(tail -c +16 "$scratch/toon.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 20 ] || fail "the toon picture is empty"
+[ "$(tail -c +16 "$scratch/cel.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 20 ] || fail "the cel picture is empty"
 
 say "by directory flag, and wrong values are explained"
 unset CANDELA_PLUGIN_PATH
-"$candela" render --plugin-dir "$scratch/plugins" --reflection toon -o "$scratch/flag.ppm" 2>"$scratch/out"
+"$candela" render --plugin-dir "$scratch/plugins" --reflection cel -o "$scratch/flag.ppm" 2>"$scratch/out"
 code=0
-"$candela" render --plugin-dir "$scratch/plugins" --reflection toon --set object.cube.material.bands=99 \
+"$candela" render --plugin-dir "$scratch/plugins" --reflection cel --set object.cube.material.bands=99 \
     -o "$scratch/no.ppm" 2>"$scratch/out" || code=$?
 [ "$code" -eq 3 ] || fail "exit code $code for bands = 99"
 expect "$scratch/out" "1 to 16" "bands = 99"
@@ -58,8 +58,8 @@ expect "$scratch/out" "1 to 16" "bands = 99"
 
 say "removed, its name is unknown"
 code=0
-"$candela" render --reflection toon -o "$scratch/no.ppm" 2>"$scratch/out" || code=$?
+"$candela" render --reflection cel -o "$scratch/no.ppm" 2>"$scratch/out" || code=$?
 [ "$code" -eq 3 ] || fail "exit code $code for an unknown model"
-expect "$scratch/out" "no reflection plugin is called 'toon'" "candela render"
+expect "$scratch/out" "no reflection plugin is called 'cel'" "candela render"
 [ "$(sha256sum "$scratch/prefix/lib/libcandela_core.so")" = "$before" ] || fail "the core was touched"
 say "all well"

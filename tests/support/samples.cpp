@@ -64,13 +64,25 @@ std::vector<ReflectedPair> reflect(const candela::ReflectionModel& model,
     const Vec3Arrays light_specular = column(samples, &ReflectionSample::specular);
     Vec3Arrays ambient = zeros(samples.size()), diffuse = zeros(samples.size()),
                specular = zeros(samples.size());
-    model.reflect({samples.size(), normal.span(), to_observer.span(), {}, color},
-                  {to_light.span(), light_diffuse.span(), light_specular.span()},
-                  {ambient.span(), diffuse.span(), specular.span()});
+    Vec3Arrays tangent = zeros(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Double3 t = tangent_at(exact(samples[i].normal));
+        tangent.span().set(i, {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z)});
+    }
+    model.reflect(
+        {samples.size(), normal.span(), to_observer.span(),
+         model.needs_tangent() ? candela::ConstVec3Span(tangent.span()) : candela::ConstVec3Span{}, color},
+        {to_light.span(), light_diffuse.span(), light_specular.span()},
+        {ambient.span(), diffuse.span(), specular.span()});
     std::vector<ReflectedPair> result;
     for (std::size_t i = 0; i < samples.size(); ++i)
         result.push_back({diffuse.span()[i], specular.span()[i]});
     return result;
+}
+
+Double3 tangent_at(Double3 normal) {
+    const Double3 aside = std::abs(normal.y) < 0.9 ? Double3{0, 1, 0} : Double3{1, 0, 0};
+    return unit(cross(aside, normal));
 }
 
 std::vector<Vec3> reflect_ambient(const candela::ReflectionModel& model,

@@ -51,6 +51,9 @@ struct ReflectionSample {
     candela::Vec3 diffuse, specular;  // light's intensities
 };
 
+/// The tangent that the samples below have at a point with that normal, a unit vector.
+Double3 tangent_at(Double3 normal);
+
 struct ReflectedPair {
     candela::Vec3 diffuse, specular;
 };

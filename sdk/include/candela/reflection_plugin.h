@@ -114,3 +114,11 @@ class KernelReflection final : public ReflectionModel {
                           (candela::sdk::KernelReflection<Material, &candela::kernel::prefix##_reflect, \
                                                           &candela::kernel::prefix##_reflect_ambient>), \
                           prefix, Material, fields, __VA_ARGS__)
+
+/// The same for a model that reads Surface::tangent.
+#define CANDELA_ANISOTROPIC_REFLECTION_PLUGIN(prefix, Material, fields, ...)                            \
+    CANDELA_KERNEL_PLUGIN(reflection,                                                                   \
+                          (candela::sdk::KernelReflection<Material, &candela::kernel::prefix##_reflect, \
+                                                          &candela::kernel::prefix##_reflect_ambient,   \
+                                                          candela::sdk::Tangent::needed>),              \
+                          prefix, Material, fields, __VA_ARGS__)

@@ -1,0 +1,35 @@
+// Integrals over directions, for what distributions and reflection models must add up to.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "samples.h"
+
+/// The integral of f over the hemisphere around +y, by the midpoint rule in polar angle and azimuth.
+inline double over_hemisphere(const std::function<double(Double3)>& f, int steps = 400) {
+    const double step = std::numbers::pi / 2 / steps;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double theta = (i + 0.5) * step;
+        for (int j = 0; j < steps; ++j) {
+            const double phi = 2 * std::numbers::pi * (j + 0.5) / steps;
+            const Double3 d{std::sin(theta) * std::cos(phi), std::cos(theta),
+                            std::sin(theta) * std::sin(phi)};
+            sum += f(d) * std::sin(theta);
+        }
+    }
+    return sum * step * 2 * std::numbers::pi / steps;
+}
+
+/// Fresnel's equations for the two polarisations (Born, Wolf 1999, 1.5.2 (21)), averaged: the share of light
+/// that a surface between media of index 1 and `ior` >= 1 mirrors.
+inline double exact_fresnel(double cosine, double ior) {
+    const double angle = std::acos(std::min(cosine, 1.0));
+    if (angle < 1e-6) return std::pow((ior - 1) / (ior + 1), 2);
+    const double refracted = std::asin(std::sin(angle) / ior);
+    const double s = std::sin(angle - refracted) / std::sin(angle + refracted);
+    const double p = std::tan(angle - refracted) / std::tan(angle + refracted);
+    return (s * s + p * p) / 2;
+}
