@@ -116,7 +116,7 @@ std::string source() {
     const std::string filled = parameters.empty()
                                    ? std::string("const int m = 0; (void)m; (void)p; (void)sample;")
                                    : parameters + " m; (void)p; (void)sample;\n" + members_from_parameters();
-    std::string text = fmt::format(
+    const std::string text = fmt::format(
         "#include \"candela/kernel.h\"\n"
         "namespace candela::kernel {{\n{}\n}}\n"
         "using namespace candela::kernel;\n"
