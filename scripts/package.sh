@@ -10,3 +10,4 @@ cd "$root"
 cmake --preset release -DCANDELA_TESTS=ON >/dev/null
 cmake --build build/release --target candela_packaged
 cpack --config build/release/CPackConfig.cmake -B build/packages
+rm -rf build/packages/_CPack_Packages

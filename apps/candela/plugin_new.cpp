@@ -81,7 +81,8 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     const fs::path source = beside_command("share/candela/template") / words[0];
     if (!fs::is_directory(source))
         throw Error(ExitCode::failure,
-                    fmt::format("the templates are not installed: there is no '{}'", source.string()));
+                    fmt::format("the templates are not installed: there is no '{}' (package candela-dev)",
+                                source.string()));
     if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
         throw Error(ExitCode::failure, fmt::format("'{}' is already there", target.string()));
     const auto values = names_of(words[1]);

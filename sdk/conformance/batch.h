@@ -59,6 +59,23 @@ struct BatchSubject {
     std::vector<Call> calls;
 };
 
+/// The inputs' places among the arrays, whatever the kind: each three of them.
+namespace inputs {
+inline constexpr std::size_t k_normal = 0;    // N
+inline constexpr std::size_t k_observer = 3;  // V
+inline constexpr std::size_t k_tangent = 6;
+inline constexpr std::size_t k_light = 9;     // L
+inline constexpr std::size_t k_diffuse = 12;  // intensities
+inline constexpr std::size_t k_specular = 15;
+inline constexpr std::size_t k_position = 18;
+inline constexpr std::size_t k_barycentric = 21;
+inline constexpr std::size_t k_vertex_normal = 24;
+inline constexpr std::size_t k_dpdu = 27;
+inline constexpr std::size_t k_dpdv = 30;
+inline constexpr std::size_t k_uv = 33;  // two
+inline constexpr std::size_t k_inputs = 35;
+}  // namespace inputs
+
 BatchSubject batch_subject(const Values& values);
 
 /// Inputs as a renderer gives them, the same for one `seed`: unit vectors, positions, colours.

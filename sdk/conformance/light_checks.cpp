@@ -18,7 +18,7 @@ std::optional<Vec3> position_in(const Values& values) {
     return p != nullptr ? std::optional(*p) : std::nullopt;
 }
 
-/// The sum of what all samples send, diffusely, to receivers that face the light.
+/// The sum of what the samples tried send, diffusely, to receivers that face the light.
 std::vector<float> sent_to(const Values& values, const std::vector<Vec3>& points, Vec3 normal) {
     Arrays in = inputs_for(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {

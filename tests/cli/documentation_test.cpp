@@ -75,10 +75,3 @@ TEST_CASE("the example scenes are valid") {
     }
     CHECK(checked > 0);
 }
-
-TEST_CASE("the model of docs/adding-a-model.md is the one that the consumer test builds") {
-    const fs::path cel = k_source / "tests/consumer/cel";
-    CHECK(block("docs/adding-a-model.md", "glsl") == read_file(cel / "cel.kernel"));
-    CHECK(block("docs/adding-a-model.md", "cpp") == read_file(cel / "cel.cpp"));
-    CHECK(block("docs/adding-a-model.md", "cmake") == read_file(cel / "CMakeLists.txt"));
-}

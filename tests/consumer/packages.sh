@@ -28,6 +28,10 @@ development=("$scratch"/packages/candela-dev_*.deb)
 { [ -f "${runtime[0]}" ] && [ -f "${development[0]}" ]; } || fail "not both packages were made"
 [ "$(dpkg-deb -f "${development[0]}" Version)" = "$(dpkg-deb -f "${runtime[0]}" Version)" ] || fail "versions differ"
 dpkg-deb -f "${runtime[0]}" Depends | grep -q libtbb || fail "the core's libraries are not among the dependencies"
+for package in "${runtime[0]}" "${development[0]}"; do
+    # Two spaces would mean text that is not to be flowed.
+    if dpkg-deb -f "$package" Description | grep -q '^  '; then fail "the description of $package is indented"; fi
+done
 
 # A root with the machine's list of packages, so that dpkg itself decides whether all dependencies are met. The scripts,
 # which call ldconfig, run outside of it (there is no shell in it), and must not write the machine's cache.
@@ -65,6 +69,9 @@ cmp -s "$scratch/picture.png" "$scratch/built.png" || fail "the installed comman
 code=0
 "$candela" plugin test "$root/usr/lib/candela/plugins/light-point.so" 2>"$scratch/log" || code=$?
 { [ "$code" -eq 1 ] && grep -q 'package candela-dev' "$scratch/log"; } || fail "nothing says that the kit is in candela-dev"
+code=0
+"$candela" plugin new light x "$scratch/x" 2>"$scratch/log" || code=$?
+{ [ "$code" -eq 1 ] && grep -q 'package candela-dev' "$scratch/log"; } || fail "nothing says that templates are in candela-dev"
 
 say "a plugin from nothing, with the installed packages alone"
 quiet package_manager -i "${development[@]}"

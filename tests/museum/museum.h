@@ -1,9 +1,12 @@
 // What the museum's bad plugins share: a matt reflection model, by hand and without fault, to spoil.
 #pragma once
 
+#include <cstddef>
 #include <fstream>
+#include <span>
 #include <string>
 
+#include "candela/image_plugin.h"
 #include "candela/reflection_plugin.h"
 
 namespace museum {
@@ -47,9 +50,40 @@ class Matt : public candela::ReflectionModel {
     float kd_;
 };
 
+/// A PPM writer without fault.
+class Ppm : public candela::ImageFormat {
+  public:
+    explicit Ppm(const candela::sdk::NoParams&) {}
+
+    void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
+        const std::string head =
+            "P6\n" + std::to_string(picture.width) + ' ' + std::to_string(picture.height) + "\n255\n";
+        sink.write(std::as_bytes(std::span(head)));
+        std::string pixels(picture.bytes.size(), '\0');
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            pixels[i] = static_cast<char>(picture.bytes[i - i % 3 + channel(i % 3)]);
+        sink.write(std::as_bytes(std::span(pixels)));
+    }
+
+  protected:
+    virtual std::size_t channel(std::size_t c) const { return c; }
+};
+
+constexpr candela::FileFormat k_formats[] = {{"ppm", "Portable pixmap"}};
+
 }  // namespace museum
 
 #define MUSEUM_PIECE(Model, ...)             \
     CANDELA_PLUGIN(                          \
         reflection, Model, museum::k_fields, \
         {.title = #Model, .summary = "Bad on purpose.", .reference = "none" __VA_OPT__(, ) __VA_ARGS__})
+
+/// One with the kernel text that lies beside it.
+#define MUSEUM_KERNEL_PIECE(Model, prefix)                                             \
+    CANDELA_KERNEL_PLUGIN(reflection, Model, prefix, museum::Params, museum::k_fields, \
+                          {.title = #prefix, .summary = "Bad on purpose.", .reference = "none"})
+
+#define MUSEUM_FORMAT(Format)                     \
+    CANDELA_PLUGIN(                               \
+        image, Format, candela::sdk::k_no_fields, \
+        {.title = #Format, .summary = "Bad on purpose.", .reference = "none", .formats = museum::k_formats})

@@ -104,7 +104,6 @@ using candela::PixelType;
 constexpr candela::FileFormat k_formats[] = {
     {"exr", "OpenEXR, float", PixelType::real, true},
     {"hdr", "Radiance RGBE, float", PixelType::real, true},
-    {"pfm", "Portable float map", PixelType::real, true},
     {"tif", "TIFF", PixelType::byte, true},
     {"tiff", "TIFF", PixelType::byte, true},
     {"jpg", "JPEG", PixelType::byte, true},

@@ -1,8 +1,9 @@
 // A reflection model from two kernel functions:
 //
-//     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)      what is reflected of a light's
-//     intensities vec3 x_reflect_ambient(XMaterial m, Surface s)                  what is reflected of
-//     ambient intensity
+//     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
+//     vec3 x_reflect_ambient(XMaterial m, Surface s)
+//
+// They answer what a light's intensities and ambient intensity are multiplied by.
 #pragma once
 
 #include "candela/multiversion.h"

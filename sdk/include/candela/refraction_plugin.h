@@ -1,11 +1,13 @@
 // A reflection model that shows what surrounds the object, in five kernel functions:
 //
-//     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)          as in reflection_plugin.h
-//     vec3 x_reflect_ambient(XMaterial m, Surface s)                      likewise
-//     Refracted x_enter(XMaterial m, Surface s)                           where the line of sight comes in
-//     Refracted x_leave(XMaterial m, vec3 direction, vec3 normal)         where it comes to the surface from
-//     within vec3 x_transmit(XMaterial m, vec3 color, float distance)            what is left of light on a
-//     way through
+//     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
+//     vec3 x_reflect_ambient(XMaterial m, Surface s)
+//     Refracted x_enter(XMaterial m, Surface s)
+//     Refracted x_leave(XMaterial m, vec3 direction, vec3 normal)
+//     vec3 x_transmit(XMaterial m, vec3 color, float distance)
+//
+// The first two are those of reflection_plugin.h; then: where the line of sight comes in, where it comes to
+// the surface from within, and what is left of light after a way through.
 //
 // The material has a member `int internal_reflections`.
 #pragma once

@@ -12,4 +12,4 @@ constexpr auto k_fields =
            integer(&CelMaterial::bands, "bands", 3, "steps of brightness").range(1, 16));
 
 CANDELA_REFLECTION_PLUGIN(cel, CelMaterial, k_fields,
-                          {.title = "Cel", .summary = "Brightness in steps, as in carcels."})
+                          {.title = "Cel", .summary = "Brightness in steps, as in cartoons."})

@@ -1,0 +1,120 @@
+// What must hold of the text that programs are generated from: it is C++ and GLSL, and it is what the plugin
+// computes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "batch.h"
+#include "kernel_program.h"
+
+using candela::PluginKind;
+using candela::Vec3;
+
+namespace {
+
+void skip_without_kernel() {
+    if (subject().kernel.text == nullptr) SKIP("it has no kernel text: programs cannot be generated from it");
+}
+
+/// The compiler may join a product and a sum in one build and not in the other, and a large exponent makes
+/// much of that.
+bool agree(float a, float b, float largest) {
+    return std::abs(a - b) <= 2e-3f * std::max(std::abs(a), std::abs(b)) + 1e-5f * largest + 1e-7f;
+}
+
+/// Where a model has an edge, the last bit decides on which side of it a point is; a wrong formula is wrong
+/// nearly everywhere.
+constexpr double k_may_differ = 0.01;
+
+void compare(const KernelProgram& program, const Call& call, const Values& values) {
+    const bool is_light_sample = call.name.starts_with("illuminate (sample ");
+    const int sample = is_light_sample ? std::stoi(call.name.substr(19)) : 0;
+    const Arrays in = inputs_for(500);
+    const Arrays expected = outputs_of(call, in);
+    Arrays actual(expected.arrays(), in.count());
+    program.run(is_light_sample ? "illuminate" : call.name, values, sample, in, actual);
+    std::size_t differing = 0, first = in.count(), array = 0;
+    for (std::size_t a = 0; a < expected.arrays(); ++a) {
+        const std::size_t part = a - a % 3;
+        for (std::size_t i = 0; i < in.count(); ++i) {
+            const float largest = std::max({std::abs(expected[part][i]), std::abs(expected[part + 1][i]),
+                                            std::abs(expected[part + 2][i])});
+            if (agree(expected[a][i], actual[a][i], largest)) continue;
+            if (differing++ == 0) {
+                first = i;
+                array = a;
+            }
+        }
+    }
+    if (static_cast<double>(differing) > k_may_differ * static_cast<double>(in.count()))
+        FAIL("the kernel's text gives " << actual[array][first] << " as " << call.outputs[array / 3]
+                                        << " where " << call.name << " gives " << expected[array][first]
+                                        << ", for " << text_of_input(in, first) << ", with " << values.text);
+}
+
+void compare_shape(const KernelProgram& program, const Values& values) {
+    const candela::Mesh mesh =
+        candela::place(*make<candela::Shape>(values), {.uv = true, .derivatives = true}, {}).mesh;
+    if (mesh.u.empty()) FAIL("it has kernel text, and its mesh has no texture coordinates to try it at");
+    float size = 0;
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
+        size = std::max(size, candela::length(mesh.position.span()[i]));
+    const std::size_t step = std::max<std::size_t>(mesh.vertex_count() / 500, 1);
+    for (std::size_t i = 0; i < mesh.vertex_count(); i += step) {
+        const Vec3 expected = mesh.position.span()[i];
+        const Vec3 actual = program.position(values, mesh.u[i], mesh.v[i]);
+        if (candela::length(actual - expected) > 1e-4f * size)
+            FAIL(fmt::format(
+                "the kernel's text puts ({}, {}) at [{}, {}, {}], the mesh has [{}, {}, {}] there, with {}",
+                mesh.u[i], mesh.v[i], actual.x, actual.y, actual.z, expected.x, expected.y, expected.z,
+                values.text));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("kernel as C++: the text compiles, and gives the numbers that the plugin gives",
+          "[reflection][light][shading][shape]") {
+    skip_without_kernel();
+    const KernelProgram program;
+    for (const Values& values : many_values(20)) {
+        if (subject_manifest().kind == PluginKind::shape) {
+            compare_shape(program, values);
+            continue;
+        }
+        int calls = 0;
+        for (const Call& call : batch_subject(values).calls) {
+            // What is seen of the surroundings is put together from several functions, and a large source is
+            // its samples.
+            if (call.name == "show_surroundings" || ++calls > 4) continue;
+            compare(program, call, values);
+        }
+    }
+}
+
+TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
+          "[reflection][light][shading][shape]") {
+    skip_without_kernel();
+    if (!program_called({"glslangValidator"})) SKIP("there is no glslangValidator here");
+    const std::filesystem::path include = sdk_include_directory();
+    if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
+    std::ifstream prelude_file(include / "candela/prelude.kernel");
+    const std::string prelude{std::istreambuf_iterator<char>(prelude_file), {}};
+    const TemporaryDirectory directory;
+    const std::filesystem::path shader = directory.path() / "shader.frag";
+    for (const std::string version : {"330 core", "300 es"}) {
+        std::ofstream(shader) << "#version " << version << "\n"
+                              << (version == "300 es" ? "precision highp float;\nprecision highp int;\n" : "")
+                              << "#define KERNEL\nout vec4 color;\n"
+                              << prelude << "\n#line 1\n"
+                              << subject().kernel.text << "\nvoid main() { color = vec4(1.0); }\n";
+        const CommandOutput compiled = output_of_command("glslangValidator '" + shader.string() + "'");
+        if (compiled.exit_code != 0)
+            FAIL("the kernel's text does not compile as GLSL " << version << ":\n"
+                                                               << compiled.text.substr(0, 400));
+    }
+}

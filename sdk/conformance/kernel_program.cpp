@@ -1,0 +1,244 @@
+#include "kernel_program.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace fs = std::filesystem;
+using candela::Parameter;
+using candela::ParamType;
+using candela::PluginKind;
+
+namespace {
+
+/// As one word of a shell.
+std::string quoted(const std::string& word) {
+    std::string result = "'";
+    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+constexpr std::size_t k_slots = 3;  // floats that a parameter takes, whatever its type
+
+/// Statements that fill the kernel's struct, whose members are called as the parameters (see KernelText).
+std::string members_from_parameters() {
+    std::string text;
+    const std::vector<Parameter>& parameters = subject_manifest().parameters;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const Parameter& p = parameters[i];
+        const std::size_t at = k_slots * i;
+        switch (p.type) {
+            case ParamType::real:
+                text += fmt::format("    m.{} = p[{}];\n", p.name, at);
+                break;
+            case ParamType::integer:
+            case ParamType::boolean:
+            case ParamType::choice:
+                text += fmt::format("    m.{} = int(p[{}]);\n", p.name, at);
+                break;
+            case ParamType::text:
+            case ParamType::file:
+                break;  // the kernel language has no texts
+            default:
+                text += fmt::format("    m.{} = vec3(p[{}], p[{}], p[{}]);\n", p.name, at, at + 1, at + 2);
+        }
+    }
+    return text;
+}
+
+/// What one point's call is, after the parameters, and where its result goes; the arrays are those of
+/// batch.h.
+std::string body_of(PluginKind kind) {
+    namespace in = inputs;
+    const auto three = [](const char* array, std::size_t first) {
+        return fmt::format("vec3({0}[{1}][i], {0}[{2}][i], {0}[{3}][i])", array, first, first + 1, first + 2);
+    };
+    const auto put = [](std::size_t first, const std::string& value) {
+        return fmt::format("{{ const vec3 v = {}; out[{}][i] = v.x; out[{}][i] = v.y; out[{}][i] = v.z; }}\n",
+                           value, first, first + 1, first + 2);
+    };
+    const auto function = [](const std::string& name, const std::string& before, const std::string& call,
+                             const std::string& after) {
+        return fmt::format(
+            "extern \"C\" void run_{}(const float* p, int sample, unsigned long count, const float* const* "
+            "in, float* "
+            "const* out) {{\n    PARAMETERS\n    for (unsigned long i = 0; i < count; ++i) {{\n        {}    "
+            "    {}\n"
+            "        {}    }}\n}}\n",
+            name, before, call, after);
+    };
+    const std::string surface =
+        fmt::format("Surface s{{{}, {}, {}, vec3(0.8f, 0.5f, 0.2f)}};\n", three("in", in::k_normal),
+                    three("in", in::k_observer), three("in", in::k_tangent));
+    const std::string receiver =
+        fmt::format("Receiver s{{{}, {}}};\n", three("in", in::k_position), three("in", in::k_normal));
+    switch (kind) {
+        case PluginKind::reflection:
+            return function("reflect", surface,
+                            fmt::format("const auto r = CALL(reflect, s, {});", three("in", in::k_light)),
+                            put(3, "r.diffuse * " + three("in", in::k_diffuse)) +
+                                put(6, "r.specular * " + three("in", in::k_specular))) +
+                   function("reflect_ambient", surface, "const auto r = CALL(reflect_ambient, s);",
+                            put(0, "r * " + three("in", in::k_diffuse)));
+        case PluginKind::light:
+            if (make<candela::Light>(default_values())->has_ambient()) {
+                return function("illuminate_ambient", receiver, "const auto r = CALL(illuminate_ambient, s);",
+                                put(0, "r"));
+            }
+            return function("illuminate", receiver, "const auto r = SAMPLED(illuminate, s);",
+                            put(0, "r.to_light") + put(3, "r.diffuse") + put(6, "r.specular"));
+        case PluginKind::shading:
+            return function("normals",
+                            fmt::format("ShadingPoint s{{{}, {}, {}, vec2(in[{}][i], in[{}][i]), {}, {}}};\n",
+                                        three("in", in::k_normal), three("in", in::k_vertex_normal),
+                                        three("in", in::k_barycentric), in::k_uv, in::k_uv + 1,
+                                        three("in", in::k_dpdu), three("in", in::k_dpdv)),
+                            "const auto r = CALL(normal, s);", put(0, "r"));
+        default:
+            return function("position", "", "const auto r = CALL(position, in[0][i], in[1][i]);",
+                            put(0, "r"));
+    }
+}
+
+/// The whole program. Functions get the parameters first, or not at all, and the sample's number last, if
+/// they take it.
+std::string source() {
+    const candela::KernelText& kernel = subject().kernel;
+    const std::string parameters = kernel.parameters;
+    const std::string filled = parameters.empty()
+                                   ? std::string("const int m = 0; (void)m; (void)p; (void)sample;")
+                                   : parameters + " m; (void)p; (void)sample;\n" + members_from_parameters();
+    const std::string text = fmt::format(
+        "#include \"candela/kernel.h\"\n"
+        "namespace candela::kernel {{\n{}\n}}\n"
+        "using namespace candela::kernel;\n"
+        "#define CALL(name, ...) [&](auto m_, auto... a) {{ \\\n"
+        "    if constexpr (requires {{ {}_##name(m_, a...); }}) return {}_##name(m_, a...); \\\n"
+        "    else return {}_##name(a...); }}(m, __VA_ARGS__)\n"
+        "#define SAMPLED(name, s) [&](auto m_, auto a) {{ \\\n"
+        "    if constexpr (requires {{ {}_##name(m_, a, sample); }}) return {}_##name(m_, a, sample); \\\n"
+        "    else return CALL(name, a); }}(m, s)\n",
+        kernel.text, kernel.prefix, kernel.prefix, kernel.prefix, kernel.prefix, kernel.prefix);
+    std::string body = body_of(subject_manifest().kind);
+    for (std::size_t at; (at = body.find("PARAMETERS")) != std::string::npos;) body.replace(at, 10, filled);
+    return text + body;
+}
+
+/// Lines that say what is wrong, few enough to read.
+std::string errors_in(const std::string& log) {
+    std::istringstream lines(log);
+    std::string result;
+    int shown = 0;
+    for (std::string line; std::getline(lines, line) && shown < 4;) {
+        if (line.find("error") == std::string::npos) continue;
+        result += "\n" + line;
+        ++shown;
+    }
+    return result.empty() ? "\n" + log.substr(0, 400) : result;
+}
+
+std::vector<float> delivered(const Values& values) {
+    std::vector<float> slots;
+    const auto all = values.set.delivered(candela::ColorEncoding::none);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const ParamType type = subject_manifest().parameters[i].type;
+        const bool is_whole =
+            type == ParamType::integer || type == ParamType::boolean || type == ParamType::choice;
+        slots.push_back(is_whole ? static_cast<float>(all[i].integer) : all[i].number[0]);
+        slots.push_back(all[i].number[1]);
+        slots.push_back(all[i].number[2]);
+    }
+    return slots;
+}
+
+}  // namespace
+
+CommandOutput output_of_command(const std::string& command) {
+    CommandOutput result;
+    std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return {127, "no process can be started"};
+    char buffer[4096];
+    while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, pipe))
+        result.text.append(buffer, count);
+    const int status = ::pclose(pipe);
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 126;
+    return result;
+}
+
+std::optional<std::string> program_called(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        const CommandOutput found = output_of_command("command -v " + quoted(name));
+        if (found.exit_code == 0) return name;
+    }
+    return std::nullopt;
+}
+
+fs::path sdk_include_directory() {
+    std::error_code problem;
+    for (fs::path above = fs::read_symlink("/proc/self/exe", problem).parent_path();
+         above.has_relative_path(); above = above.parent_path()) {
+        if (fs::exists(above / "include/candela/kernel.h", problem)) return above / "include";
+    }
+    return {};
+}
+
+TemporaryDirectory::TemporaryDirectory() {
+    std::string name = (fs::temp_directory_path() / "candela-kernel-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) FAIL("no folder can be made in " << fs::temp_directory_path());
+    path_ = name;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+KernelProgram::KernelProgram() {
+    const auto compiler = program_called({"clang++-19", "clang++", "g++"});
+    if (!compiler) SKIP("there is no C++ compiler here");
+    const fs::path include = sdk_include_directory();
+    if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
+    const fs::path file = directory_.path() / "kernel.cpp", library = directory_.path() / "kernel.so";
+    std::ofstream(file) << source();
+    const CommandOutput compiled = output_of_command(
+        fmt::format("{} -std=c++20 -O1 -fPIC -shared -w -ffp-contract=off -I{} {} -o {}", *compiler,
+                    quoted(include.string()), quoted(file.string()), quoted(library.string())));
+    if (compiled.exit_code != 0)
+        FAIL("the kernel's text does not compile as C++ (" << *compiler << "):" << errors_in(compiled.text));
+    library_ = {::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL), [](void* handle) {
+                    if (handle != nullptr) ::dlclose(handle);
+                }};
+    if (!library_) FAIL("the compiled kernel cannot be loaded: " << ::dlerror());
+}
+
+KernelProgram::Function KernelProgram::function(const std::string& name) const {
+    void* const symbol = ::dlsym(library_.get(), ("run_" + name).c_str());
+    if (symbol == nullptr) FAIL("the kernel has no function for " << name);
+    return reinterpret_cast<Function>(symbol);
+}
+
+void KernelProgram::run(const std::string& call, const Values& values, int sample, const Arrays& in,
+                        Arrays& out) const {
+    const std::vector<float> parameters = delivered(values);
+    std::vector<const float*> from;
+    std::vector<float*> to;
+    for (std::size_t a = 0; a < in.arrays(); ++a) from.push_back(in[a]);
+    for (std::size_t a = 0; a < out.arrays(); ++a) to.push_back(out[a]);
+    function(call)(parameters.data(), sample, in.count(), from.data(), to.data());
+}
+
+candela::Vec3 KernelProgram::position(const Values& values, float u, float v) const {
+    Arrays in(2, 1), out(3, 1);
+    in[0][0] = u;
+    in[1][0] = v;
+    run("position", values, 0, in, out);
+    return out.at(0, 0);
+}

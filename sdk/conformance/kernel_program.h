@@ -1,0 +1,58 @@
+// A plugin's kernel text, compiled by whatever compiler this machine has.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch.h"
+
+/// What became of a command: its exit code, and what it printed.
+struct CommandOutput {
+    int exit_code = 0;
+    std::string text;
+};
+CommandOutput output_of_command(const std::string& command);
+
+/// A program on PATH that one of the names calls, or nothing.
+std::optional<std::string> program_called(const std::vector<std::string>& names);
+
+/// The folder that has candela/kernel.h, above the kit's own; empty where there is none.
+std::filesystem::path sdk_include_directory();
+
+/// A folder that is gone when this is.
+class TemporaryDirectory {
+  public:
+    TemporaryDirectory();
+    TemporaryDirectory(const TemporaryDirectory&) = delete;
+    TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+    ~TemporaryDirectory();
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// The text as C++: `run` does what the plugin's call of that name does, one point after another.
+class KernelProgram {
+  public:
+    /// Fails the check, with what the compiler says, where the text is no C++; skips it where there is no
+    /// compiler.
+    KernelProgram();
+
+    /// What the calls of batch_subject() give, by name; `sample` is the light's.
+    void run(const std::string& call, const Values& values, int sample, const Arrays& in, Arrays& out) const;
+    /// A shape's position at (u, v) of its parameter square.
+    candela::Vec3 position(const Values& values, float u, float v) const;
+
+  private:
+    using Function = void (*)(const float* parameters, int sample, std::size_t count, const float* const* in,
+                              float* const* out);
+    Function function(const std::string& name) const;
+
+    TemporaryDirectory directory_;
+    std::shared_ptr<void> library_;
+};

@@ -1,0 +1,11 @@
+// A PPM writer that writes blue where red should be.
+#include "museum.h"
+
+namespace {
+class SwapsChannels final : public museum::Ppm {
+    using Ppm::Ppm;
+    std::size_t channel(std::size_t c) const override { return 2 - c; }
+};
+}  // namespace
+
+MUSEUM_FORMAT(SwapsChannels)
