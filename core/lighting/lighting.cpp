@@ -106,7 +106,8 @@ struct LargestLoop {
 
 float largest_of(ConstVec3Span v, std::size_t count) {
     std::int32_t bits = 0;
-    multiversion<LargestLoop>(v, count, &bits);
+    std::int32_t* const result = &bits;
+    multiversion<LargestLoop>(v, count, result);
     return std::bit_cast<float>(bits);
 }
 
