@@ -1,7 +1,9 @@
 // candela check: what is wrong with a scene, and what was read.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,13 +25,19 @@ std::string count(std::size_t n, const char* what) {
 }
 
 /// "2 point, 1 ambient"
-template <class Items, class NameOf>
-std::string tally(const Items& items, NameOf name_of) {
+std::string tally(const std::vector<std::string>& names) {
     std::map<std::string, std::size_t> times;
-    for (const auto& item : items) ++times[name_of(item)];
+    for (const std::string& name : names) ++times[name];
     std::string result;
     for (const auto& [name, n] : times) result += fmt::format("{}{} {}", result.empty() ? "" : ", ", n, name);
     return result;
+}
+
+template <class Items, class NameOf>
+std::vector<std::string> names_of(const Items& items, NameOf name_of) {
+    std::vector<std::string> names;
+    std::ranges::transform(items, std::back_inserter(names), name_of);
+    return names;
 }
 
 std::string in_parentheses(const std::string& text) { return text.empty() ? "" : " (" + text + ")"; }
@@ -49,7 +57,8 @@ void print_summary(const Scene& scene, const CompiledScene& compiled) {
                              scene.image.height,
                              count(static_cast<std::size_t>(scene.image.samples), "sample"))
               << fmt::format("  lights    {}{}\n", scene.lights.size(),
-                             in_parentheses(tally(scene.lights, [](const auto& l) { return l.model.name; })))
+                             in_parentheses(
+                                 tally(names_of(scene.lights, [](const auto& l) { return l.model.name; }))))
               << fmt::format("  objects   {}, {}\n", scene.objects.size(),
                              count(triangles_of(compiled), "triangle"));
     constexpr std::size_t k_most_lines = 50;
@@ -62,8 +71,9 @@ void print_summary(const Scene& scene, const CompiledScene& compiled) {
     }
     if (scene.objects.size() > k_most_lines) {
         const auto rest = std::vector(scene.objects.begin() + k_most_lines, scene.objects.end());
-        std::cout << fmt::format("    and {} more{}\n", rest.size(),
-                                 in_parentheses(tally(rest, [](const auto& o) { return o.shape.name; })));
+        std::cout << fmt::format(
+            "    and {} more{}\n", rest.size(),
+            in_parentheses(tally(names_of(rest, [](const auto& o) { return o.shape.name; }))));
     }
 }
 

@@ -34,7 +34,7 @@ constexpr std::array k_rules = {
     Rule{"string", "encountered end-of-file", "the file ends within a text: its closing quote is missing",
          ""},
     Rule{"string", "control characters", "{control}",
-         "a text ends with the quote that it begins with; one of several lines stands in \"\"\""},
+         R"(a text ends with the quote that it begins with; one of several lines stands in """)"},
     Rule{"string", "unknown escape sequence", "\\{character} means nothing in a text",
          "a backslash is written \\\\, or the text stands in 'single quotes'"},
     // Numbers and words
