@@ -58,7 +58,7 @@ std::unique_ptr<ReflectionModel> oren_nayar(const std::string& form, double degr
 }
 
 /// What light reflected once, by Lambertian facets in V-shaped grooves that hide and shade one another, comes
-/// to over rho cos(theta_i): the integral (Oren, Nayar 1994, sections 4 and 5) that the full form
+/// to over rho cos(theta_i): the integral (Oren, Nayar 1994) that the full form
 /// approximates. The facets' angles from N are distributed normally.
 double grooves(Double3 v, Double3 l, double sigma) {
     const auto share = [&](Double3 a) { return std::exp(-std::pow(std::acos(a.y) / sigma, 2) / 2); };
