@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <vector>
 
 #include "samples.h"
 
@@ -21,6 +22,27 @@ inline double over_hemisphere(const std::function<double(Double3)>& f, int steps
         }
     }
     return sum * step * 2 * std::numbers::pi / steps;
+}
+
+/// The share of even white light from everywhere that a white surface facing +y sends towards `to_observer`.
+inline double directional_albedo(const candela::ReflectionModel& model, candela::Vec3 to_observer) {
+    constexpr int k_steps = 200;
+    std::vector<ReflectionSample> samples;
+    over_hemisphere(
+        [&](Double3 l) {
+            const candela::Vec3 to_light{static_cast<float>(l.x), static_cast<float>(l.y),
+                                         static_cast<float>(l.z)};
+            samples.push_back({{0, 1, 0}, to_observer, to_light, {1, 1, 1}, {1, 1, 1}});
+            return 0.0;
+        },
+        k_steps);
+    const std::vector<ReflectedPair> reflected = reflect(model, samples, {1, 1, 1});
+    std::size_t i = 0;
+    const auto towards_observer = [&](Double3) {
+        const ReflectedPair& r = reflected[i++];
+        return double{r.diffuse.x} + double{r.specular.x};
+    };
+    return over_hemisphere(towards_observer, k_steps) / std::numbers::pi;
 }
 
 /// Fresnel's equations for the two polarisations (Born, Wolf 1999, 1.5.2 (21)), averaged: the share of light

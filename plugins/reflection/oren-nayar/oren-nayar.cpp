@@ -11,8 +11,9 @@ namespace {
 
 constexpr const char* k_forms[] = {"full", "qualitative", "fujii"};
 
-// Nearer to 1 the published formulas send out up to 4 % more light than they receive.
-constexpr float k_largest_kd = 0.96f;
+// Nearer to 1 the published formulas send out more light than they receive: full 5 %, Fujii's 3 %,
+// qualitative 1.5 %.
+constexpr float k_largest_kd = 0.95f;
 
 constexpr auto k_fields =
     fields(ambient_coefficient(&OrenNayarMaterial::ka),
@@ -33,11 +34,19 @@ CANDELA_REFLECTION_PLUGIN(
     {.title = "Oren-Nayar",
      .summary = "A rough matt surface, flatter than Lambert's and brighter towards the light: plaster, clay, "
                 "the moon.",
-     .formula =
-         "I_a = ka C_o I_ambient\n"
-         "I_d = kd C_o I_L max(N.L, 0) (A + B max(cos(dphi), 0) sin(alpha) tan(beta))   (qualitative)\n"
-         "A = 1 - sigma^2 / (2 sigma^2 + 0.66),  B = 0.45 sigma^2 / (sigma^2 + 0.09)\n"
-         "alpha, beta: the larger and the smaller angle of light and observer from N",
+     .formula = "I_a = ka C_o I_ambient\n"
+                "I_d = kd C_o I_L max(N.L, 0) f,  s2 = sigma^2\n"
+                "full: f = C1 + cos(dphi) C2 tan(beta) + (1 - |cos(dphi)|) C3 tan((alpha + beta) / 2)\n"
+                "          + 0.17 kd C_o s2 / (s2 + 0.13) (1 - cos(dphi) (2 beta / pi)^2),  at least 0\n"
+                "C1 = 1 - 0.5 s2 / (s2 + 0.33)\n"
+                "C2 = 0.45 s2 / (s2 + 0.09) (sin(alpha) - (cos(dphi) < 0 ? (2 beta / pi)^3 : 0))\n"
+                "C3 = 0.125 s2 / (s2 + 0.09) (4 alpha beta / pi^2)^2\n"
+                "qualitative: f = A + B max(cos(dphi), 0) sin(alpha) tan(beta)\n"
+                "A = C1,  B = 0.45 s2 / (s2 + 0.09)\n"
+                "fujii: f = A + B s / (s > 0 ? max(N.L, N.V) : 1) + 0.17 kd C_o s2 / (s2 + 0.13)\n"
+                "s = L.V - N.L N.V\n"
+                "alpha, beta: the larger and the smaller angle of light and observer from N; dphi: between "
+                "their planes",
      .reference = "Oren, Nayar (1994), Generalization of Lambert's reflectance model, SIGGRAPH, 239-246; "
                   "Fujii (2012), A tiny improvement of Oren-Nayar reflectance model",
      .properties = k_properties})
