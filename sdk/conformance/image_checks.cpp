@@ -23,7 +23,8 @@ using candela::PixelType;
 
 namespace {
 
-/// A picture whose channels are three different ramps.
+/// A picture whose channels differ: red grows to the right, green downwards, as gently as lossy formats want
+/// it.
 struct Picture {
     int width, height;
     std::vector<float> reals;
@@ -33,7 +34,7 @@ struct Picture {
         for (int y = 0; y < h; ++y) {
             for (int x = 0; x < w; ++x) {
                 const float across = w > 1 ? static_cast<float>(x) / static_cast<float>(w - 1) : 1.0f;
-                const float down = h > 1 ? static_cast<float>(y) / static_cast<float>(h - 1) : 0.5f;
+                const float down = h > 16 ? static_cast<float>(y) / static_cast<float>(h - 1) : 0.5f;
                 for (const float value : {across, down, 0.25f}) {
                     reals.push_back(value);
                     bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * value)));
