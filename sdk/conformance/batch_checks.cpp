@@ -101,7 +101,7 @@ TEST_CASE("bounds: nothing is written before or after the batch, and no input is
             for (const std::size_t count :
                  {std::size_t{1}, std::size_t{7}, std::size_t{16}, std::size_t{257}}) {
                 const Arrays in = inputs_for(count);
-                Arrays given = in.part(0, count);
+                const Arrays given = in.part(0, count);
                 Arrays out(3 * call.outputs.size(), count);
                 call.run(count, given, out);
                 if (const std::string where = out.trespass(); !where.empty())

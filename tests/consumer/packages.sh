@@ -75,7 +75,7 @@ code=0
 
 say "a plugin from nothing, with the installed packages alone"
 quiet package_manager -i "${development[@]}"
-bash "$here/templates.sh" --installed "$root/usr" "$scratch/templates" "$cmake" "$cxx" light
+bash "$here/templates.sh" --installed "$root/usr" "$scratch/templates" "$cmake" "$cxx"
 interface=$(sed -n 's/^#define CANDELA_INTERFACE_VERSION //p' "$root/usr/include/candela/abi.h")
 [ "$(dpkg-deb -f "${runtime[0]}" Provides)" = "candela-plugin-interface-$interface" ] || fail "the interface is not provided"
 
