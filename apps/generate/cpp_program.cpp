@@ -1,0 +1,516 @@
+// One C++17 file: a template, the kernels, and the scene as constants.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "grid_shape.h"
+#include "literals.h"
+#include "target.h"
+
+import candela.core;
+
+namespace generate {
+
+namespace {
+
+using candela::ParamSet;
+using candela::Vec3;
+
+/// A plugin's name as an identifier of C++.
+std::string identifier(const std::string& name) {
+    static const std::set<std::string> k_taken = {
+        "and",  "auto",  "bool",   "break", "case",  "char",   "class",  "const", "default", "double",
+        "else", "enum",  "export", "false", "float", "for",    "friend", "goto",  "if",      "int",
+        "long", "new",   "not",    "or",    "short", "static", "switch", "this",  "throw",   "true",
+        "try",  "union", "using",  "void",  "while", "xor",    "inline", "signed"};
+    std::string result = name;
+    std::ranges::replace(result, '-', '_');
+    return k_taken.contains(result) ? result + "_" : result;
+}
+
+std::string list(float x, float y, float z) {
+    return fmt::format("{}, {}, {}", float_text(x), float_text(y), float_text(z));
+}
+
+/// A kernel's struct with these values: "PhongMaterial{vec3(0.1f), ...}", its members in their order.
+std::string struct_text(const KernelSource& kernel, const ParamSet& values, candela::ColorEncoding encoding) {
+    const std::vector<candela::ParamValue> delivered = values.delivered(encoding);
+    std::vector<std::string> members;
+    for (const KernelMember& member : kernel.parameters()->members) {
+        const std::size_t at = values.index_of(member.name);
+        members.push_back(at < delivered.size() ? member_text(values.schema()[at], delivered[at]) : "{}");
+    }
+    return fmt::format("{}{{{}}}", kernel.parameters()->name, fmt::join(members, ", "));
+}
+
+class CppWriter {
+  public:
+    CppWriter(const ExportedScene& scene, const Templates& templates, candela::Registry& registry)
+        : scene_(scene),
+          templates_(templates),
+          registry_(registry),
+          encoding_(scene.image.color_management) {}
+
+    std::string run() {
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) add_object(i);
+        const std::string text = templates_.text("cpp/scene.cpp");
+        const std::string glue = lights() + loops() + reflection() + shading() + shapes() + objects_ + text;
+        std::string kernels = model_kernels();
+        kernels = needed_parts(templates_.text("prelude.kernel"), kernels + glue) + "\n" + kernels;
+        const std::string vectors = needed_parts(templates_.text("cpp/vectors.h"), kernels + glue);
+        const bool is_srgb = encoding_ == candela::ColorEncoding::srgb;
+        const candela::ImageSettings& image = scene_.image;
+        const candela::Observer& observer = scene_.observer;
+        const bool is_perspective = observer.projection == candela::Projection::perspective;
+        return filled(
+            text,
+            {{"TITLE", tame(scene_.title)},
+             {"VERSION", CANDELA_VERSION},
+             {"VECTORS", vectors},
+             {"CONSTRUCTORS", constructors(kernels)},
+             {"KERNELS", kernels},
+             {"DECODED_COMMENT",
+              is_srgb
+                  ? "// Colours are encoded as sRGB (IEC 61966-2-1); light is added up in linear intensities."
+                  : "// Colours are taken as intensities, as they are."},
+             {"DECODED",
+              is_srgb ? "c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f)" : "c"},
+             {"ENCODED_COMMENT", is_srgb ? "// And back to sRGB." : "// Intensities are taken as they are."},
+             {"ENCODED",
+              is_srgb ? "x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f" : "x"},
+             {"WIDTH", fmt::format("{}", image.width)},
+             {"HEIGHT", fmt::format("{}", image.height)},
+             {"BACKGROUND", list(image.background.x, image.background.y, image.background.z)},
+             {"SAMPLES", samples()},
+             {"EYE", vec3_text(observer.position)},
+             {"LOOK_AT", vec3_text(observer.look_at)},
+             {"UP", vec3_text(observer.up)},
+             {"IS_PERSPECTIVE", is_perspective ? "true" : "false"},
+             {"VIEW_SIZE",
+              is_perspective
+                  ? fmt::format(
+                        "const double k_field_of_view = {};  // degrees from top to bottom\n"
+                        "const double k_pixels_per_unit = 0.5 * k_height / std::tan(0.5 * k_field_of_view * "
+                        "0.017453292519943295);",
+                        observer.fov)
+                  : fmt::format("const double k_view_height = {};  // metres from top to bottom\n"
+                                "const double k_pixels_per_unit = k_height / k_view_height;",
+                                observer.height)},
+             {"LIGHTS", lights()},
+             {"ENUMS", enums()},
+             {"OBJECT_MEMBERS", members()},
+             {"SHAPES", shapes()},
+             {"OBJECTS", objects_},
+             {"SHADING", shading()},
+             {"REFLECTION", reflection()},
+             {"LIGHT_LOOPS", loops()},
+             {"TANGENT", tangent()},
+             {"PICTURE_FILE", templates_.text("cpp/picture_file.h")},
+             {"MAIN", main_text()},
+             {"DATA",
+              data_.empty()
+                  ? ""
+                  : "\n// ---- 8. The triangles of shapes that have no formula ----\n\nnamespace scene {\n" +
+                        data_ + "\n}  // namespace scene\n"}});
+    }
+
+  private:
+    bool has_choice() const { return scene_.reflections.size() > 1 || scene_.shadings.size() > 1; }
+
+    std::string model_kernels() const {
+        std::string text;
+        std::set<std::string> done;
+        const auto add = [&](const ExportedModel& model) {
+            if (!done.insert(model.manifest->id()).second) return;
+            text += model.kernel.text();
+            if (text.back() != '\n') text += '\n';
+            text += '\n';
+        };
+        for (const ExportedModel* model : scene_.models()) add(*model);
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+            if (grids_[i]) add(*scene_.objects[i].shape_model);
+        }
+        return text;
+    }
+
+    /// Kernels make structs as GLSL does, Reflected(a, b).
+    static std::string constructors(const std::string& kernels) {
+        static const std::regex k_struct(R"(struct\s+(\w+)\s*\{)");
+        std::string text;
+        for (auto m = std::sregex_iterator(kernels.begin(), kernels.end(), k_struct);
+             m != std::sregex_iterator(); ++m) {
+            const std::string name = (*m)[1];
+            if (!std::regex_search(kernels, std::regex("\\b" + name + "\\s*\\("))) continue;
+            text += fmt::format("#define {0}(...) {0}{{__VA_ARGS__}}\n", name);
+        }
+        return text.empty() ? "" : "// GLSL makes a struct by a call, C++17 by braces.\n" + text;
+    }
+
+    std::string samples() const {
+        std::vector<std::string> positions;
+        for (const candela::SamplePosition& s : candela::sample_pattern(scene_.image.samples))
+            positions.push_back(fmt::format("vec2({}, {})", float_text(static_cast<float>(s.x) / 16),
+                                            float_text(static_cast<float>(s.y) / 16)));
+        return fmt::format("{}", fmt::join(positions, ", "));
+    }
+
+    std::string lights() const {
+        std::string text;
+        for (std::size_t m = 0; m < scene_.light_models.size(); ++m) {
+            const KernelSource& kernel = scene_.light_models[m].kernel;
+            std::string entries;
+            std::size_t count = 0;
+            for (const ExportedLight& light : scene_.lights) {
+                if (light.model != m) continue;
+                ++count;
+                if (kernel.parameters() != nullptr)
+                    entries += fmt::format("    {},  // {}\n", struct_text(kernel, light.values, encoding_),
+                                           tame(light.label));
+            }
+            text += kernel.parameters() == nullptr
+                        ? fmt::format("const int k_{}_lights = {};\n\n", kernel.prefix(), count)
+                        : fmt::format("const std::vector<{}> k_{}_lights = {{\n{}}};\n\n",
+                                      kernel.parameters()->name, kernel.prefix(), entries);
+        }
+        return text;
+    }
+
+    std::string loops() const {
+        std::string text;
+        for (const ExportedModel& model : scene_.light_models) {
+            const KernelSource& kernel = model.kernel;
+            text += kernel.parameters() == nullptr
+                        ? fmt::format("    for (int n = 0; n < k_{}_lights; ++n) {{\n", kernel.prefix())
+                        : fmt::format("    for (const {}& light : k_{}_lights) {{\n",
+                                      kernel.parameters()->name, kernel.prefix());
+            const std::string add =
+                "const Reflected f = reflected(o, s, i.to_light);\n{0}sum += f.diffuse * i.diffuse + "
+                "f.specular * i.specular;\n";
+            if (kernel.function("sample_count") != nullptr) {
+                text += fmt::format(
+                    "        for (int k = 0; k < {}; ++k) {{\n            const Incident i = {};\n           "
+                    " ",
+                    kernel.call("sample_count", "light", ""), kernel.call("illuminate", "light", "r, k"));
+                text += fmt::format(fmt::runtime(add), "            ") + "        }\n";
+            } else if (kernel.function("illuminate") != nullptr) {
+                text += fmt::format("        const Incident i = {};\n        ",
+                                    kernel.call("illuminate", "light", "r"));
+                text += fmt::format(fmt::runtime(add), "        ");
+            }
+            if (kernel.function("illuminate_ambient") != nullptr)
+                text += fmt::format("        sum += reflected_ambient(o, s) * {};\n",
+                                    kernel.call("illuminate_ambient", "light", "r"));
+            text += "    }\n";
+        }
+        return text.empty() ? "    (void)o, (void)s, (void)r;  // there are no lights\n" : text;
+    }
+
+    static std::string enum_text(const char* type, const std::vector<std::string>& names) {
+        return names.size() < 2 ? "" : fmt::format("enum class {} {{ {} }};\n", type, fmt::join(names, ", "));
+    }
+    template <class Model>
+    static std::vector<std::string> names_of(const std::vector<Model>& models) {
+        std::vector<std::string> names;
+        for (const Model& model : models) names.push_back(identifier(model.name()));
+        return names;
+    }
+
+    std::string enums() const {
+        const std::string text = enum_text("Shading", names_of(scene_.shadings)) +
+                                 enum_text("Reflection", names_of(scene_.reflections));
+        return text.empty() ? "" : text + "\n";
+    }
+
+    static std::string material_member(const ExportedModel& model) {
+        return identifier(model.name()) + "_material";
+    }
+    static std::string shading_member(const ExportedModel& model) {
+        return identifier(model.name()) + "_shading";
+    }
+
+    std::string members() const {
+        std::string text;
+        if (scene_.shadings.size() > 1) text += "    Shading shading{};\n";
+        if (scene_.reflections.size() > 1) text += "    Reflection reflection{};\n";
+        const auto add = [&](const ExportedModel& model, const std::string& name) {
+            if (model.kernel.parameters() != nullptr)
+                text += fmt::format("    {} {}{{}};\n", model.kernel.parameters()->name, name);
+        };
+        for (const auto& model : scene_.reflections) add(model, material_member(model));
+        for (const auto& model : scene_.shadings) add(model, shading_member(model));
+        return text;
+    }
+
+    /// The body of a function that asks one of several models, a line each.
+    template <class Model, class Line>
+    static std::string choice(const char* type, const char* member, const std::vector<Model>& models,
+                              Line line) {
+        if (models.empty()) return "    return {};\n";
+        if (models.size() == 1) return fmt::format("    return {};\n", line(models.front()));
+        std::string text;
+        for (std::size_t i = 0; i + 1 < models.size(); ++i) {
+            text += fmt::format("    if (o.{} == {}::{}) return {};\n", member, type,
+                                identifier(models[i].name()), line(models[i]));
+        }
+        return text + fmt::format("    return {};\n", line(models.back()));
+    }
+    template <class Line>
+    std::string reflection_choice(Line line) const {
+        return choice("Reflection", "reflection", scene_.reflections, line);
+    }
+    template <class Line>
+    std::string shading_choice(Line line) const {
+        return choice("Shading", "shading", scene_.shadings, line);
+    }
+
+    /// "const Object& o" where the text speaks of it.
+    static std::string parameter(const char* type, const char* name, const std::string& body) {
+        const bool is_used = std::regex_search(body, std::regex(fmt::format("\\b{}\\b", name)));
+        return is_used ? fmt::format("{} {}", type, name) : type;
+    }
+    static std::string function(const char* result, const char* name,
+                                const std::vector<std::pair<const char*, const char*>>& parameters,
+                                const std::string& body) {
+        std::vector<std::string> all;
+        for (const auto& [type, parameter_name] : parameters)
+            all.push_back(parameter(type, parameter_name, body));
+        return fmt::format("{} {}({}) {{\n{}}}\n", result, name, fmt::join(all, ", "), body);
+    }
+
+    std::string reflection() const {
+        const auto call = [](const char* suffix, const char* arguments) {
+            return [=](const ExportedReflection& m) {
+                return m.kernel.call(suffix, "o." + material_member(m), arguments);
+            };
+        };
+        return "// What an object reflects of the light from one direction, and of light from everywhere.\n" +
+               function("Reflected", "reflected",
+                        {{"const Object&", "o"}, {"const Surface&", "s"}, {"vec3", "to_light"}},
+                        reflection_choice(call("reflect", "s, to_light"))) +
+               function("vec3", "reflected_ambient", {{"const Object&", "o"}, {"const Surface&", "s"}},
+                        reflection_choice(call("reflect_ambient", "s")));
+    }
+
+    std::string shading() const {
+        constexpr const char* k_rates[] = {"Rate::face", "Rate::vertex", "Rate::pixel"};
+        return "// Where an object is lit, which normal it has there, and how much a face weighs in the "
+               "normal of its corner.\n" +
+               function("Rate", "rate_of", {{"const Object&", "o"}},
+                        shading_choice([&](const ExportedShading& m) {
+                            return std::string(k_rates[static_cast<int>(m.rate)]);
+                        })) +
+               function("vec3", "shading_normal", {{"const Object&", "o"}, {"const ShadingPoint&", "p"}},
+                        shading_choice([](const ExportedShading& m) {
+                            return m.kernel.call("normal", "o." + shading_member(m), "p");
+                        })) +
+               function("float", "corner_weight", {{"const Object&", "o"}, {"const FaceCorner&", "c"}},
+                        shading_choice([](const ExportedShading& m) {
+                            return m.kernel.function("corner_weight") == nullptr
+                                       ? std::string("1.0f")
+                                       : m.kernel.call("corner_weight", "o." + shading_member(m), "c");
+                        }));
+    }
+
+    std::string tangent() const {
+        const bool is_needed = std::ranges::any_of(scene_.reflections, &ExportedReflection::needs_tangent);
+        return is_needed ? "    s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, point.dpdu));\n"
+                         : "";
+    }
+
+    std::string shapes() const {
+        std::string text;
+        if (std::ranges::any_of(grids_, [](const auto& grid) { return grid.has_value(); }))
+            text += templates_.text("cpp/grid.h") + "\n";
+        if (!meshes_.empty()) {
+            text += templates_.text("cpp/arrays.h") + "\n";
+            for (std::size_t i = 0; i < meshes_.size(); ++i) text += fmt::format("Mesh mesh_{}();\n", i);
+            text += "\n";
+        }
+        return text;
+    }
+
+    void add_object(std::size_t index) {
+        const ExportedObject& object = scene_.objects[index];
+        const bool needs_derivatives = scene_.needs_derivatives();
+        const candela::MeshRequest request{.uv = true, .derivatives = needs_derivatives};
+        const candela::PlacedShape shape = candela::place(*object.tessellator, request, {});
+        require_plain_normals(object);
+        std::optional<GridShape> grid;
+        if (object.shape_model && object.shape_model->kernel.function("position") != nullptr)
+            grid = grid_of(shape);
+        grids_.push_back(grid);
+
+        std::string text =
+            fmt::format("    {{  // {}: {}\n        Object o;\n", tame(object.label), tame(object.shape));
+        text += grid ? grid_text(object, *grid, needs_derivatives)
+                     : fmt::format("        o.mesh = mesh_{}();\n", mesh_number(shape));
+        const candela::Placement& at = object.placement;
+        text += fmt::format("        o.position = {};\n", vec3_text(at.position));
+        if (at.rotation != Vec3{}) text += fmt::format("        o.rotation = {};\n", vec3_text(at.rotation));
+        if (at.scale != Vec3{1, 1, 1}) text += fmt::format("        o.scale = {};\n", vec3_text(at.scale));
+        text += fmt::format("        o.color = color({});\n",
+                            list(object.color.x, object.color.y, object.color.z));
+        if (scene_.shadings.size() > 1)
+            text += fmt::format("        o.shading = Shading::{};\n",
+                                identifier(scene_.shadings[object.shading].name()));
+        if (scene_.reflections.size() > 1)
+            text += fmt::format("        o.reflection = Reflection::{};\n",
+                                identifier(scene_.reflections[object.reflection].name()));
+        const auto add = [&](const ExportedModel& model, const std::string& name, const ParamSet& values) {
+            if (model.kernel.parameters() != nullptr)
+                text +=
+                    fmt::format("        o.{} = {};\n", name, struct_text(model.kernel, values, encoding_));
+        };
+        for (std::size_t i = 0; i < scene_.reflections.size(); ++i)
+            add(scene_.reflections[i], material_member(scene_.reflections[i]), object.materials[i]);
+        for (std::size_t i = 0; i < scene_.shadings.size(); ++i)
+            add(scene_.shadings[i], shading_member(scene_.shadings[i]), object.shadings[i]);
+        objects_ += text + "        all.push_back(o);\n    }\n";
+    }
+
+    std::string grid_text(const ExportedObject& object, const GridShape& grid, bool needs_derivatives) const {
+        const KernelSource& kernel = object.shape_model->kernel;
+        std::string text;
+        const bool has_parameters = kernel.parameters() != nullptr;
+        if (has_parameters)
+            text += fmt::format("        const {} shape = {};\n", kernel.parameters()->name,
+                                struct_text(kernel, object.shape_values, encoding_));
+        text += fmt::format(
+            "        o.mesh = grid({}, {}, {{{}, {}, {}}}, [{}](float u, float v) {{ return {}; }});\n",
+            grid.columns, grid.rows, grid.u_is_periodic, grid.v_is_periodic, grid.v_ends_in_poles,
+            has_parameters ? "&" : "", kernel.call("position", "shape", "u, v"));
+        if (needs_derivatives) {
+            text += fmt::format(
+                "        for (const vec2& at : o.mesh.uv) {{\n            o.mesh.dpdu.push_back({});\n       "
+                "     "
+                "o.mesh.dpdv.push_back({});\n        }}\n",
+                kernel.call("dpdu", "shape", "at.x, at.y"), kernel.call("dpdv", "shape", "at.x, at.y"));
+        }
+        return text;
+    }
+
+    /// The number of an embedded mesh; equal ones are embedded once.
+    std::size_t mesh_number(const candela::PlacedShape& shape) {
+        std::string body = number_array("float", "position", interleaved(shape.mesh.position)) +
+                           number_array("int", "corners", shape.mesh.corners);
+        std::string fill =
+            "    Mesh m;\n    m.position = vectors_of(position);\n    m.corners.assign(std::begin(corners), "
+            "std::end(corners));\n";
+        const auto add_vectors = [&](const char* name, const candela::Vec3Arrays& arrays) {
+            if (arrays.empty()) return;
+            body += number_array("float", name, interleaved(arrays));
+            fill += fmt::format("    m.{0} = vectors_of({0});\n", name);
+        };
+        bool has_groups = false;
+        for (std::size_t v = 0; v < shape.smooth_group.size(); ++v)
+            has_groups = has_groups || shape.smooth_group[v] != v;
+        if (has_groups) {
+            body += number_array("int", "group", shape.smooth_group);
+            fill += "    m.group.assign(std::begin(group), std::end(group));\n";
+        }
+        add_vectors("authored", shape.authored_normal);
+        if (scene_.needs_derivatives()) {
+            add_vectors("dpdu", shape.mesh.dpdu);
+            add_vectors("dpdv", shape.mesh.dpdv);
+        }
+        if (scene_.needs_uv() && !shape.mesh.u.empty()) {
+            body += number_array("float", "uv_pairs", interleaved_uv(shape.mesh));
+            fill +=
+                "    for (std::size_t i = 0; i < std::size(uv_pairs); i += 2) m.uv.emplace_back(uv_pairs[i], "
+                "uv_pairs[i + 1]);\n";
+        }
+        if (!shape.mesh.closed) fill += "    m.is_closed = false;\n";
+        body += fill + "    return m;\n}\n";
+        const auto same = std::ranges::find(meshes_, body);
+        if (same != meshes_.end()) return static_cast<std::size_t>(same - meshes_.begin());
+        data_ += fmt::format("\nMesh mesh_{}() {{\n", meshes_.size()) + body;
+        meshes_.push_back(std::move(body));
+        return meshes_.size() - 1;
+    }
+
+    /// The program finds vertex normals as a shading model does that says nothing else than its kernel.
+    void require_plain_normals(const ExportedObject& object) {
+        struct Plain final : candela::ShadingModel {
+            candela::LightingRate lighting_rate() const noexcept override { return {}; }
+            void normals(const candela::ShadingPointBatch&, const candela::Vec3Span&) const override {}
+        };
+        for (std::size_t i = 0; i < scene_.shadings.size(); ++i) {
+            const ExportedShading& model = scene_.shadings[i];
+            if (model.kernel.function("corner_weight") != nullptr) continue;
+            const auto shading =
+                registry_.create<candela::ShadingModel>(model.name(), object.shadings[i], encoding_);
+            const auto expected = candela::build_mesh(*object.tessellator, {}, object.placement, Plain());
+            const auto actual = candela::build_mesh(*object.tessellator, {}, object.placement, *shading);
+            const bool is_plain = expected.vertex_normal.x == actual.vertex_normal.x &&
+                                  expected.vertex_normal.y == actual.vertex_normal.y &&
+                                  expected.vertex_normal.z == actual.vertex_normal.z;
+            if (!is_plain) {
+                throw candela::Error(
+                    candela::ExitCode::failure,
+                    fmt::format("{} makes vertex normals of its own, of which its kernel says nothing "
+                                "(there is no function {}_corner_weight), so that a C++ program cannot",
+                                model.manifest->id(), model.kernel.prefix()));
+            }
+        }
+    }
+
+    std::string main_text() const {
+        std::string text;
+        if (has_choice()) {
+            text =
+                "        const auto argument = [&](int i) { return argc > i ? std::string(argv[i]) : "
+                "std::string(); };\n";
+        }
+        text +=
+            "        const std::string path = argc > 1 ? argv[1] : \"scene.png\";\n"
+            "        std::vector<scene::Object> objects = scene::make_objects();\n";
+        const auto add = [&](const char* type, const char* member, const std::vector<std::string>& names,
+                             int position, const auto& models) {
+            if (names.size() < 2) return;
+            text += fmt::format("        // The {} argument, if there is one, names the {} of all objects.\n",
+                                position == 2 ? "second" : "third", member);
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                text += fmt::format(
+                    "        if (argument({}) == \"{}\")\n            for (scene::Object& o : objects) o.{} "
+                    "= scene::{}::{};\n",
+                    position, models[i].name(), member, type, names[i]);
+            }
+        };
+        add("Shading", "shading", names_of(scene_.shadings), 2, scene_.shadings);
+        add("Reflection", "reflection", names_of(scene_.reflections), 3, scene_.reflections);
+        return text +
+               "        for (scene::Object& o : objects) {\n            scene::place(o);\n            "
+               "scene::find_normals(o);\n"
+               "        }\n        scene::write_picture(path, scene::bytes_of(scene::render(objects)), "
+               "scene::k_width, "
+               "scene::k_height);\n";
+    }
+
+    const ExportedScene& scene_;
+    const Templates& templates_;
+    candela::Registry& registry_;
+    candela::ColorEncoding encoding_;
+    std::vector<std::optional<GridShape>> grids_;  // an object each
+    std::vector<std::string> meshes_;
+    std::string objects_, data_;
+};
+
+}  // namespace
+
+std::vector<GeneratedFile> cpp_program(const ExportedScene& scene, const Templates& templates,
+                                       candela::Registry& registry) {
+    return {{"scene.cpp", CppWriter(scene, templates, registry).run()},
+            {"CMakeLists.txt", templates.text("cpp/CMakeLists.txt")},
+            {"README.md", filled(templates.text("cpp/README.md"),
+                                 {{"TITLE", tame(scene.title)}, {"VERSION", CANDELA_VERSION}})}};
+}
+
+}  // namespace generate

@@ -1,0 +1,17 @@
+uniform vec3 eye;
+uniform bool is_orthographic;
+uniform vec3 towards_observer;
+uniform vec3 object_color;
+
+// The intensity that a place of a surface sends to the observer. `facing`: -1 where an open surface is seen from behind.
+vec3 intensity_at(vec3 place, ShadingPoint point, float facing) {
+    Surface s;
+    s.normal = facing * shading_normal(point);
+    s.to_observer = is_orthographic ? towards_observer : normalize(eye - place);
+    s.tangent = vec3(0.0);
+#ifdef NEEDS_TANGENT
+    s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, point.dpdu));
+#endif
+    s.color = object_color;
+    return lights_at(s, Receiver(place, s.normal));
+}

@@ -1,0 +1,73 @@
+#include "grid_shape.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace generate {
+
+namespace {
+
+std::vector<std::uint32_t> groups_of(const GridShape& grid) {
+    const int width = grid.columns + 1;
+    std::vector<std::uint32_t> groups;
+    for (int row = 0; row <= grid.rows; ++row) {
+        for (int column = 0; column <= grid.columns; ++column) {
+            const bool is_pole = grid.v_ends_in_poles && (row == 0 || row == grid.rows);
+            const int as_row = grid.v_is_periodic && row == grid.rows ? 0 : row;
+            const int as_column = is_pole || (grid.u_is_periodic && column == grid.columns) ? 0 : column;
+            groups.push_back(static_cast<std::uint32_t>(as_row * width + as_column));
+        }
+    }
+    return groups;
+}
+
+std::vector<std::uint32_t> corners_of(const GridShape& grid) {
+    std::vector<std::uint32_t> corners;
+    const auto width = static_cast<std::uint32_t>(grid.columns) + 1;
+    for (int row = 0; row < grid.rows; ++row) {
+        for (int column = 0; column < grid.columns; ++column) {
+            const std::uint32_t a =
+                static_cast<std::uint32_t>(row) * width + static_cast<std::uint32_t>(column);
+            const std::uint32_t b = a + 1, c = b + width, d = a + width;
+            const bool starts_in_pole = grid.v_ends_in_poles && row == 0;
+            const bool ends_in_pole = grid.v_ends_in_poles && row + 1 == grid.rows;
+            if (!starts_in_pole) corners.insert(corners.end(), {a, b, ends_in_pole ? d : c});
+            if (!ends_in_pole) corners.insert(corners.end(), {starts_in_pole ? b : a, c, d});
+        }
+    }
+    return corners;
+}
+
+/// The places where u falls back are where rows begin.
+std::optional<GridShape> size_of(const candela::Mesh& mesh) {
+    std::size_t width = 1;
+    while (width < mesh.u.size() && mesh.u[width] > mesh.u[width - 1]) ++width;
+    if (width < 2 || mesh.u.size() % width != 0 || mesh.u.size() / width < 2) return std::nullopt;
+    return GridShape{.columns = static_cast<int>(width - 1),
+                     .rows = static_cast<int>(mesh.u.size() / width - 1)};
+}
+
+}  // namespace
+
+std::optional<GridShape> grid_of(const candela::PlacedShape& shape) {
+    const auto size = size_of(shape.mesh);
+    if (!size || !shape.authored_normal.empty()) return std::nullopt;
+    for (const bool has_poles : {false, true}) {
+        for (const bool u_is_periodic : {false, true}) {
+            for (const bool v_is_periodic : {false, true}) {
+                GridShape grid = *size;
+                grid.u_is_periodic = u_is_periodic;
+                grid.v_is_periodic = v_is_periodic;
+                grid.v_ends_in_poles = has_poles;
+                const bool is_closed = u_is_periodic && (v_is_periodic || has_poles);
+                if (is_closed == shape.mesh.closed && groups_of(grid) == shape.smooth_group &&
+                    corners_of(grid) == shape.mesh.corners)
+                    return grid;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace generate
