@@ -1,0 +1,18 @@
+// The scene as the generator wrote it, and its arrays as numbers.
+
+function readScene() {
+    return JSON.parse(document.getElementById("scene").textContent);
+}
+
+function bytesOf(base64) {
+    return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+}
+
+const floatsOf = (base64) => new Float32Array(bytesOf(base64).buffer);
+const integersOf = (base64) => new Uint32Array(bytesOf(base64).buffer);
+
+/// A label as a person reads it: without the quotation marks that messages put around names.
+function shownLabel(label, kind, index) {
+    const bare = /^'[^]*'$/.test(label) ? label.slice(1, -1) : label;
+    return bare.trim() === "" || /^\d+$/.test(bare) ? `${kind} ${index + 1}` : bare;
+}
