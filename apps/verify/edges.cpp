@@ -1,5 +1,6 @@
 #include "verify/edges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,67 +37,77 @@ Observer shifted(const Observer& observer, float x, float y, int height) {
     return result;
 }
 
-using Bytes = std::vector<std::uint8_t>;
+using Intensities = std::vector<float>;
 
-/// Pictures of a scene whose observer, and whose number of samples, come back to what they were.
+/// Pictures of a scene with one sample a pixel. Its observer and its samples come back to what they were.
 class Mover {
   public:
-    explicit Mover(candela::CompiledScene& scene, const candela::Film& reference)
-        : scene_(scene), reference_(reference), observer_(scene.observer), samples_(scene.image.samples) {}
+    Mover(candela::CompiledScene& scene, const candela::Film& reference)
+        : scene_(scene), reference_(reference), observer_(scene.observer), samples_(scene.image.samples) {
+        scene_.image.samples = 1;
+    }
     Mover(const Mover&) = delete;
     Mover& operator=(const Mover&) = delete;
-    ~Mover() { restore(); }
-
-    /// What is seen where the picture moves by (x, y) pixels.
-    Bytes moved(float x, float y, int samples) {
-        scene_.observer = shifted(observer_, x, y, reference_.height());
-        scene_.image.samples = samples;
-        candela::Film film(reference_.width(), reference_.height(), candela::PixelType::byte,
-                           scene_.image.color_management);
-        candela::render(scene_, film, {});
-        restore();
-        return {film.view().bytes.begin(), film.view().bytes.end()};
-    }
-
-  private:
-    void restore() {
+    ~Mover() {
         scene_.observer = observer_;
         scene_.image.samples = samples_;
     }
 
+    /// What is seen at each pixel's place (x, y), from its top left.
+    Intensities seen_at(float x, float y) {
+        scene_.observer = shifted(observer_, 0.5f - x, 0.5f - y, reference_.height());
+        candela::Film film(reference_.width(), reference_.height(), candela::PixelType::real,
+                           scene_.image.color_management);
+        candela::render(scene_, film, {});
+        return {film.view().reals.begin(), film.view().reals.end()};
+    }
+
+  private:
     candela::CompiledScene& scene_;
     const candela::Film& reference_;
     Observer observer_;
     int samples_;
 };
 
+/// In a picture's file, 0 to 255, not rounded.
+float level_of(float intensity, candela::ColorEncoding encoding) {
+    const float x = std::clamp(intensity, 0.0f, 1.0f);
+    return 255 * (encoding == candela::ColorEncoding::srgb ? candela::linear_to_srgb(x) : x);
+}
+
 }  // namespace
 
 std::vector<bool> edge_pixels(candela::CompiledScene& scene, const candela::Film& reference, float levels) {
+    const auto pattern = candela::sample_pattern(scene.image.samples);
+    const auto encoding = scene.image.color_management;
     const auto expected = reference.view().bytes;
-    std::vector<bool> edges(expected.size() / 3, false);
+    const float share = 1 / static_cast<float>(pattern.size());
+    std::vector<float> change(expected.size()), mean(expected.size());
     Mover mover(scene, reference);
-    const int samples = scene.image.samples;
-    for (const float x : {-k_shift, k_shift}) {
-        for (const float y : {-k_shift, k_shift}) {
-            const Bytes moved = mover.moved(x, y, samples);
-            for (std::size_t i = 0; i < moved.size(); ++i) {
-                const int change = std::abs(int{moved[i]} - int{expected[i]});
-                if (static_cast<float>(change) > levels) edges[i / 3] = true;
+    for (const candela::SamplePosition& sample : pattern) {
+        const float x = static_cast<float>(sample.x) / 16, y = static_cast<float>(sample.y) / 16;
+        const Intensities there = mover.seen_at(x, y);
+        std::vector<float> largest(there.size());
+        for (const float dx : {-k_shift, k_shift}) {
+            for (const float dy : {-k_shift, k_shift}) {
+                const Intensities beside = mover.seen_at(x + dx, y + dy);
+                for (std::size_t i = 0; i < there.size(); ++i) {
+                    if (beside[i] == there[i]) continue;
+                    const float moved =
+                        std::abs(level_of(beside[i], encoding) - level_of(there[i], encoding));
+                    largest[i] = std::max(largest[i], moved);
+                }
             }
         }
+        for (std::size_t i = 0; i < there.size(); ++i) {
+            change[i] += share * largest[i];
+            mean[i] += share * there[i];
+        }
     }
-    if (samples == 1) return edges;
-    const Bytes centre = mover.moved(0, 0, 1);
-    std::vector<int> sum(centre.size());
-    for (const auto& [x, y] : candela::sample_pattern(samples)) {
-        const Bytes moved =
-            mover.moved(0.5f - static_cast<float>(x) / 16, 0.5f - static_cast<float>(y) / 16, 1);
-        for (std::size_t i = 0; i < moved.size(); ++i) sum[i] += moved[i];
-    }
-    for (std::size_t i = 0; i < centre.size(); ++i) {
-        const int bend = std::abs(sum[i] - samples * int{centre[i]});
-        if (static_cast<float>(bend) > static_cast<float>(samples) * levels) edges[i / 3] = true;
+    std::vector<bool> edges(expected.size() / 3, false);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const float apart = std::abs(level_of(mean[i], encoding) - static_cast<float>(expected[i]));
+        if (change[i] > levels || apart > levels) edges[i / 3] = true;
     }
     return edges;
 }
