@@ -15,8 +15,7 @@ namespace verify {
 
 namespace {
 
-// Pixels.
-constexpr float k_shift = 1.0f / 16;  // more than all rounding of places on the picture
+constexpr float k_shift = 1.0f / 8;  // pixels; OpenGL may round vertices to a sixteenth
 
 /// The observer, turned or moved so little that the picture moves by (x, y) pixels.
 Observer shifted(const Observer& observer, float x, float y, int height) {

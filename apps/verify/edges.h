@@ -9,7 +9,7 @@ namespace verify {
 
 /// A pixel each, row by row: whether its colour depends on where exactly an edge lies, so that two
 /// rasterisers may differ there though both are right. Either it changes, by more than `levels` of 255 on the
-/// average of its samples, where they move by a sixteenth of a pixel; or it is that much apart from the mean
+/// average of its samples, where they move by an eighth of a pixel; or it is that much apart from the mean
 /// of what its samples see, because Candela evaluates light once for each triangle in a pixel. `reference` is
 /// the picture of `scene`, 8-bit; the scene is left as it was.
 std::vector<bool> edge_pixels(candela::CompiledScene& scene, const candela::Film& reference, float levels);

@@ -155,3 +155,42 @@ TEST_CASE("generate: errors name what is wrong, and what to do") {
            1, "reflection/faultless has no kernel");
 #endif
 }
+
+namespace {
+
+/// Lines with something on them, comments apart.
+int written_lines(const std::string& text) {
+    int count = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        const std::size_t first = line.find_first_not_of(' ');
+        if (first != std::string::npos && line.compare(first, 2, "//") != 0) ++count;
+        begin = end + 1;
+    }
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "generate: docs/generated-programs.md counts the lines of the default scene's programs as they are") {
+    const fs::path directory = scratch_directory();
+    generate({"--target", "cpp", "-o", (directory / "cpp").string()});
+    generate({"--target", "opengl", "-o", (directory / "opengl").string()});
+    const int cpp = written_lines(read_file(directory / "cpp/scene.cpp"));
+    const int opengl = written_lines(read_file(directory / "opengl/scene.cpp")) +
+                       written_lines(read_file(directory / "opengl/meshes.h"));
+    const fs::path cube = CANDELA_TEST_SOURCE "/docs/examples/cube.toml";
+    const std::string page = read_file(CANDELA_TEST_SOURCE "/docs/generated-programs.md");
+    INFO(fmt::format("C++ {}, OpenGL {}, scene {}", cpp, opengl, written_lines(read_file(cube))));
+    CHECK(page.find(fmt::format("| C++ alone | {} |", cpp)) != std::string::npos);
+    CHECK(page.find(fmt::format("| OpenGL 3.3 | {} |", opengl)) != std::string::npos);
+    CHECK(page.find(fmt::format("| Candela, as a scene file | {} |", written_lines(read_file(cube)))) !=
+          std::string::npos);
+
+    REQUIRE(run_candela({"render", cube.string(), "--defaults", "-o", (directory / "cube.ppm").string()})
+                .exit_code == 0);
+    REQUIRE(run_candela({"render", "-o", (directory / "default.ppm").string()}).exit_code == 0);
+    CHECK(read_file(directory / "cube.ppm") == read_file(directory / "default.ppm"));
+}
