@@ -5,7 +5,10 @@ function readScene() {
 }
 
 function bytesOf(base64) {
-    return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const text = atob(base64);
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+    return bytes;
 }
 
 const floatsOf = (base64) => new Float32Array(bytesOf(base64).buffer);

@@ -24,6 +24,7 @@ class Settings {
     constructor(scene) {
         this.scene = scene;
         this.changes = new Map();
+        this.found = new Map();
         this.listeners = [];
     }
 
@@ -34,6 +35,11 @@ class Settings {
 
     /// { parameter, own } of a path: what may stand there, and what the scene says; null where there is no such thing.
     find(path) {
+        if (!this.found.has(path)) this.found.set(path, this.lookUp(path));
+        return this.found.get(path);
+    }
+
+    lookUp(path) {
         const { scene } = this;
         const [kind, ...rest] = path.split(".");
         const modelSetting = (models, model, values, name) => {

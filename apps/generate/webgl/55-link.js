@@ -30,6 +30,7 @@ function readFragment(fragment) {
 
 /// Puts the settings where a fragment says, and answers what to tell about it ("" where all was well).
 function restore(settings, fragment) {
+    if (fragment.length < 2 && settings.isChanged()) settings.reset();
     if (!fragment.startsWith("#s=")) return "";
     const entries = readFragment(fragment);
     if (entries === null) return "The link's settings cannot be read; this is the scene without them.";

@@ -57,9 +57,14 @@ class Panels {
         section.append(select("shading", "Shading model"), select("reflection", "Reflection model"));
     }
 
-    /// Every model in force, once.
+    /// Every model in force, once; those of the most objects first.
     modelsInForce(kind) {
-        return [...new Set(this.scene.objects.map((object) => this.settings.modelOf(object, kind)))];
+        const uses = new Map();
+        for (const object of this.scene.objects) {
+            const name = this.settings.modelOf(object, kind);
+            uses.set(name, (uses.get(name) ?? 0) + 1);
+        }
+        return [...uses.keys()].sort((a, b) => uses.get(b) - uses.get(a));
     }
 
     fillFormulas() {
@@ -107,7 +112,7 @@ class Panels {
             models.textContent = ["reflection", "shading"]
                 .map((kind) => this.scene[`${kind}_models`][settings.modelOf(object, kind)].title).join(" · ");
         };
-        return this.named(fold, shownLabel(object.label, "object", i));
+        return this.named(fold, shownLabel(object.label, "object", i), `object.${i}.`);
     }
 
     lightFold(light, i) {
@@ -129,24 +134,26 @@ class Panels {
             if (color && settings.find(path)) swatch.style.backgroundColor = hexOf(settings.get(path));
             fold.classList.toggle("dark", !settings.get(`light.${i}.on`));
         };
-        return element("div", { class: "light" }, isLit, this.named(fold, name));
+        return element("div", { class: "light" }, isLit, this.named(fold, name, `light.${i}.`));
     }
 
-    named(fold, name) {
+    /// `prefix`: of the paths of its settings.
+    named(fold, name, prefix) {
         fold.querySelector(".body").setAttribute("role", "group");
         fold.querySelector(".body").setAttribute("aria-label", name);
-        this.folds.push(fold);
+        this.folds.push({ fold, prefix });
         fold.show();
         return fold;
     }
 
     changed(path, byHand) {
-        for (const fold of this.folds) {
+        const isOfModels = path === null || path === "shading" || path === "reflection";
+        for (const { fold, prefix } of this.folds) {
             // Other models have other parameters; the select that chose them is elsewhere and keeps the focus.
-            if ((path === null || path === "shading" || path === "reflection") && fold.parentElement.id === "objects") fold.refill();
-            fold.show();
+            if (isOfModels && prefix.startsWith("object.")) fold.refill();
+            if (isOfModels || path.startsWith(prefix)) fold.show();
         }
-        if (path === null || path === "shading" || path === "reflection") this.fillFormulas();
+        if (isOfModels) this.fillFormulas();
         if (byHand) return;
         const isTouched = (control) => path === null || control.dataset.path.startsWith(path);
         for (const control of document.querySelectorAll(".setting")) {

@@ -4,6 +4,7 @@ class Page {
     start() {
         this.scene = readScene();
         document.querySelector("h1").textContent = this.scene.title;
+        document.getElementById("maker").textContent = `Made by Candela ${this.scene.candela}`;
         this.settings = new Settings(this.scene);
         this.canvas = document.getElementById("picture-canvas");
         const options = { alpha: false, antialias: false, depth: false, powerPreference: "high-performance" };
@@ -37,6 +38,7 @@ class Page {
 
     open(notice) {
         const { settings, scene } = this;
+        document.getElementById("room").style.setProperty("--proportion", scene.image.width / scene.image.height);
         const resetView = () => document.getElementById("reset-view").click();
         new Panels(settings, new Controls(settings, reachOf(scene, this.renderer.boxes))).build();
         new Gestures(this.canvas, settings, resetView);
