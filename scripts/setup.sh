@@ -43,7 +43,9 @@ packages=(
   libassimp-dev libopenimageio-dev
 )
 if [ "$everything" = yes ]; then
-  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file)
+  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file
+    g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri
+    chromium chromium-driver python3-selenium)
 fi
 
 # Boost: Debian 12 has 1.81 beside its default 1.74; later releases need no such choice.

@@ -25,6 +25,7 @@ constexpr std::array k_verbs = {
     Verb{"render", "render a scene to a picture", run_render},
     Verb{"check", "read a scene and say what is wrong with it", run_check},
     Verb{"generate", "write a program that renders a scene", run_generate},
+    Verb{"verify", "show that generated programs render what Candela renders", run_verify},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
     Verb{"plugin", "make, test and find plugins", run_plugin},

@@ -15,6 +15,7 @@ int run_new(const std::vector<std::string>& arguments);
 int run_render(const std::vector<std::string>& arguments);
 int run_check(const std::vector<std::string>& arguments);
 int run_generate(const std::vector<std::string>& arguments);
+int run_verify(const std::vector<std::string>& arguments);
 int run_list(const std::vector<std::string>& arguments);
 int run_describe(const std::vector<std::string>& arguments);
 int run_plugin(const std::vector<std::string>& arguments);

@@ -22,6 +22,12 @@ constexpr const char* k_no_kernel =
     "has no kernel, the text that its mathematics is generated from; a program can only be generated with "
     "models that have one";
 
+/// Labels are for messages: 'lamp', in quotes, or number 2.
+std::string name_in(const std::string& label) {
+    const bool is_quoted = label.size() > 2 && label.front() == '\'' && label.back() == '\'';
+    return is_quoted ? label.substr(1, label.size() - 2) : label;
+}
+
 /// Puts the models of one kind into a list, each once.
 template <class Exported>
 std::size_t put(std::vector<Exported>& list, Exported model) {
@@ -180,7 +186,7 @@ class Exporter {
 
     void add(const candela::Object& object) {
         ExportedObject& to = result_.objects.emplace_back();
-        to.label = object.label;
+        to.label = name_in(object.label);
         to.color = object.color;
         to.placement = object.placement;
         to.shape = object.shape.name;

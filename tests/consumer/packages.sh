@@ -65,6 +65,8 @@ quiet "$candela" render -o "$scratch/picture.png"
 [ "$(head -c 8 "$scratch/picture.png" | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a ] || fail "no PNG was rendered"
 "$build/bin/candela" render -o "$scratch/built.png" 2>"$scratch/log"
 cmp -s "$scratch/picture.png" "$scratch/built.png" || fail "the installed command renders another picture than the built one"
+for target in cpp opengl webgl; do quiet "$candela" generate --target $target -o "$scratch/$target"; done
+quiet "$candela" verify --target cpp --width 120 --height 120
 "$candela" plugin doctor --plugin-dir "$root/usr/lib/candela/plugins" >"$scratch/log" || { cat "$scratch/log" >&2; fail "the doctor"; }
 code=0
 "$candela" plugin test "$root/usr/lib/candela/plugins/light-point.so" 2>"$scratch/log" || code=$?

@@ -46,6 +46,14 @@ cmp -s "$scratch/cel.ppm" "$scratch/phong.ppm" && fail "cel looks like Phong"
 # Two bands, no highlight, 1/r^2 from the lamp still: not a constant picture, not a black one.
 [ "$(tail -c +16 "$scratch/cel.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 20 ] || fail "the cel picture is empty"
 
+say "a program is generated with its formula, and renders what Candela renders"
+"$candela" generate --target cpp --reflection cel -o "$scratch/program" 2>"$scratch/out"
+grep -q "Cel shading: Lambert's cosine in a few steps" "$scratch/program/scene.cpp" || fail "the kernel is not in the program"
+"$candela" verify --target cpp --program "$scratch/program" --reflection cel --width 160 --height 160 >"$scratch/out" 2>&1 &&
+    fail "a program for another size was taken for the same picture"
+"$candela" verify --target cpp --reflection cel --width 160 --height 160 >"$scratch/out" 2>&1 || { cat "$scratch/out" >&2; fail "verify"; }
+expect "$scratch/out" "match" "candela verify"
+
 say "by directory flag, and wrong values are explained"
 unset CANDELA_PLUGIN_PATH
 "$candela" render --plugin-dir "$scratch/plugins" --reflection cel -o "$scratch/flag.ppm" 2>"$scratch/out"

@@ -1,0 +1,127 @@
+// candela verify notices what is not as it should be.
+#include <fmt/format.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <string>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
+    std::string text = read_file(file);
+    const std::size_t at = text.find(from);
+    INFO(from);
+    REQUIRE(at != std::string::npos);
+    write_file(file, text.replace(at, from.size(), to));
+}
+
+CommandResult verify(const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{"verify"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run_candela(words);
+}
+
+const std::vector<std::string> k_small = {"--width", "160", "--height", "120"};
+
+/// The default scene's program with one thing in it changed.
+CommandResult verify_changed(const std::string& target, const std::string& file, const std::string& from,
+                             const std::string& to) {
+    const fs::path program = scratch_directory() / "program";
+    std::vector<std::string> words{"generate", "--target", target, "-o", program.string()};
+    words.insert(words.end(), k_small.begin(), k_small.end());
+    REQUIRE(run_candela(words).exit_code == 0);
+    if (!from.empty()) replace_in(program / file, from, to);
+    words = {"--target", target, "--program", program.string()};
+    words.insert(words.end(), k_small.begin(), k_small.end());
+    return verify(words);
+}
+
+}  // namespace
+
+#ifndef CANDELA_TEST_SANITIZED
+TEST_CASE("verify: the default scene matches in C++, in OpenGL and in a browser, with a report to look at") {
+    const fs::path report = scratch_directory() / "report";
+    const CommandResult result = verify({"--report", report.string()});
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 0);
+    for (const char* const target : {"cpp", "opengl", "webgl"}) {
+        CHECK(result.out.find(target) != std::string::npos);
+        CHECK(fs::exists(report / (std::string(target) + ".png")));
+        CHECK(fs::exists(report / (std::string(target) + "-difference.png")));
+    }
+    CHECK(result.out.find("MISMATCH") == std::string::npos);
+    CHECK(read_file(report / "index.html").find("Verification of The default scene") != std::string::npos);
+}
+#endif
+
+TEST_CASE("verify: a program that nobody has changed matches, also where it was generated before") {
+    const CommandResult result = verify_changed("cpp", "", "", "");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("verify: a sign in one copy of a kernel is caught") {
+    const CommandResult result =
+        verify_changed("cpp", "scene.cpp", "s.normal - to_light", "s.normal + to_light");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 4);
+    CHECK(result.out.find("MISMATCH") != std::string::npos);
+}
+
+TEST_CASE("verify: a light that is five centimetres beside its place is caught") {
+    const CommandResult result = verify_changed("cpp", "scene.cpp", "PointLight{vec3(1.0f), 2.5f, vec3(0.0f)",
+                                                "PointLight{vec3(1.0f), 2.5f, vec3(0.05f, 0.0f, 0.0f)");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 4);
+}
+
+TEST_CASE("verify: half Lambert instead of Lambert is caught, in GLSL") {
+    const CommandResult result = verify_changed("opengl", "scene.cpp", "max(n_dot_l, 0.0f)",
+                                                "(0.5f * n_dot_l + 0.5f) * (0.5f * n_dot_l + 0.5f)");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 4);
+}
+
+TEST_CASE("verify: an object that is not drawn is caught") {
+    const CommandResult result = verify_changed("cpp", "scene.cpp", "all.push_back(o);", "");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 4);
+}
+
+TEST_CASE("verify: a wrong formula in a page is caught") {
+    const CommandResult result =
+        verify_changed("webgl", "scene.html", "2.0f * n_dot_l * s.normal", "2.1f * n_dot_l * s.normal");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 4);
+}
+
+TEST_CASE("verify: a program that does not compile, or does not run, is an error that shows why") {
+    const CommandResult compiled = verify_changed("cpp", "scene.cpp", "int main(", "int main(nonsense ");
+    CHECK(compiled.exit_code == 1);
+    CHECK(compiled.err.find("nonsense") != std::string::npos);
+    const CommandResult run =
+        verify_changed("cpp", "scene.cpp", "const std::string path = argc > 1 ? argv[1] : \"scene.png\";",
+                       "const std::string path = std::string(argc > 1 ? argv[1] : \"\") + \"/no/folder\";");
+    CHECK(run.exit_code == 1);
+    CHECK(run.err.find("cannot write") != std::string::npos);
+}
+
+#ifdef CANDELA_TEST_MUSEUM
+TEST_CASE("verify: a plugin whose kernel says something else than its code is caught") {
+    const CommandResult result = verify({"--target", "cpp", "--plugin-dir", CANDELA_TEST_MUSEUM,
+                                         "--reflection", "says-otherwise", "--width", "120"});
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 4);
+}
+#endif
+
+TEST_CASE("verify: wrong arguments are usage errors with a way out") {
+    CHECK(verify({"--target", "webg"}).err.find("did you mean 'webgl'?") != std::string::npos);
+    CHECK(verify({"--target", "webg"}).exit_code == 2);
+    CHECK(verify({"--tolerance", "-1"}).exit_code == 2);
+    CHECK(verify({"--program", "x"}).exit_code == 2);
+    CHECK(verify({"--target", "cpp", "--set", "light.lamp.intensity=-1"}).exit_code == 3);
+}
