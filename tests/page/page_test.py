@@ -39,12 +39,12 @@ def toml(value):
 class Generated:
     """A scene's file and page."""
 
-    def __init__(self, name, text, models="all"):
+    def __init__(self, name, text, models="all", options=()):
         folder = SCRATCH / name
         folder.mkdir(parents=True, exist_ok=True)
         self.file = folder / f"{name}.toml"
         self.file.write_text(text)
-        candela("generate", self.file, "--target", "webgl", "--models", models, "-o", folder / "page")
+        candela("generate", self.file, "--target", "webgl", "--models", models, "-o", folder / "page", *options)
         [self.page] = (folder / "page").glob("*.html")
         self.address = self.page.as_uri()
         self.scene = scene_of(self.page)
@@ -125,6 +125,20 @@ class Picturing(PageTest):
         for width, height in ((0, 10), (10, 1.5), (1 << 20, 10)):
             with self.assertRaises(AssertionError):
                 self.browser.picture(width, height)
+
+    def test_sample_positions(self):
+        """Beside edges, where samples count, they must be where Candela's are."""
+        for name, text in (("perspective", scenes.PERSPECTIVE), ("orthographic", scenes.ORTHOGRAPHIC)):
+            for samples in (4, 8, 16):
+                many = "--samples", samples
+                generated = Generated(f"samples-{name}-{samples}", text, "phong", many)
+                self.browser.open(generated.address)
+                reference, coarse = generated.render(*many), generated.render("--samples", 1)
+                differences = zip(self.picture(generated).differences(reference), coarse.differences(reference))
+                beside_edges = [wrong for wrong, change in differences if change > 8]
+                self.assertGreater(len(beside_edges), 100)
+                wrong = sum(d > TWO_STEPS for d in beside_edges)
+                self.assertLess(wrong, 0.15 * len(beside_edges), f"{name}, {samples} samples: {wrong} of {len(beside_edges)}")
 
     def test_verification(self):
         generated = Generated("verification", scenes.PERSPECTIVE)
