@@ -14,8 +14,9 @@ function bytesOf(base64) {
 const floatsOf = (base64) => new Float32Array(bytesOf(base64).buffer);
 const integersOf = (base64) => new Uint32Array(bytesOf(base64).buffer);
 
-/// A label as a person reads it: without the quotation marks that messages put around names.
+/// A label as a person reads it: without the quotation marks that messages put around names. Things without a name go by
+/// their number, as on the command line.
 function shownLabel(label, kind, index) {
     const bare = /^'[^]*'$/.test(label) ? label.slice(1, -1) : label;
-    return bare.trim() === "" || /^\d+$/.test(bare) ? `${kind} ${index + 1}` : bare;
+    return bare.trim() === "" || /^number \d+$/.test(label) ? `${kind} ${index}` : bare;
 }

@@ -36,7 +36,7 @@ class Program {
         if (this.isChecked || gl.isContextLost()) return this;
         if (!gl.getProgramParameter(this.handle, gl.LINK_STATUS)) {
             const logs = this.shaders.map((shader) => gl.getShaderInfoLog(shader));
-            const log = [...logs, gl.getProgramInfoLog(this.handle)].filter((text) => text).join("\n").trim();
+            const log = [...new Set([...logs, gl.getProgramInfoLog(this.handle)])].filter((text) => text).join("\n").trim();
             throw new ShaderError(`The graphics driver cannot compile ${this.title}.`, log || "It does not say why.");
         }
         for (const shader of this.shaders) gl.deleteShader(shader);

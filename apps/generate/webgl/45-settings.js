@@ -19,6 +19,7 @@ const SWITCH = parameterOf("on", "boolean", { meaning: "whether the light is lit
 
 /// The own member of that name; never what objects inherit.
 const member = (object, name) => (object && Object.hasOwn(object, name) ? object[name] : undefined);
+const item = (list, index) => (/^\d+$/.test(index) ? member(list, index) : undefined);
 
 class Settings {
     constructor(scene) {
@@ -54,12 +55,12 @@ class Settings {
             const parameter = this.observerParameters().find((p) => p.name === rest[0]);
             found = parameter && { parameter, own: scene.observer[rest[0]] };
         } else if (kind === "light") {
-            const light = member(scene.lights, rest[0]);
+            const light = item(scene.lights, rest[0]);
             if (light && rest.length === 2 && rest[1] === "on") found = { parameter: SWITCH, own: true };
             if (light && rest.length === 3 && rest[1] === "value")
                 found = modelSetting(scene.light_models, light.model, light.values, rest[2]);
         } else if (kind === "object") {
-            const object = member(scene.objects, rest[0]);
+            const object = item(scene.objects, rest[0]);
             if (object && rest.length === 2 && rest[1] === "color") found = { parameter: COLOR, own: object.color };
             if (object && rest.length === 4 && rest[1] === "material")
                 found = modelSetting(scene.reflection_models, rest[2], member(object.materials, rest[2]), rest[3]);

@@ -14,6 +14,7 @@ class Stage {
         this.frame = 0;
         this.timer = 0;
         this.lastMove = 0;
+        this.moves = 0;  // one soon after the other
         this.sample = -1;  // next of the refinement; -1: the quick picture
         this.observer = new ResizeObserver(() => this.changed());
         this.observer.observe(room);
@@ -105,7 +106,8 @@ class Stage {
     adapt(time) {
         const elapsed = time - this.lastMove;
         this.lastMove = time;
-        if (elapsed > 400) return;
+        this.moves = elapsed > 400 ? 0 : this.moves + 1;
+        if (this.moves < 3) return;  // shaders and buffers may have been made in between
         if (elapsed > SLOW_FRAME_MS) this.coarseness = Math.max(0.25, this.coarseness * 0.8);
         else if (elapsed < QUICK_FRAME_MS) this.coarseness = Math.min(1, this.coarseness * 1.05);
     }

@@ -25,8 +25,9 @@ function sliderRange(parameter, own, axis, reach) {
     } else {
         // A range that is far wider than the value is as good as open: nobody could aim in it.
         const isOpen = (limit) => limit === null || Math.abs(limit) > 25 * size;
+        if (isOpen(low)) low = null;
         if (isOpen(high)) high = niceAbove(Math.max(4 * size, low === null ? 0 : 2 * Math.abs(low)));
-        if (isOpen(low)) low = -high;
+        if (low === null) low = -high;
     }
     const step = stepOf(parameter, low, high);
     if (parameter.type === "point") return { low: tidy(Math.floor(low / step) * step), high: tidy(Math.ceil(high / step) * step), step };

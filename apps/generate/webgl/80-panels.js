@@ -70,8 +70,11 @@ class Panels {
     fillFormulas() {
         const formula = (kind, name, isOpen) => {
             const model = this.scene[`${kind}_models`][name];
-            // A line that is broken goes on further to the right than the others.
-            const lines = model.formula.split("\n").map((line) => element("span", { class: "formula-line" }, line + "\n"));
+            const lines = model.formula.split("\n").map((text) => {
+                const line = element("span", { class: "formula-line" }, text + "\n");
+                line.style.setProperty("--indent", text.search(/\S|$/) + 4);
+                return line;
+            });
             return folded(
                 [element("span", { class: "title" }, model.title), element("span", { class: "tag" }, kind)],
                 isOpen,

@@ -12,6 +12,7 @@ function showProblem(problem) {
     document.getElementById("problem-text").textContent = problem.message;
     document.getElementById("problem-detail").textContent = problem.detail ?? "";
     document.getElementById("problem-more").hidden = !problem.detail;
+    document.getElementById("problem-more").open = document.body.classList.contains("failed");
 }
 
 function showNotice(text) {

@@ -75,8 +75,8 @@ function startPage() {
         },
     };
     ready.catch((problem) => {
-        showProblem(problem);
         document.body.classList.add("failed");
+        showProblem(problem);
         const text = [problem.message, problem.detail].filter(Boolean).join("\n");
         document.body.append(element("pre", { id: "problem", hidden: true }, text));
     });

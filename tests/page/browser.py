@@ -1,0 +1,113 @@
+"""A browser with a generated page."""
+import base64
+import json
+import pathlib
+import re
+
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+
+from pictures import Picture
+
+DRAWS_BY_ITSELF = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+
+
+class Browser:
+    def __init__(self, *options):
+        chrome = webdriver.ChromeOptions()
+        for option in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", *options):
+            chrome.add_argument(option)
+        chrome.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=chrome)
+        self.driver.set_script_timeout(120)
+        self.resize(1280, 800)
+
+    def close(self):
+        self.driver.quit()
+
+    def resize(self, width, height, is_phone=False):
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": is_phone}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+
+    def load(self, address):
+        """A page of its own, not another fragment of the one that is open."""
+        self.driver.get("about:blank")
+        self.errors()
+        self.driver.get(address)
+
+    def open(self, address):
+        """Loads a page that is expected to work."""
+        self.load(address)
+        problem = self.problem()
+        assert problem is None, f"{address}: {problem}"
+
+    def problem(self):
+        """What candela.ready says: nothing where all is well."""
+        return self.driver.execute_async_script(
+            "const done = arguments[0]; candela.ready.then(() => done(null), (error) => done(error.message));")
+
+    def errors(self):
+        """What the console has said since the last time."""
+        return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+    def run(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def all(self, selector):
+        return self.driver.find_elements(By.CSS_SELECTOR, selector)
+
+    def one(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def text(self, selector):
+        return self.run("return document.querySelector(arguments[0]).textContent", selector)
+
+    def picture(self, width, height):
+        encoded = self.driver.execute_async_script("""
+            const [width, height, done] = arguments;
+            candela.render(width, height).then((rows) => {
+                let text = "";
+                for (let at = 0; at < rows.length; at += 8192) text += String.fromCharCode(...rows.subarray(at, at + 8192));
+                done(btoa(text));
+            }, (error) => done("!" + error.message));""", width, height)
+        assert not encoded.startswith("!"), encoded
+        return Picture.of_rgba(width, height, base64.b64decode(encoded))
+
+    def rest(self, seconds=2):
+        """For what the page does by and by: the picture on the screen, the clipboard, a new fragment."""
+        self.driver.execute_async_script("setTimeout(arguments[1], 1000 * arguments[0])", seconds)
+
+    def unfold_all(self):
+        """Contents are made when a part is opened, by an event that comes later."""
+        self.driver.execute_async_script("""
+            for (const part of document.querySelectorAll("details")) part.open = true;
+            setTimeout(arguments[0], 50);""")
+
+    def enter(self, selector, value):
+        """As a person would: the value, then the events that tell of it."""
+        self.run("""
+            const [selector, value] = arguments;
+            const input = document.querySelector(selector);
+            if (input.type === "checkbox") input.checked = value;
+            else input.value = value;
+            input.dispatchEvent(new Event("input", { bubbles: true }));
+            input.dispatchEvent(new Event("change", { bubbles: true }));""", selector, value)
+
+    def click(self, identifier):
+        self.run("document.getElementById(arguments[0]).click()", identifier)
+
+
+def scene_of(page):
+    """The JSON within a page."""
+    return json.loads(re.search(r'id="scene">(.*?)</script>', pathlib.Path(page).read_text(), re.S)[1])
+
+
+def with_scene(page, other, change):
+    """A copy of a page whose JSON has been changed."""
+    text = pathlib.Path(page).read_text()
+    scene = scene_of(page)
+    change(scene)
+    put_in = json.dumps(scene).replace("<", "\\u003c")
+    pathlib.Path(other).write_text(re.sub(r'(id="scene">).*?(</script>)', lambda m: m[1] + put_in + m[2], text, flags=re.S))
+    return pathlib.Path(other).as_uri()
