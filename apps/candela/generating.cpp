@@ -42,7 +42,17 @@ std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::R
     const std::string title = files.empty() ? "The default scene" : fs::path(files.front()).stem().string();
     const generate::ExtraModels extra =
         line.has("models") ? words_of(line.get<std::string>("models")) : generate::ExtraModels();
-    return SceneToExport{std::move(*compiled), generate::exported(draft->scene, title, extra, registry)};
+    const auto with_model = [&](candela::PluginKind kind, const std::string& name) {
+        candela::SceneRequest request = scene_request_from(line);
+        // What was asked has been answered.
+        request.ask = nullptr;
+        request.use_defaults = true;
+        (kind == candela::PluginKind::shading ? request.shading : request.reflection) = name;
+        candela::Diagnostics ignored;
+        return candela::read_scene(request, registry, ignored);
+    };
+    return SceneToExport{std::move(*compiled),
+                         generate::exported(draft->scene, title, extra, with_model, registry)};
 }
 
 generate::Templates generate_templates() { return {beside_command("share/candela/generate")}; }

@@ -54,7 +54,7 @@ class Exporter {
         for (const candela::LightSource& light : scene_.lights) add(light);
         for (const candela::Object& object : scene_.objects) add_models(object);
         for (const std::string& name : extra) add_extra(name);
-        for (const candela::Object& object : scene_.objects) add(object);
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) add(i);
         check_names();
         return std::move(result_);
     }
@@ -133,6 +133,7 @@ class Exporter {
 
     void add_default(PluginKind kind, const std::string& name) {
         const ParamSet values = registry_.parameters(kind, name);
+        if (!scene_.objects.empty()) with(kind, name);
         kind == PluginKind::shading ? add_shading(name, values) : add_reflection(name, values);
     }
 
@@ -168,23 +169,20 @@ class Exporter {
                                      : " (candela list reflection, candela list shading)"));
     }
 
-    /// Values of one model for an object that has another: those that both have, and the defaults.
-    ParamSet translated(const ParamSet& own, PluginKind kind, const std::string& name) {
-        ParamSet values = registry_.parameters(kind, name);
-        for (std::size_t i = 0; i < values.schema().size(); ++i) {
-            const candela::Parameter& wanted = values.schema()[i];
-            const std::size_t at = own.index_of(wanted.name);
-            if (at == own.schema().size() || own.schema()[at].type != wanted.type || !own.get(at)) continue;
-            const auto& value = *own.get(at);
-            const auto* const word = std::get_if<std::string>(&value);
-            const bool is_allowed = word == nullptr || wanted.type != candela::ParamType::choice ||
-                                    std::ranges::find(wanted.choices, *word) != wanted.choices.end();
-            if (is_allowed && !candela::complaint(wanted, value)) values.set(i, value);
+    /// The scene with that model for all objects. Each model is asked for once.
+    const candela::Scene& with(PluginKind kind, const std::string& name) {
+        const auto at = with_.find({kind, name});
+        if (at != with_.end()) return at->second;
+        auto scene = with_model_(kind, name);
+        if (!scene || scene->objects.size() != scene_.objects.size()) {
+            throw Error(ExitCode::failure, fmt::format("the scene is not valid with {}/{} for all objects (candela check --{} {})",
+                                                       candela::name_of(kind), name, candela::name_of(kind), name));
         }
-        return values;
+        return with_.emplace(std::pair(kind, name), std::move(*scene)).first->second;
     }
 
-    void add(const candela::Object& object) {
+    void add(std::size_t index) {
+        const candela::Object& object = scene_.objects[index];
         ExportedObject& to = result_.objects.emplace_back();
         to.label = name_in(object.label);
         to.color = object.color;
@@ -200,7 +198,7 @@ class Exporter {
             const bool is_own = name == object.shading.name;
             if (is_own) to.shading = i;
             to.shadings.push_back(is_own ? object.shading.parameters
-                                         : translated(object.shading.parameters, PluginKind::shading, name));
+                                         : with(PluginKind::shading, name).objects[index].shading.parameters);
         }
         for (std::size_t i = 0; i < result_.reflections.size(); ++i) {
             const std::string& name = result_.reflections[i].name();
@@ -208,7 +206,7 @@ class Exporter {
             if (is_own) to.reflection = i;
             to.materials.push_back(
                 is_own ? object.reflection.parameters
-                       : translated(object.reflection.parameters, PluginKind::reflection, name));
+                       : with(PluginKind::reflection, name).objects[index].reflection.parameters);
         }
         to.closed = candela::place(*to.tessellator, {}, to.placement).mesh.closed;
     }
@@ -233,7 +231,9 @@ class Exporter {
     }
 
     const candela::Scene& scene_;
+    const WithModel& with_model_;
     candela::Registry& registry_;
+    std::map<std::pair<PluginKind, std::string>, candela::Scene> with_;
     ExportedScene result_;
 };
 
@@ -261,8 +261,8 @@ std::vector<const ExportedModel*> ExportedScene::models() const {
 }
 
 ExportedScene exported(const candela::Scene& scene, const std::string& title, const ExtraModels& extra,
-                       candela::Registry& registry) {
-    return Exporter(scene, registry).run(title, extra);
+                       const WithModel& with_model, candela::Registry& registry) {
+    return Exporter(scene, with_model, registry).run(title, extra);
 }
 
 WorldMesh world_mesh(const ExportedScene& scene, const ExportedObject& object, candela::Registry& registry) {

@@ -1,6 +1,7 @@
 // A scene as a generated program has it: checked, with the kernels of all its models.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,10 +72,13 @@ struct ExportedScene {
 /// ids such as "shading/flat", or "all", those that can be exported.
 using ExtraModels = std::vector<std::string>;
 
+/// The scene as it would be if all its objects had that shading or reflection model, or nothing where it would not be valid.
+using WithModel = std::function<std::optional<candela::Scene>(candela::PluginKind kind, const std::string& name)>;
+
 /// Throws candela::Error where a model has no kernel, shows its surroundings, or clashes with another, and
 /// where a name of `extra` is not known. `scene` has been compiled with `registry`.
 ExportedScene exported(const candela::Scene& scene, const std::string& title, const ExtraModels& extra,
-                       candela::Registry& registry);
+                       const WithModel& with_model, candela::Registry& registry);
 
 /// Triangles in the world, and the unit normals of their vertices for each shading model of the scene.
 struct WorldMesh {

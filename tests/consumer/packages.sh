@@ -67,6 +67,7 @@ quiet "$candela" render -o "$scratch/picture.png"
 cmp -s "$scratch/picture.png" "$scratch/built.png" || fail "the installed command renders another picture than the built one"
 for target in cpp opengl webgl; do quiet "$candela" generate --target $target -o "$scratch/$target"; done
 quiet "$candela" verify --target cpp --width 120 --height 120
+quiet "$candela" diff --tolerance 0 "$scratch/picture.png" "$scratch/built.png"
 "$candela" plugin doctor --plugin-dir "$root/usr/lib/candela/plugins" >"$scratch/log" || { cat "$scratch/log" >&2; fail "the doctor"; }
 code=0
 "$candela" plugin test "$root/usr/lib/candela/plugins/light-point.so" 2>"$scratch/log" || code=$?

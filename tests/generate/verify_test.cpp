@@ -92,8 +92,8 @@ TEST_CASE("verify: an object that is not drawn is caught") {
 }
 
 TEST_CASE("verify: a wrong formula in a page is caught") {
-    const CommandResult result =
-        verify_changed("webgl", "scene.html", "2.0f * n_dot_l * s.normal", "2.1f * n_dot_l * s.normal");
+    const CommandResult result = verify_changed("webgl", "scene.html", "s.color * max(n_dot_l, 0.0f)",
+                                                "s.color * max(1.1f * n_dot_l, 0.0f)");
     INFO(result.out << result.err);
     CHECK(result.exit_code == 4);
 }
