@@ -101,3 +101,12 @@ render "$sheet" -o "$out/reflection-models.png"
 render "$root/docs/examples/still-life.toml" -o "$out/still-life.png"
 render "$root/docs/examples/glass.toml" -o "$out/glass.png"
 render --samples 16 -o "$out/default-scene.png"
+
+# The generated page, as a browser shows it.
+page=$(mktemp -d)
+trap 'rm -rf "$sheet" "$page"' EXIT
+"$root/build/release/bin/candela" generate "$root/docs/examples/still-life.toml" --target webgl --models phong,lambert,flat,gouraud,ggx,toon -o "$page" 2>/dev/null
+sandbox=()
+[ "$(id -u)" -ne 0 ] || sandbox=(--no-sandbox)
+chromium --headless=new "${sandbox[@]}" --use-angle=swiftshader --enable-unsafe-swiftshader --hide-scrollbars --window-size=1400,900 \
+    --user-data-dir="$page/profile" --virtual-time-budget=8000 --screenshot="$out/page.png" "file://$page/scene.html" 2>/dev/null

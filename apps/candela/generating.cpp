@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-#include "plugin.h"
+#include "helper.h"
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -3,14 +3,12 @@
 
 #include <array>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "reporting.h"
 #include "signals.h"
-#include "terminal.h"
 #include "verbs.h"
 
 import candela.core;
@@ -26,6 +24,8 @@ constexpr std::array k_verbs = {
     Verb{"check", "read a scene and say what is wrong with it", run_check},
     Verb{"generate", "write a program that renders a scene", run_generate},
     Verb{"verify", "show that generated programs render what Candela renders", run_verify},
+    Verb{"bench", "say how long a scene takes, stage by stage", run_bench},
+    Verb{"diff", "say how two pictures differ", run_diff},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
     Verb{"plugin", "make, test and find plugins", run_plugin},
@@ -88,28 +88,11 @@ int run(const std::vector<std::string>& arguments) {
                             near ? fmt::format("did you mean '{}'?", *near) : "candela --help shows all"));
 }
 
-int fail(ExitCode code, const std::string& message) {
-    std::cerr << (stderr_takes_color() ? "\x1b[1;31mcandela: error:\x1b[0m " : "candela: error: ") << message
-              << '\n';
-    return static_cast<int>(code);
-}
-
 }  // namespace
 
 std::span<const Verb> verbs() { return k_verbs; }
 
 int main(int argc, char** argv) {
     prepare_for_signals();
-    try {
-        const int code = run({argv + 1, argv + argc});
-        std::cout.flush();
-        if (!std::cout) return fail(ExitCode::failure, "standard output cannot be written");
-        return code;
-    } catch (const Error& problem) {
-        return fail(problem.code(), problem.what());
-    } catch (const std::bad_alloc&) {
-        return fail(ExitCode::failure, "not enough memory");
-    } catch (const std::exception& problem) {
-        return fail(ExitCode::failure, problem.what());
-    }
+    return run_and_report([&] { return run({argv + 1, argv + argc}); });
 }

@@ -2,40 +2,21 @@
 #include "plugin.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
+#include "helper.h"
 #include "verbs.h"
 
-namespace fs = std::filesystem;
 using candela::Error;
 using candela::ExitCode;
 
-fs::path beside_command(const char* relative) {
-    return fs::canonical("/proc/self/exe").parent_path().parent_path() / relative;
-}
-
 int run_plugin_test(const std::vector<std::string>& arguments) {
-    const fs::path kit = beside_command("lib/candela/candela-conformance");
-    if (!fs::exists(kit)) {
-        throw Error(ExitCode::failure, fmt::format("the conformance kit is not installed: there is no '{}' "
-                                                   "(package candela-dev, or a build with tests)",
-                                                   kit.string()));
-    }
-    std::vector<std::string> words{kit.string()};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    ::execv(kit.c_str(), argv.data());
-    throw Error(ExitCode::failure, fmt::format("'{}' cannot be run: {}", kit.string(), std::strerror(errno)));
+    become_helper("candela-conformance", arguments, "the conformance kit",
+                  "package candela-dev, or a build with tests");
 }
 
 namespace {

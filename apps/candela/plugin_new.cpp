@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "helper.h"
 #include "plugin.h"
 
 namespace fs = std::filesystem;

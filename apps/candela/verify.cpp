@@ -12,7 +12,7 @@
 #include "generate/building.h"
 #include "generate/target.h"
 #include "generating.h"
-#include "plugin.h"
+#include "helper.h"
 #include "terminal.h"
 #include "verbs.h"
 #include "verify/comparison.h"

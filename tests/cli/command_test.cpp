@@ -39,7 +39,7 @@ TEST_CASE("help and version go to standard output") {
         CHECK(holds(help.out, "Usage: candela VERB"));
         CHECK(help.err.empty());
     }
-    for (const char* const verb : {"new", "render", "check", "list", "describe", "schema"}) {
+    for (const char* const verb : {"new", "render", "check", "diff", "list", "describe", "schema"}) {
         INFO(verb);
         const CommandResult help = run_candela({verb, "--help"});
         CHECK(help.exit_code == 0);

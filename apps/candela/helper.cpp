@@ -1,0 +1,37 @@
+#include "helper.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+import candela.core;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ExitCode;
+
+fs::path beside_command(const char* relative) {
+    return fs::canonical("/proc/self/exe").parent_path().parent_path() / relative;
+}
+
+void become_helper(const std::string& program, const std::vector<std::string>& arguments, const char* what,
+                   const char* where_from) {
+    const fs::path file = beside_command("lib/candela") / program;
+    if (!fs::exists(file)) {
+        throw Error(ExitCode::failure, fmt::format("{} is not installed: there is no '{}' ({})", what,
+                                                   file.string(), where_from));
+    }
+    std::vector<std::string> words{file.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    ::execv(file.c_str(), argv.data());
+    throw Error(ExitCode::failure,
+                fmt::format("'{}' cannot be run: {}", file.string(), std::strerror(errno)));
+}

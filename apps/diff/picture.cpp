@@ -1,0 +1,151 @@
+#include "picture.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+import candela.core;
+import candela.document;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ExitCode;
+
+namespace {
+
+constexpr int k_longest = 65536;  // as of Candela's own pictures
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+    throw Error(ExitCode::failure, fmt::format("'{}' {}", file.string(), what));
+}
+
+void require_ordinary_file(const fs::path& file) {
+    std::error_code problem;
+    const fs::file_status status = fs::status(file, problem);
+    if (status.type() == fs::file_type::not_found) {
+        const std::string hint = candela::file_suggestion(file);
+        throw Error(ExitCode::failure,
+                    fmt::format("there is no file '{}'{}{}", file.string(), hint.empty() ? "" : "; ", hint));
+    }
+    if (status.type() == fs::file_type::none)
+        fail(file, fmt::format("cannot be looked at: {}", problem.message()));
+    if (status.type() == fs::file_type::directory) fail(file, "is a directory; a picture is a file");
+    if (status.type() != fs::file_type::regular) fail(file, "is no ordinary file (a pipe or a device?)");
+    if (::access(file.c_str(), R_OK) != 0)
+        fail(file, fmt::format("cannot be opened: {}", std::strerror(errno)));
+}
+
+/// What OpenImageIO says, on one line.
+std::string reason(std::string text) {
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+    std::ranges::replace(text, '\n', ' ');
+    return text.empty() ? "it may be cut short" : text;
+}
+
+struct Window {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// What the file shows: an EXR may store less of it, or more.
+Window shown_window(const OIIO::ImageSpec& spec) {
+    if (spec.full_width < 1 || spec.full_height < 1) return {spec.x, spec.y, spec.width, spec.height};
+    return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+}
+
+/// All stored pixels of the first `channels` channels.
+template <class Number>
+std::vector<Number> stored(OIIO::ImageInput& input, const fs::path& file, int channels, OIIO::TypeDesc type) {
+    const OIIO::ImageSpec& spec = input.spec();
+    std::vector<Number> numbers(static_cast<std::size_t>(channels) * static_cast<std::size_t>(spec.width) *
+                                static_cast<std::size_t>(spec.height));
+    if (!input.read_image(0, 0, 0, channels, type, numbers.data()))
+        fail(file, fmt::format("cannot be read: {}", reason(input.geterror())));
+    return numbers;
+}
+
+template <class Number>
+void place(const std::vector<Number>& numbers, const OIIO::ImageSpec& spec, const Window& shown, int channels,
+           Picture& picture) {
+    const int left = std::max(spec.x, shown.x), right = std::min(spec.x + spec.width, shown.x + shown.width);
+    const int top = std::max(spec.y, shown.y),
+              bottom = std::min(spec.y + spec.height, shown.y + shown.height);
+    for (int y = top; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) {
+            const auto from = static_cast<std::size_t>(y - spec.y) * static_cast<std::size_t>(spec.width) +
+                              static_cast<std::size_t>(x - spec.x);
+            const auto to = static_cast<std::size_t>(y - shown.y) * static_cast<std::size_t>(shown.width) +
+                            static_cast<std::size_t>(x - shown.x);
+            for (std::size_t c = 0; c < 3; ++c) {
+                picture.values[3 * to + c] = static_cast<float>(
+                    numbers[static_cast<std::size_t>(channels) * from + (channels == 3 ? c : 0)]);
+            }
+        }
+    }
+}
+
+void require_finite(const Picture& picture, const fs::path& file) {
+    const auto wrong = std::ranges::find_if_not(picture.values, [](float v) { return std::isfinite(v); });
+    if (wrong == picture.values.end()) return;
+    constexpr std::array<std::string_view, 3> k_colors = {"red", "green", "blue"};
+    const auto index = static_cast<std::size_t>(wrong - picture.values.begin());
+    const auto width = static_cast<std::size_t>(picture.width);
+    fail(file, fmt::format("holds {} at x {}, y {} ({}), counted from 0 at the upper left; only finite "
+                           "numbers can be compared",
+                           std::isnan(*wrong) ? "NaN" : "infinity", index / 3 % width, index / 3 / width,
+                           k_colors[index % 3]));
+}
+
+}  // namespace
+
+Picture read_picture(const fs::path& file) {
+    require_ordinary_file(file);
+    // Else colours would be multiplied with alpha, which is not compared.
+    OIIO::ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string(), &wishes);
+    if (input == nullptr) fail(file, fmt::format("is not a picture: {}", reason(OIIO::geterror())));
+    const OIIO::ImageSpec& spec = input->spec();
+    const Window shown = shown_window(spec);
+    if (spec.deep || spec.depth > 1 || spec.nchannels < 1)
+        fail(file, "is not a picture of flat pixels (but deep, a volume, or without channels)");
+    for (const int length : {spec.width, spec.height, shown.width, shown.height}) {
+        if (length < 1 || length > k_longest) {
+            fail(file, fmt::format("has {} x {} pixels; 1 to {} are possible each way", shown.width,
+                                   shown.height, k_longest));
+        }
+    }
+
+    Picture picture{.width = shown.width,
+                    .height = shown.height,
+                    .is_float = spec.format.is_floating_point(),
+                    .values = {}};
+    const int channels = spec.nchannels < 3 ? 1 : 3;  // two are grey and alpha
+    const std::uint64_t bytes = sizeof(float) * 3 * (picture.pixels() + spec.image_pixels());
+    candela::require_memory(bytes, fmt::format("the picture '{}'", file.string()));
+    picture.values.resize(3 * picture.pixels());
+    if (picture.is_float) {
+        place(stored<float>(*input, file, channels, OIIO::TypeFloat), spec, shown, channels, picture);
+    } else {
+        place(stored<std::uint16_t>(*input, file, channels, OIIO::TypeUInt16), spec, shown, channels,
+              picture);
+    }
+    require_finite(picture, file);
+    return picture;
+}
+
+std::string size_text(const Picture& picture) {
+    return fmt::format("{} x {}", picture.width, picture.height);
+}

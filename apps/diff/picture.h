@@ -1,0 +1,27 @@
+// A picture as it is compared: red, green and blue in the file's own numbers.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Rows from the top, no padding. What lies outside of the part that the file stores is black.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    bool is_float = false;      // as computed; else whole numbers, encoded for a display
+    std::vector<float> values;  // red, green, blue; whole numbers as 0 to 65535, which holds all of them
+    static constexpr float k_whole = 65535;
+
+    std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    /// The `i`-th value, 1 where a whole number is as large as it can be.
+    float normalized(std::size_t i) const { return is_float ? values[i] : values[i] / k_whole; }
+};
+
+/// Reads a picture of any format that OpenImageIO knows; alpha is left out, and grey becomes red, green and
+/// blue alike. Throws candela::Error (failure) for what is no picture, or holds what is no finite number.
+Picture read_picture(const std::filesystem::path& file);
+
+/// "640 x 480"
+std::string size_text(const Picture& picture);
