@@ -10,7 +10,6 @@ class ShaderError extends Error {
 }
 
 class Program {
-    /// `locations`: of attributes, unless the source says.
     constructor(gl, title, vertexSource, fragmentSource) {
         this.gl = gl;
         this.title = title;

@@ -95,7 +95,7 @@ class Settings {
         areEqual(wanted, own) ? this.changes.delete(path) : this.changes.set(path, wanted);
     }
 
-    /// `changed`: of one path, or of many at once (null). `byHand`: by that path's own control.
+    /// `path`: the one that has changed, what such paths begin with, or null for many. `byHand`: by its own control.
     tell(path, byHand = false) {
         for (const listener of this.listeners) listener(path, byHand);
     }

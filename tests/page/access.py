@@ -1,0 +1,50 @@
+"""Phones, names for screen readers, the keyboard."""
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+
+import scenes
+from generated import Generated, PageTest
+
+
+class Access(PageTest):
+    def test_phone(self):
+        generated = Generated("phone", scenes.PERSPECTIVE)
+        self.addCleanup(self.browser.resize, 1280, 800)
+        for width, height in ((390, 844), (320, 568), (844, 390)):
+            self.browser.resize(width, height, is_phone=True)
+            self.browser.open(generated.address)
+            self.browser.unfold_all()
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
+            cut = self.browser.run("""
+                return [...document.querySelectorAll("aside *")].filter((e) => e.getBoundingClientRect().right > innerWidth + 0.5).length;""")
+            self.assertEqual(cut, 0)
+            top, bottom = self.browser.run("const r = document.querySelector('canvas').getBoundingClientRect(); return [r.top, r.bottom]")
+            self.assertGreaterEqual(top, 0)
+            self.assertLessEqual(bottom, height)
+
+    def test_names(self):
+        generated = Generated("names", scenes.PERSPECTIVE)
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        controls = self.browser.all("canvas, input, select, button, summary")
+        self.assertGreater(len(controls), 50)
+        for control in controls:
+            if control.is_displayed():
+                self.assertNotEqual(control.accessible_name.strip(), "", control.get_attribute("outerHTML"))
+        self.assertIn("arrows", self.browser.text("#" + self.browser.one("canvas").get_attribute("aria-describedby")))
+        self.assertEqual(self.browser.run("return new Set([...document.querySelectorAll('[id]')].map((e) => e.id)).size"),
+                         len(self.browser.all("[id]")))
+
+    def test_focus_order(self):
+        generated = Generated("focus", scenes.ORTHOGRAPHIC)
+        self.browser.open(generated.address)
+        expected = self.browser.run("""
+            const all = [...document.querySelectorAll("canvas, input, select, button, summary")].filter((e) => e.checkVisibility());
+            all.forEach((e, i) => (e.dataset.order = i));
+            return all.length;""")
+        seen = []
+        for _ in range(expected):
+            ActionChains(self.browser.driver).send_keys(Keys.TAB).perform()
+            seen.append(self.browser.run("return document.activeElement.dataset.order ?? document.activeElement.outerHTML"))
+        self.assertEqual(seen, [str(i) for i in range(expected)])
+        self.assertEqual(self.browser.run("return document.querySelector('[data-order=\"0\"]').tagName"), "CANVAS")

@@ -1,0 +1,149 @@
+"""Whether controls do what options of the command line do."""
+import scenes
+from generated import Generated, PageTest, options_for
+
+
+def another(number, least, most):
+    """A number of the same kind that is allowed, and far enough away to be seen."""
+    for candidate in (number * 0.5, number * 1.6, number + 0.4, least):
+        if least <= candidate <= most and abs(candidate - number) > 1e-3:
+            return candidate
+    raise AssertionError(f"no other number than {number} from {least} to {most}")
+
+
+class Controls(PageTest):
+    """Each control is driven as a person would, then all is reset."""
+
+    def settings(self):
+        return self.browser.run("return [...document.querySelectorAll('.setting')].map((s) => s.dataset.path)")
+
+    def value_shown(self, path):
+        return self.browser.run("""
+            const setting = document.querySelector(`[data-path="${arguments[0]}"]`);
+            const numbers = [...setting.querySelectorAll("input[type=number]")].map((input) => Number(input.value));
+            if (numbers.length > 0) return numbers.length === 1 ? numbers[0] : numbers;
+            const input = setting.querySelector("input, select");
+            if (input.type === "color") return [1, 3, 5].map((at) => parseInt(input.value.slice(at, at + 2), 16));
+            return input.type === "checkbox" ? input.checked : input.value;""", path)
+
+    def try_input(self, generated, own, path, selector, value, models=()):
+        what = f"{path}, {selector.split('] ')[-1]} = {value}"
+        self.browser.enter(selector, value)
+        shown = self.value_shown(path)
+        page = self.picture(generated)
+        self.assert_alike(page, generated.render(*models, *options_for(path, shown)), f"{what}, shown as {shown}", before=own)
+        self.assertTrue(self.browser.run("return document.querySelector(arguments[0]).classList.contains('changed')", f'[data-path="{path}"]'), what)
+
+    def inputs(self, path):
+        """(selector, type, value, least, most) of a setting's inputs."""
+        described = self.browser.run("""
+            const setting = document.querySelector(`[data-path="${arguments[0]}"]`);
+            return [...setting.querySelectorAll("input, select")].map((input, i) => {
+                input.dataset.test = i;
+                const options = input.options ? [...input.options].map((option) => option.value) : [];
+                return [i, input.type, input.value, input.min, input.max, options];
+            });""", path)
+        for i, kind, value, least, most, options in described:
+            yield f'[data-path="{path}"] [data-test="{i}"]', kind, value, least, most, options
+
+    def new_values(self, path, kind, value, least, most, options):
+        if kind == "checkbox":
+            return [False]
+        if kind == "color":
+            return ["#c86414"]
+        if kind == "select-one":
+            return [option for option in options if option not in ("", value, self.own_model.get(path))]
+        if path.endswith(("position", "look_at", "direction", "up", "edge_u", "edge_v")):
+            return [float(value) + (0.35 if kind == "number" or float(value) + 0.35 <= float(most) else -0.35)]
+        least, most = float(least or "-inf"), float(most or "inf")
+        number = another(float(value), least, most)
+        return [int(number) if path.endswith(("samples_u", "samples_v", "bands")) else number]
+
+    def try_setting(self, generated, own, path, undo, models=(), kinds=None):
+        for selector, kind, value, least, most, options in list(self.inputs(path)):
+            if kinds is not None and kind not in kinds:
+                continue
+            for new in self.new_values(path, kind, value, least, most, options):
+                undo()
+                list(self.inputs(path))  # these may be made anew, too
+                self.try_input(generated, own, path, selector, new, models)
+
+    def reset(self):
+        self.browser.click("reset-all")
+        self.browser.unfold_all()
+
+    def check_all(self, generated):
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        self.own_model = {kind: generated.scene["objects"][-1][kind] for kind in ("shading", "reflection")}
+        own = self.picture(generated)
+        paths = self.settings()
+        expected = {f"object.{i}.color" for i in range(len(generated.scene["objects"]))}
+        for i, light in enumerate(generated.scene["lights"]):
+            names = [p["name"] for p in generated.scene["light_models"][light["model"]]["parameters"]]
+            expected |= {f"light.{i}.on", *(f"light.{i}.value.{name}" for name in names)}
+        for i, thing in enumerate(generated.scene["objects"]):
+            names = [p["name"] for p in generated.scene["reflection_models"][thing["reflection"]]["parameters"]]
+            expected |= {f"object.{i}.material.{thing['reflection']}.{name}" for name in names}
+        self.assertLessEqual(expected | {"shading", "reflection"}, set(paths))
+        for path in paths:
+            with self.subTest(path):
+                self.try_setting(generated, own, path, self.reset)
+            self.reset()
+            self.assertEqual(self.picture(generated).pixels, own.pixels, f"{path}: reset")
+        self.assertEqual(self.browser.errors(), [])
+
+    def test_perspective(self):
+        self.check_all(Generated("controls-perspective", scenes.PERSPECTIVE))
+
+    def test_orthographic(self):
+        self.check_all(Generated("controls-orthographic", scenes.ORTHOGRAPHIC))
+
+    def test_materials_of_other_models(self):
+        generated = Generated("materials", scenes.PERSPECTIVE)
+        self.browser.open(generated.address)
+        for model in generated.scene["reflection_models"]:
+            def choose():
+                self.browser.click("reset-all")
+                self.browser.enter("[data-path=reflection] select", model)
+                self.browser.unfold_all()
+            choose()
+            self.own_model = {}
+            own = self.picture(generated)
+            for path in [p for p in self.settings() if p.startswith(f"object.1.material.{model}.")]:
+                with self.subTest(path):
+                    self.try_setting(generated, own, path, choose, ("--reflection", model), ("number", "select-one"))
+
+    def test_one_channel(self):
+        generated = Generated("channels", scenes.PERSPECTIVE)
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        own = self.picture(generated)
+        path = "object.0.material.lambert.kd"
+        self.assertEqual(self.value_shown(path), 0.7)
+        self.browser.run("document.querySelector(arguments[0]).click()", f'[data-path="{path}"] .split')
+        self.assertEqual(self.picture(generated).pixels, own.pixels)
+        selector = [s for s, kind, *_ in self.inputs(path) if kind == "number"][1]
+        self.try_input(generated, own, path, selector, 0.2)
+        self.assertEqual(self.value_shown(path), [0.7, 0.2, 0.7])
+
+    def test_wrong_input(self):
+        generated = Generated("wrong", scenes.PERSPECTIVE)
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        own = self.picture(generated)
+        wrong = {
+            "object.0.material.lambert.kd": ["", "-0.1", "1.1", "1e99"],
+            "light.0.value.intensity": ["-1", ""],
+            "light.1.value.inner_angle": ["90", "-5"],
+            "observer.fov": ["0", "180", "-20"],
+        }
+        for path, values in wrong.items():
+            for value in values:
+                selector = [s for s, kind, *_ in self.inputs(path) if kind == "number"][0]
+                self.browser.enter(selector, value)
+                self.assertEqual(self.picture(generated).pixels, own.pixels, f"{path} = {value}")
+                self.assertNotEqual(self.browser.text(f'[data-path="{path}"] .wrong'), "", f"{path} = {value}")
+                self.assertEqual(self.browser.one(selector).get_attribute("aria-invalid"), "true")
+            self.reset()
+        self.assertEqual(self.browser.errors(), [])

@@ -1,0 +1,91 @@
+"""Keys, mouse and fingers on the picture."""
+import base64
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+from selenium.webdriver.common.keys import Keys
+
+import scenes
+from generated import MOST_DIFFERENT, TWO_STEPS, Generated, PageTest, options_for
+from pictures import Picture
+
+
+class Looking(PageTest):
+    def setUp(self):
+        self.generated = Generated("looking", scenes.PERSPECTIVE)
+        self.browser.open(self.generated.address)
+        self.browser.unfold_all()
+        self.own = self.picture(self.generated)
+        self.canvas = self.browser.one("canvas")
+
+    def observer(self):
+        return self.browser.run("""
+            return [...document.querySelectorAll('[data-path="observer.position"] input[type=number]')].map((i) => Number(i.value));""")
+
+    def assert_moved(self, what):
+        page = self.picture(self.generated)
+        reference = self.generated.render(*options_for("observer.position", self.observer()))
+        self.assert_alike(page, reference, what, before=self.own)
+
+    def assert_back(self):
+        self.assertEqual(self.picture(self.generated).pixels, self.own.pixels)
+
+    def test_keyboard(self):
+        back = ["0", Keys.HOME]
+        for i, key in enumerate((Keys.ARROW_LEFT, Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.ARROW_DOWN, "+", "-")):
+            self.canvas.send_keys(key)
+            self.assert_moved(f"key {i}")
+            self.canvas.send_keys(back[i % 2])
+            self.assert_back()
+
+    def test_over_the_poles(self):
+        for _ in range(40):
+            self.canvas.send_keys(Keys.ARROW_UP)
+        self.assert_moved("up to the pole")
+
+    def test_mouse(self):
+        ActionChains(self.browser.driver).drag_and_drop_by_offset(self.canvas, 120, -40).perform()
+        self.assert_moved("drag")
+        self.browser.click("reset-view")
+        self.assert_back()
+        ActionChains(self.browser.driver).scroll_from_origin(ScrollOrigin.from_element(self.canvas), 0, -240).perform()
+        self.assert_moved("wheel")
+        self.browser.click("reset-view")
+        self.assert_back()
+
+    def touch(self, kind, *points):
+        at = self.browser.run("const r = arguments[0].getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]", self.canvas)
+        places = [{"x": at[0] + x, "y": at[1] + y, "id": i} for i, (x, y) in enumerate(points)]
+        self.browser.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
+
+    def test_fingers(self):
+        self.touch("touchStart", (0, 0))
+        self.touch("touchMove", (60, 20))
+        self.touch("touchEnd")
+        self.assert_moved("one finger")
+        self.browser.click("reset-view")
+        self.touch("touchStart", (-40, 0), (40, 0))
+        self.touch("touchMove", (-90, 0), (90, 0))
+        self.touch("touchEnd")
+        self.assert_moved("pinch")
+        nearer, own = self.observer(), self.generated.scene["observer"]["position"]
+        self.assertLess(abs(nearer[2]), abs(own[2]))
+
+    def test_orthographic_zoom(self):
+        generated = Generated("zoom", scenes.ORTHOGRAPHIC)
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        own = self.picture(generated)
+        self.browser.one("canvas").send_keys("+")
+        height = float(self.browser.one('[data-path="observer.height"] input').get_attribute("value"))
+        self.assertLess(height, 2.6)
+        self.assert_alike(self.picture(generated), generated.render("--set", f"observer.height={height}"), "zoom", before=own)
+
+    def test_canvas_shows_it(self):
+        """What is on the screen is the picture, once it has come to rest."""
+        self.browser.rest()
+        png = base64.b64decode(self.canvas.screenshot_as_base64)
+        screen = Picture.of_png(png)
+        reference = self.generated.render("--width", screen.width, "--height", screen.height)
+        differences = screen.differences(reference)  # the corners are rounded
+        self.assertLess(sum(d > TWO_STEPS for d in differences), MOST_DIFFERENT * len(differences))

@@ -1,0 +1,92 @@
+"""Names, data, shaders and devices that mean no good."""
+import scenes
+from browser import Browser, with_scene
+from generated import SCRATCH, Generated, PageTest
+
+
+class Robustness(PageTest):
+    def test_hostile_names(self):
+        generated = Generated("it's <b>bold<b> & \"loud\"", scenes.hostile())
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        self.assert_alike(self.picture(generated), generated.render(), "hostile names")
+        self.assertIsNone(self.browser.run("return window.hacked ?? null"))
+        self.assertEqual(self.browser.run("return document.querySelectorAll('img, svg, b, aside script').length"), 0)
+        self.assertEqual(self.browser.errors(), [])
+        titles = self.browser.run("return [...document.querySelectorAll('#lights .title')].map((t) => t.textContent)")
+        self.assertEqual(len(titles), len(scenes.HOSTILE_NAMES))
+        self.assertTrue(titles[0].startswith("<img src=x"))
+        self.assertIn("漢字", "".join(titles))
+        self.assertEqual(self.browser.text("h1"), generated.file.stem)
+        self.assertEqual(self.browser.driver.title, generated.file.stem)
+
+    def test_hostile_values(self):
+        """Whatever stands in the data is text."""
+        def spoil(scene):
+            script = "<img src=x onerror=window.hacked=1>"
+            scene["title"] = script
+            for models in (scene["light_models"], scene["reflection_models"], scene["shading_models"]):
+                for model in models.values():
+                    for part in ("title", "summary", "formula", "reference"):
+                        model[part] = script
+                    for parameter in model["parameters"]:
+                        parameter["meaning"] = parameter["unit"] = script
+        generated = Generated("values", scenes.PERSPECTIVE, "phong")
+        self.browser.open(with_scene(generated.page, SCRATCH / "values.html", spoil))
+        self.browser.unfold_all()
+        self.assertIsNone(self.browser.run("return window.hacked ?? null"))
+        self.assertEqual(self.browser.run("return document.querySelectorAll('img').length"), 0)
+
+    def test_broken_shader(self):
+        def spoil(scene):
+            scene["reflection_models"]["lambert"]["glsl"] += "\nfloat oops = nonsense;"
+        generated = Generated("shader", scenes.PERSPECTIVE)
+        self.browser.load(with_scene(generated.page, SCRATCH / "shader.html", spoil))
+        self.assertIn("Lambert", self.browser.problem())
+        self.assertIn("nonsense", self.browser.text("#problem-detail"))
+        self.assertIn("nonsense", self.browser.text("#problem"))
+        self.assertTrue(self.browser.one("#problem-text").is_displayed())
+
+    def test_broken_shader_that_is_chosen(self):
+        """The page goes on working, and says what is wrong for as long as it is."""
+        def spoil(scene):
+            scene["reflection_models"]["toon"]["glsl"] += "\nfloat oops = nonsense;"
+        generated = Generated("chosen", scenes.PERSPECTIVE)
+        self.browser.open(with_scene(generated.page, SCRATCH / "chosen.html", spoil))
+        self.browser.enter("[data-path=reflection] select", "toon")
+        self.browser.rest(0.8)
+        self.assertIn("Toon", self.browser.one("#problem-text").text)
+        self.browser.enter("[data-path=reflection] select", "phong")
+        self.browser.rest(0.8)
+        self.assertFalse(self.browser.one("#problem-box").is_displayed())
+        self.assert_alike(self.picture(generated), generated.render("--reflection", "phong"), "afterwards")
+
+    def test_too_many_lights(self):
+        lights = "".join(f'[[light]]\ntype = "point"\nposition = [{i / 1000:.4f}, 2.0, 2.0]\n' for i in range(3000))
+        generated = Generated("lights", scenes.PERSPECTIVE.replace("[[object]]", lights + "[[object]]", 1), "phong")
+        self.browser.load(generated.address)
+        self.assertIn("cannot compile", self.browser.problem())
+        self.assertTrue(self.browser.one("#problem-text").is_displayed())
+
+    def test_lost_graphics(self):
+        generated = Generated("lost", scenes.PERSPECTIVE)
+        self.browser.open(generated.address)
+        own = self.picture(generated)
+        self.browser.run("""
+            window.lose = document.querySelector("canvas").getContext("webgl2").getExtension("WEBGL_lose_context");
+            lose.loseContext();""")
+        self.browser.rest(0.8)
+        self.assertIn("interrupted", self.browser.one("#problem-text").text)
+        self.browser.run("lose.restoreContext()")
+        self.browser.rest(0.8)
+        self.assertFalse(self.browser.one("#problem-box").is_displayed())
+        self.assertEqual(self.picture(generated).pixels, own.pixels)
+
+    def test_without_webgl(self):
+        generated = Generated("without", scenes.PERSPECTIVE)
+        browser = Browser("--disable-3d-apis")
+        self.addCleanup(browser.close)
+        browser.load(generated.address)
+        self.assertIn("WebGL 2", browser.problem())
+        self.assertTrue(browser.one("#problem-text").is_displayed())
+        self.assertIn("WebGL 2", browser.text("#problem"))
