@@ -40,7 +40,8 @@ std::size_t put(std::vector<Exported>& list, Exported model) {
 
 class Exporter {
   public:
-    Exporter(const candela::Scene& scene, candela::Registry& registry) : scene_(scene), registry_(registry) {}
+    Exporter(const candela::Scene& scene, const WithModel& with_model, candela::Registry& registry)
+        : scene_(scene), with_model_(with_model), registry_(registry) {}
 
     ExportedScene run(const std::string& title, const ExtraModels& extra) {
         result_.title = title;
@@ -175,8 +176,10 @@ class Exporter {
         if (at != with_.end()) return at->second;
         auto scene = with_model_(kind, name);
         if (!scene || scene->objects.size() != scene_.objects.size()) {
-            throw Error(ExitCode::failure, fmt::format("the scene is not valid with {}/{} for all objects (candela check --{} {})",
-                                                       candela::name_of(kind), name, candela::name_of(kind), name));
+            throw Error(
+                ExitCode::failure,
+                fmt::format("the scene is not valid with {}/{} for all objects (candela check --{} {})",
+                            candela::name_of(kind), name, candela::name_of(kind), name));
         }
         return with_.emplace(std::pair(kind, name), std::move(*scene)).first->second;
     }

@@ -72,8 +72,10 @@ struct ExportedScene {
 /// ids such as "shading/flat", or "all", those that can be exported.
 using ExtraModels = std::vector<std::string>;
 
-/// The scene as it would be if all its objects had that shading or reflection model, or nothing where it would not be valid.
-using WithModel = std::function<std::optional<candela::Scene>(candela::PluginKind kind, const std::string& name)>;
+/// The scene as it would be if all its objects had that shading or reflection model, or nothing where it
+/// would not be valid.
+using WithModel =
+    std::function<std::optional<candela::Scene>(candela::PluginKind kind, const std::string& name)>;
 
 /// Throws candela::Error where a model has no kernel, shows its surroundings, or clashes with another, and
 /// where a name of `extra` is not known. `scene` has been compiled with `registry`.
