@@ -1,7 +1,7 @@
 // candela verify: generates programs, builds and runs them, and compares their pictures with Candela's.
 #include <fmt/format.h>
-#include <stdlib.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <optional>

@@ -7,7 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -79,8 +82,9 @@ void require_success(const ToolResult& result, const std::string& what) {
 bool is_page(const Target& target) { return std::string_view(target.name) == "webgl"; }
 
 std::optional<std::string> chromium() {
+    const char* const variable = std::getenv("PATH");
+    const std::string path = variable != nullptr ? variable : "";
     for (const char* const name : {"chromium", "chromium-browser", "google-chrome"}) {
-        std::string path = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
         for (std::size_t begin = 0; begin <= path.size();) {
             const std::size_t end = std::min(path.find(':', begin), path.size());
             const fs::path program = fs::path(path.substr(begin, end - begin)) / name;
