@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "stopwatch.h"
 #include "terminal.h"
 #include "verbs.h"
 
@@ -18,12 +18,6 @@ using candela::Error;
 using candela::ExitCode;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 double median_of(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -63,12 +57,12 @@ int run_bench(const std::vector<std::string>& arguments) {
 
     candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
-    const auto begin = Clock::now();
+    const Stopwatch total;
     const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
-    const double read_ms = milliseconds_since(begin);
-    const auto compile_begin = Clock::now();
+    const double read_ms = total.milliseconds();
+    const Stopwatch compiling;
     const auto scene = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
-    const double compile_ms = milliseconds_since(compile_begin);
+    const double compile_ms = compiling.milliseconds();
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!scene) return static_cast<int>(diagnostics.exit_code());
 
@@ -79,9 +73,9 @@ int run_bench(const std::vector<std::string>& arguments) {
     {
         ProgressBar bar("measuring");
         for (int i = 0; i < warm_up + frames; ++i) {
-            const auto frame_begin = Clock::now();
+            const Stopwatch drawing;
             statistics = candela::render(*scene, film, {.threads = threads});
-            const double frame_ms = milliseconds_since(frame_begin);
+            const double frame_ms = drawing.milliseconds();
             bar.update(static_cast<std::size_t>(i) + 1,
                        static_cast<std::size_t>(warm_up) + static_cast<std::size_t>(frames));
             if (i < warm_up) continue;

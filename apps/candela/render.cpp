@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <iostream>
 #include <optional>
 #include <string>
 
 #include "command_line.h"
+#include "stopwatch.h"
 #include "terminal.h"
 #include "verbs.h"
 
@@ -16,12 +16,6 @@ using candela::Error;
 using candela::ExitCode;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 /// "7.3 ms", "1.37 s".
 std::string duration_text(double milliseconds) {
@@ -53,7 +47,7 @@ int run_render(const std::vector<std::string>& arguments) {
         "verbose", "say how long each stage took");
     if (!line.parse(arguments)) return 0;
 
-    const auto begin = Clock::now();
+    const Stopwatch total;
     const auto output = line.get<std::string>("output");
     if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
         throw Error(ExitCode::usage, "-o - would print a PNG on this terminal; send it to a file or a pipe");
@@ -64,10 +58,10 @@ int run_render(const std::vector<std::string>& arguments) {
 
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
-    const double read_ms = milliseconds_since(begin);
-    const auto compile_begin = Clock::now();
+    const double read_ms = total.milliseconds();
+    const Stopwatch compiling;
     const auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
-    const double compile_ms = milliseconds_since(compile_begin);
+    const double compile_ms = compiling.milliseconds();
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!compiled) return static_cast<int>(diagnostics.exit_code());
 
@@ -84,9 +78,9 @@ int run_render(const std::vector<std::string>& arguments) {
     const std::string darkness = candela::why_black(*compiled, film, statistics);
     if (!darkness.empty())
         std::cerr << fmt::format("candela: warning: nothing in the picture is lit: {}\n", darkness);
-    const auto write_begin = Clock::now();
+    const Stopwatch writing;
     candela::write_picture(film, format, output, registry);
-    const double write_ms = milliseconds_since(write_begin);
+    const double write_ms = writing.milliseconds();
 
     if (line.has("verbose")) {
         std::cerr << fmt::format(
@@ -99,6 +93,6 @@ int run_render(const std::vector<std::string>& arguments) {
     std::cerr << fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {}\n",
                              output == "-" ? "picture" : output, film.width(), film.height(),
                              statistics.triangles, statistics.triangles == 1 ? "" : "s",
-                             statistics.pixels_shaded, duration_text(milliseconds_since(begin)));
+                             statistics.pixels_shaded, duration_text(total.milliseconds()));
     return 0;
 }
