@@ -68,7 +68,7 @@ TEST_CASE("the example scenes are valid") {
     int checked = 0;
     for (const auto& entry : fs::directory_iterator(k_source / "docs/examples")) {
         if (entry.path().extension() != ".toml") continue;
-        const CommandResult result = run_candela({"check", entry.path().string(), "--defaults"});
+        const CommandResult result = check(entry.path());
         INFO(result.err);
         CHECK(result.exit_code == 0);
         ++checked;
