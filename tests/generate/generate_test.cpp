@@ -216,8 +216,7 @@ TEST_CASE(
     CHECK(page.find(fmt::format("| Candela, as a scene file | {} |", written_lines(read_file(cube)))) !=
           std::string::npos);
 
-    REQUIRE(run_candela({"render", cube.string(), "-o", (directory / "cube.ppm").string()})
-                .exit_code == 0);
+    REQUIRE(run_candela({"render", cube.string(), "-o", (directory / "cube.ppm").string()}).exit_code == 0);
     REQUIRE(run_candela({"render", "-o", (directory / "default.ppm").string()}).exit_code == 0);
     CHECK(read_file(directory / "cube.ppm") == read_file(directory / "default.ppm"));
 }
