@@ -35,7 +35,57 @@ int count_from(const CommandLine& line, const char* flag, int least, int most) {
 /// Milliseconds of each frame, by stage.
 struct Times {
     std::vector<double> projection, tiles, frame;
+    std::vector<double> relit;  // frames of which nothing but the light is new
 };
+
+struct Plan {
+    int frames, warm_up, threads;
+};
+
+Times measure(const candela::CompiledScene& scene, const Plan& plan, candela::Film& film,
+              candela::RenderStatistics& statistics) {
+    Times times;
+    ProgressBar bar("measuring");
+    const auto all = static_cast<std::size_t>(plan.warm_up + 2 * plan.frames + 1);
+    std::size_t done = 0;
+    for (int i = 0; i < plan.warm_up + plan.frames; ++i) {
+        const Stopwatch drawing;
+        statistics = candela::render(scene, film, {.threads = plan.threads});
+        const double milliseconds = drawing.milliseconds();
+        bar.update(++done, all);
+        if (i < plan.warm_up) continue;
+        times.frame.push_back(milliseconds);
+        times.projection.push_back(1e3 * statistics.seconds_projecting);
+        times.tiles.push_back(1e3 * statistics.seconds_on_tiles);
+    }
+    candela::Visibility visibility;
+    for (int i = 0; i < 1 + plan.frames; ++i) {
+        const Stopwatch lighting;
+        visibility.render(scene, film, {.threads = plan.threads});
+        if (i > 0) times.relit.push_back(lighting.milliseconds());
+        bar.update(++done, all);
+    }
+    return times;
+}
+
+void print_text(const nlohmann::ordered_json& f) {
+    const auto number = [&](const char* key) { return f.at(key).get<double>(); };
+    std::cout << fmt::format("{} x {}, {} sample(s), {} triangles, {}\n", f.at("width").get<int>(),
+                             f.at("height").get<int>(), f.at("samples").get<int>(),
+                             f.at("triangles").get<std::size_t>(), f.at("instruction_set").get<std::string>())
+              << fmt::format("  scene        {:9.3f} ms  once\n  meshes       {:9.3f} ms  once\n",
+                             number("read_ms"), number("meshes_ms"))
+              << fmt::format("  projection   {:9.3f} ms\n  tiles        {:9.3f} ms\n",
+                             number("projection_ms"), number("tiles_ms"))
+              << fmt::format("  frame        {:9.3f} ms  median of {}, fastest {:.3f}\n", number("frame_ms"),
+                             f.at("frames").get<int>(), number("fastest_frame_ms"))
+              << fmt::format("  relit        {:9.3f} ms  where only lights or materials have changed\n",
+                             number("relit_frame_ms"))
+              << fmt::format(
+                     "  {:.4g} Mpixel/s, {:.4g} Msample/s, {:.4g} M points lit/s, {:.4g} Mtriangle/s\n",
+                     number("mpixels_per_second"), number("msamples_per_second"),
+                     number("mpoints_lit_per_second"), number("mtriangles_per_second"));
+}
 
 }  // namespace
 
@@ -51,47 +101,35 @@ int run_bench(const std::vector<std::string>& arguments) {
         "json", "print the figures as JSON");
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
-    const int frames = count_from(line, "frames", 1, 100000);
-    const int warm_up = count_from(line, "warm-up", 0, 100000);
-    const int threads = count_from(line, "threads", 0, 1024);
+    const Plan plan{.frames = count_from(line, "frames", 1, 100000),
+                    .warm_up = count_from(line, "warm-up", 0, 100000),
+                    .threads = count_from(line, "threads", 0, 1024)};
 
     candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
-    const Stopwatch total;
+    const Stopwatch reading;
     const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
-    const double read_ms = total.milliseconds();
+    const double read_ms = reading.milliseconds();
     const Stopwatch compiling;
     const auto scene = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
     const double compile_ms = compiling.milliseconds();
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!scene) return static_cast<int>(diagnostics.exit_code());
 
-    candela::Film film(scene->image.width, scene->image.height, candela::PixelType::byte,
-                       scene->image.color_management);
-    Times times;
+    const candela::ImageSettings& image = scene->image;
+    candela::Film film(image.width, image.height, candela::PixelType::byte, image.color_management);
     candela::RenderStatistics statistics;
-    {
-        ProgressBar bar("measuring");
-        for (int i = 0; i < warm_up + frames; ++i) {
-            const Stopwatch drawing;
-            statistics = candela::render(*scene, film, {.threads = threads});
-            const double frame_ms = drawing.milliseconds();
-            bar.update(static_cast<std::size_t>(i) + 1,
-                       static_cast<std::size_t>(warm_up) + static_cast<std::size_t>(frames));
-            if (i < warm_up) continue;
-            times.frame.push_back(frame_ms);
-            times.projection.push_back(1e3 * statistics.seconds_projecting);
-            times.tiles.push_back(1e3 * statistics.seconds_on_tiles);
-        }
-    }
+    const Times times = measure(*scene, plan, film, statistics);
     const double frame = median_of(times.frame);
-    const double pixels = static_cast<double>(film.width()) * static_cast<double>(film.height());
     const auto per_second = [&](double count) { return count / frame / 1e3; };  // in millions
+    const double pixels = static_cast<double>(film.width()) * static_cast<double>(film.height());
     const nlohmann::ordered_json figures = {
         {"width", film.width()},
         {"height", film.height()},
-        {"frames", frames},
-        {"threads", threads},
+        {"samples", image.samples},
+        {"triangles", statistics.triangles},
+        {"frames", plan.frames},
+        {"threads", plan.threads},
         {"instruction_set", candela::name_of(candela::instruction_set())},
         {"read_ms", read_ms},
         {"meshes_ms", compile_ms},
@@ -99,27 +137,15 @@ int run_bench(const std::vector<std::string>& arguments) {
         {"tiles_ms", median_of(times.tiles)},
         {"frame_ms", frame},
         {"fastest_frame_ms", std::ranges::min(times.frame)},
+        {"relit_frame_ms", median_of(times.relit)},
         {"mpixels_per_second", per_second(pixels)},
-        {"msamples_per_second", per_second(pixels * scene->image.samples)},
+        {"msamples_per_second", per_second(pixels * image.samples)},
         {"mpoints_lit_per_second", per_second(static_cast<double>(statistics.points_lit))},
         {"mtriangles_per_second", per_second(static_cast<double>(statistics.triangles))}};
     if (line.has("json")) {
         std::cout << figures.dump(2) << '\n';
-        return 0;
+    } else {
+        print_text(figures);
     }
-    std::cout << fmt::format("{} x {}, {} sample{}, {} triangles, {}\n", film.width(), film.height(),
-                             scene->image.samples, scene->image.samples == 1 ? "" : "s", statistics.triangles,
-                             candela::name_of(candela::instruction_set()));
-    std::cout << fmt::format("  scene        {:9.3f} ms  once\n  meshes       {:9.3f} ms  once\n", read_ms,
-                             compile_ms);
-    std::cout << fmt::format(
-        "  projection   {:9.3f} ms\n  tiles        {:9.3f} ms\n  frame        {:9.3f} ms  median of {}, "
-        "fastest {:.3f}\n",
-        median_of(times.projection), median_of(times.tiles), frame, frames, std::ranges::min(times.frame));
-    std::cout << fmt::format(
-        "  {:.4g} Mpixel/s, {:.4g} Msample/s, {:.4g} M points lit/s, {:.4g} Mtriangle/s\n",
-        per_second(pixels), per_second(pixels * scene->image.samples),
-        per_second(static_cast<double>(statistics.points_lit)),
-        per_second(static_cast<double>(statistics.triangles)));
     return 0;
 }

@@ -134,7 +134,6 @@ class Exporter {
 
     void add_default(PluginKind kind, const std::string& name) {
         const ParamSet values = registry_.parameters(kind, name);
-        if (!scene_.objects.empty()) with(kind, name);
         kind == PluginKind::shading ? add_shading(name, values) : add_reflection(name, values);
     }
 
@@ -170,18 +169,24 @@ class Exporter {
                                      : " (candela list reflection, candela list shading)"));
     }
 
-    /// The scene with that model for all objects. Each model is asked for once.
-    const candela::Scene& with(PluginKind kind, const std::string& name) {
+    /// The scene with that model for all objects, or nothing where it is not valid so. Each model is asked
+    /// for once.
+    const std::optional<candela::Scene>& with(PluginKind kind, const std::string& name) {
         const auto at = with_.find({kind, name});
         if (at != with_.end()) return at->second;
         auto scene = with_model_(kind, name);
-        if (!scene || scene->objects.size() != scene_.objects.size()) {
-            throw Error(
-                ExitCode::failure,
-                fmt::format("the scene is not valid with {}/{} for all objects (candela check --{} {})",
-                            candela::name_of(kind), name, candela::name_of(kind), name));
-        }
-        return with_.emplace(std::pair(kind, name), std::move(*scene)).first->second;
+        if (scene && scene->objects.size() != scene_.objects.size()) scene.reset();
+        return with_.emplace(std::pair(kind, name), std::move(scene)).first->second;
+    }
+
+    /// An object's values for a model that is not its own: what `--shading` and `--reflection` would give it.
+    /// Where the scene is not valid with them, because a word of its own model means nothing to the other:
+    /// the defaults.
+    ParamSet values_for(PluginKind kind, const std::string& name, std::size_t index) {
+        const auto& scene = with(kind, name);
+        if (!scene) return registry_.parameters(kind, name);
+        const candela::Object& object = scene->objects[index];
+        return kind == PluginKind::shading ? object.shading.parameters : object.reflection.parameters;
     }
 
     void add(std::size_t index) {
@@ -201,15 +206,14 @@ class Exporter {
             const bool is_own = name == object.shading.name;
             if (is_own) to.shading = i;
             to.shadings.push_back(is_own ? object.shading.parameters
-                                         : with(PluginKind::shading, name).objects[index].shading.parameters);
+                                         : values_for(PluginKind::shading, name, index));
         }
         for (std::size_t i = 0; i < result_.reflections.size(); ++i) {
             const std::string& name = result_.reflections[i].name();
             const bool is_own = name == object.reflection.name;
             if (is_own) to.reflection = i;
-            to.materials.push_back(
-                is_own ? object.reflection.parameters
-                       : with(PluginKind::reflection, name).objects[index].reflection.parameters);
+            to.materials.push_back(is_own ? object.reflection.parameters
+                                          : values_for(PluginKind::reflection, name, index));
         }
         to.closed = candela::place(*to.tessellator, {}, to.placement).mesh.closed;
     }
@@ -236,7 +240,7 @@ class Exporter {
     const candela::Scene& scene_;
     const WithModel& with_model_;
     candela::Registry& registry_;
-    std::map<std::pair<PluginKind, std::string>, candela::Scene> with_;
+    std::map<std::pair<PluginKind, std::string>, std::optional<candela::Scene>> with_;
     ExportedScene result_;
 };
 

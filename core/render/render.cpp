@@ -5,7 +5,10 @@ module;
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 module candela.render;
@@ -38,50 +41,137 @@ Camera camera_of(const Observer& observer, int width, int height) {
                            perspective ? observer.fov : observer.height, width, height);
 }
 
-RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
-    RenderStatistics statistics;
+namespace {
+
+/// A scene as far as what is seen of it depends on it.
+struct SeenScene {
+    explicit SeenScene(const CompiledScene& scene, const Film& film, int tile_size_)
+        : observer(scene.observer),
+          width(film.width()),
+          height(film.height()),
+          samples(scene.image.samples),
+          tile_size(tile_size_) {
+        for (const SolidObject& object : scene.objects)
+            meshes.push_back(
+                {object.mesh.position.x.data(), object.mesh.corners.data(), object.mesh.corners.size()});
+    }
+
+    struct MeshPlace {
+        const float* position;
+        const std::uint32_t* corners;
+        std::size_t corner_count;
+        friend bool operator==(const MeshPlace&, const MeshPlace&) = default;
+    };
+
+    Observer observer;
+    int width, height, samples, tile_size;
+    std::vector<MeshPlace> meshes;
+
+    friend bool operator==(const SeenScene&, const SeenScene&) = default;
+};
+
+/// Figures that several threads add up.
+struct Totals {
     std::atomic<std::size_t> tiles_done{0}, pixels_shaded{0}, points_lit{0};
     std::atomic<float> brightest{0};
-    const int tile_size = options.tile_size > 0 ? options.tile_size : tile_size_for(scene.image.samples);
+
+    void add(const TileShader& shader) {
+        pixels_shaded += shader.pixels_shaded();
+        points_lit += shader.points_lit();
+        float before = brightest;
+        while (before < shader.brightest() && !brightest.compare_exchange_weak(before, shader.brightest())) {
+        }
+    }
+};
+
+/// What is kept of a picture.
+struct KeptTiles {
+    ProjectedScene projected;
+    std::vector<SeenTile> tiles;
+    bool is_whole = false;
+};
+
+ProjectedScene projected_scene(const CompiledScene& scene, const Film& film, int tile_size) {
     std::vector<const Mesh*> meshes;
     for (const SolidObject& object : scene.objects) meshes.push_back(&object.mesh);
+    try {
+        return project(meshes, camera_of(scene.observer, film.width(), film.height()), tile_size);
+    } catch (const std::length_error& problem) {
+        throw Error(ExitCode::failure, problem.what());
+    }
+}
 
+/// The stages from projection on. `kept`: what is seen already, or is to be kept; null: neither.
+RenderStatistics render_stages(const CompiledScene& scene, Film& film, const RenderOptions& options,
+                               int tile_size, KeptTiles* kept) {
+    RenderStatistics statistics;
+    Totals totals;
     with_threads(options.threads, [&] {
         const auto begin = Clock::now();
-        const Camera camera = camera_of(scene.observer, film.width(), film.height());
-        ProjectedScene projected;
-        try {
-            projected = project(meshes, camera, tile_size);
-        } catch (const std::length_error& problem) {
-            throw Error(ExitCode::failure, problem.what());
-        }
+        ProjectedScene of_this_picture;
+        const bool is_seen = kept != nullptr && kept->is_whole;
+        ProjectedScene& projected = kept != nullptr ? kept->projected : of_this_picture;
+        if (!is_seen) projected = projected_scene(scene, film, tile_size);
+        const auto tiles = static_cast<std::size_t>(projected.tile_count());
+        if (kept != nullptr) kept->tiles.resize(tiles);
         statistics.seconds_projecting = seconds_since(begin);
         statistics.triangles = projected.first_triangle.back();
 
         const auto tiles_begin = Clock::now();
-        const auto tiles = static_cast<std::size_t>(projected.tile_count());
         // A few tiles at a time, so that a shader's arrays are made seldom and the threads still end
         // together.
         const std::size_t grain = std::clamp<std::size_t>(tiles / 64, 1, 16);
         parallel_for(tiles, grain, [&](std::size_t first, std::size_t last) {
+            TileViewer viewer(projected, scene.image.samples);
             TileShader shader(scene, projected);
+            SeenTile of_this_tile;
             for (std::size_t tile = first; tile < last; ++tile) {
-                shader.run(static_cast<int>(tile), film);
-                const std::size_t done = ++tiles_done;
+                SeenTile& seen = kept != nullptr ? kept->tiles[tile] : of_this_tile;
+                if (!is_seen) viewer.look(static_cast<int>(tile), seen);
+                shader.run(seen, film);
+                const std::size_t done = ++totals.tiles_done;
                 if (options.progress) options.progress(done, tiles);
             }
-            pixels_shaded += shader.pixels_shaded();
-            points_lit += shader.points_lit();
-            float before = brightest;
-            while (before < shader.brightest() &&
-                   !brightest.compare_exchange_weak(before, shader.brightest())) {
-            }
+            totals.add(shader);
         });
         statistics.seconds_on_tiles = seconds_since(tiles_begin);
     });
-    statistics.pixels_shaded = pixels_shaded;
-    statistics.points_lit = points_lit;
-    statistics.brightest = brightest;
+    statistics.pixels_shaded = totals.pixels_shaded;
+    statistics.points_lit = totals.points_lit;
+    statistics.brightest = totals.brightest;
+    return statistics;
+}
+
+int tile_size_of(const CompiledScene& scene, const RenderOptions& options) {
+    return options.tile_size > 0 ? options.tile_size : tile_size_for(scene.image.samples);
+}
+
+}  // namespace
+
+RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
+    return render_stages(scene, film, options, tile_size_of(scene, options), nullptr);
+}
+
+struct Visibility::Kept {
+    SeenScene seen;
+    KeptTiles tiles{};
+};
+
+Visibility::Visibility() = default;
+Visibility::Visibility(Visibility&&) noexcept = default;
+Visibility& Visibility::operator=(Visibility&&) noexcept = default;
+Visibility::~Visibility() = default;
+
+void Visibility::clear() noexcept { kept_.reset(); }
+
+RenderStatistics Visibility::render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
+    const int tile_size = tile_size_of(scene, options);
+    SeenScene seen(scene, film, tile_size);
+    // What was begun and not ended, because something threw, is no use.
+    if (kept_ == nullptr || !kept_->tiles.is_whole || !(kept_->seen == seen))
+        kept_ = std::make_unique<Kept>(Kept{.seen = std::move(seen)});
+    const RenderStatistics statistics = render_stages(scene, film, options, tile_size, &kept_->tiles);
+    kept_->tiles.is_whole = true;
     return statistics;
 }
 

@@ -42,58 +42,57 @@ VertexSide corner(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t
 
 }  // namespace
 
+void TileViewer::look(int tile, SeenTile& seen) {
+    seen.is_empty = !rasterize(projected_, tile, samples_, visibility_);
+    seen.x0 = visibility_.x0;
+    seen.y0 = visibility_.y0;
+    seen.width = visibility_.width;
+    seen.height = visibility_.height;
+    seen.stride = visibility_.stride;
+    if (!seen.is_empty) seen.fragments.collect(projected_, visibility_, seen.background_weight);
+}
+
 TileShader::TileShader(const CompiledScene& scene, const ProjectedScene& projected)
     : scene_(scene), projected_(projected), lighting_(scene.lights, scene.environment, projected.camera) {
     batch_.resize(k_batch_size);
 }
 
-void TileShader::run(int tile, Film& film) {
-    const bool is_empty = !rasterize(projected_, tile, scene_.image.samples, visibility_);
-    if (is_empty && scene_.environment.is_uniform()) {
-        return film.fill(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height,
-                         scene_.environment.seen({}));
+void TileShader::run(const SeenTile& seen, Film& film) {
+    if (seen.is_empty && scene_.environment.is_uniform())
+        return film.fill(seen.x0, seen.y0, seen.width, seen.height, scene_.environment.seen({}));
+    fill_background(seen);
+    if (!seen.is_empty) {
+        for (const FragmentList& list : seen.fragments.lists()) shade(list);
+        for (int row = 0; row < seen.height; ++row) {
+            const auto first = seen.background_weight.begin() + std::ptrdiff_t{row} * seen.stride;
+            pixels_shaded_ += static_cast<std::size_t>(
+                std::count_if(first, first + seen.width, [](float weight) { return weight < 1; }));
+        }
     }
-    if (is_empty) {
-        background_weight_.assign(visibility_.plane(), 1);
-    } else {
-        fragments_.collect(projected_, visibility_, background_weight_);
-    }
-    fill_background();
-    if (!is_empty) {
-        for (const FragmentList& list : fragments_.lists()) shade(list);
-    }
-
-    for (int row = 0; row < visibility_.height; ++row) {
-        const auto first = background_weight_.begin() + std::ptrdiff_t{row} * visibility_.stride;
-        pixels_shaded_ += static_cast<std::size_t>(
-            std::count_if(first, first + visibility_.width, [](float weight) { return weight < 1; }));
-    }
-    film.store(visibility_.x0, visibility_.y0, visibility_.width, visibility_.height,
-               std::as_const(pixels_).span(), visibility_.stride);
+    film.store(seen.x0, seen.y0, seen.width, seen.height, std::as_const(pixels_).span(), seen.stride);
 }
 
 /// What is seen beside the objects, as much of each pixel as shows it.
-void TileShader::fill_background() {
-    const std::size_t plane = visibility_.plane();
+void TileShader::fill_background(const SeenTile& seen) {
+    const std::size_t plane = seen.plane();
     pixels_.resize(plane);
     const Vec3Span pixels = pixels_.span();
-    const auto put = [&](std::size_t i, Rgb seen) {
-        const Rgb rgb = background_weight_[i] * seen;
+    const auto weight = [&](std::size_t i) { return seen.is_empty ? 1.0f : seen.background_weight[i]; };
+    const auto put = [&](std::size_t i, Rgb background) {
+        const Rgb rgb = weight(i) * background;
         pixels.set(i, {rgb.r, rgb.g, rgb.b});
     };
     if (scene_.environment.is_uniform()) {
         for (std::size_t i = 0; i < plane; ++i) put(i, scene_.environment.seen({}));
         return;
     }
-    for (int row = 0; row < visibility_.height; ++row) {
-        for (int column = 0; column < visibility_.width; ++column) {
-            const std::size_t i =
-                static_cast<std::size_t>(row) * static_cast<std::size_t>(visibility_.stride) +
-                static_cast<std::size_t>(column);
-            const Vec3 towards =
-                projected_.camera.view_through(static_cast<float>(visibility_.x0 + column) + 0.5f,
-                                               static_cast<float>(visibility_.y0 + row) + 0.5f);
-            put(i, background_weight_[i] > 0 ? scene_.environment.seen(towards) : Rgb{});
+    for (int row = 0; row < seen.height; ++row) {
+        for (int column = 0; column < seen.width; ++column) {
+            const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(seen.stride) +
+                                  static_cast<std::size_t>(column);
+            const Vec3 towards = projected_.camera.view_through(static_cast<float>(seen.x0 + column) + 0.5f,
+                                                                static_cast<float>(seen.y0 + row) + 0.5f);
+            put(i, weight(i) > 0 ? scene_.environment.seen(towards) : Rgb{});
         }
     }
 }

@@ -77,6 +77,7 @@ int run(const std::string& scene_file, const std::string& out_file) {
         bench::DumpObject dump;
         dump.vertices = static_cast<std::uint32_t>(mesh.vertex_count());
         dump.triangles = static_cast<std::uint32_t>(mesh.triangle_count());
+        dump.closed = mesh.closed ? 1 : 0;
         const auto kd = value_of(material, "kd", encoding), ks = value_of(material, "ks", encoding);
         set(dump.diffuse, {kd.number[0] * color.r, kd.number[1] * color.g, kd.number[2] * color.b});
         set(dump.specular, {ks.number[0], ks.number[1], ks.number[2]});

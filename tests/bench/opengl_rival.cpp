@@ -53,7 +53,7 @@ layout(std140) uniform Lights { Light lights[LIGHTS]; };
 layout(std140) uniform Material { vec4 diffuse; vec4 specular; };  // specular.w: shininess
 out vec4 color;
 void main() {
-    vec3 N = normalize(n);
+    vec3 N = normalize(gl_FrontFacing ? n : -n);
     vec3 V = normalize(eye.xyz - at);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LIGHTS; ++i) {
@@ -200,6 +200,7 @@ class Rival {
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         for (const Drawn& d : drawn_) {
             glBindBufferBase(GL_UNIFORM_BUFFER, 2, d.material);
+            (d.is_closed ? glEnable : glDisable)(GL_CULL_FACE);
             glBindVertexArray(d.array);
             glDrawElements(GL_TRIANGLES, d.corners, GL_UNSIGNED_INT, nullptr);
         }
@@ -210,6 +211,7 @@ class Rival {
     struct Drawn {
         GLuint array, material;
         GLsizei corners;
+        bool is_closed;
     };
 
     static GLuint buffer(GLenum target, const void* data, std::size_t size, GLenum usage) {
@@ -223,6 +225,7 @@ class Rival {
     void upload(const Scene::Object& o) {
         Drawn d{};
         d.corners = static_cast<GLsizei>(o.corners.size());
+        d.is_closed = o.head.closed != 0;
         glGenVertexArrays(1, &d.array);
         glBindVertexArray(d.array);
         buffer(GL_ARRAY_BUFFER, o.position.data(), o.position.size() * sizeof(float), GL_STATIC_DRAW);
@@ -304,6 +307,13 @@ void write_raw(const char* path, const std::vector<unsigned char>& pixels, int w
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc == 2 && std::string(argv[1]) == "--version") {
+        make_context();
+        std::printf("%s, %s\n", reinterpret_cast<const char*>(glGetString(GL_RENDERER)),
+                    reinterpret_cast<const char*>(glGetString(GL_VERSION)));
+        std::fflush(stdout);
+        std::_Exit(0);
+    }
     if (argc != 6) {
         std::fprintf(stderr, "opengl_rival SCENE.dump WIDTH HEIGHT --png FILE | --raw FILE | --frames N\n");
         return 2;

@@ -28,6 +28,7 @@ struct DumpLight {
 struct DumpObject {
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
+    std::uint32_t closed = 1;  // else it is seen, and lit, from both sides
     float diffuse[3] = {};
     float specular[3] = {};
     float shininess = 0;

@@ -1,0 +1,43 @@
+// candela bench: figures that hang together, and errors as everywhere.
+#include <catch2/catch_test_macros.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/command.h"
+
+TEST_CASE("bench: the figures are positive, and fit one another") {
+    const CommandResult result = run_candela(
+        {"bench", "--frames", "3", "--warm-up", "1", "--width", "160", "--height", "120", "--json"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const auto f = nlohmann::json::parse(result.out);
+    CHECK(f.at("width") == 160);
+    CHECK(f.at("height") == 120);
+    CHECK(f.at("frames") == 3);
+    CHECK(f.at("triangles") == 12);
+    for (const char* const key : {"read_ms", "meshes_ms", "tiles_ms", "frame_ms", "relit_frame_ms"}) {
+        INFO(key);
+        CHECK(f.at(key).get<double>() > 0);
+    }
+    CHECK(f.at("fastest_frame_ms").get<double>() <= f.at("frame_ms").get<double>());
+    const double pixels = f.at("mpixels_per_second").get<double>() * f.at("frame_ms").get<double>() * 1e3;
+    CHECK(pixels > 0.99 * 160 * 120);
+    CHECK(pixels < 1.01 * 160 * 120);
+}
+
+TEST_CASE("bench: prints a table, and leaves no file behind") {
+    const std::filesystem::path directory = scratch_directory();
+    const CommandResult result = run_candela({"bench", "--frames", "2", "--width", "64", "--height", "64"},
+                                             {.input = "", .environment = {}, .directory = directory});
+    CHECK(result.exit_code == 0);
+    CHECK(result.out.find("frame") != std::string::npos);
+    CHECK(result.out.find("Mpixel/s") != std::string::npos);
+    CHECK(std::filesystem::is_empty(directory));
+}
+
+TEST_CASE("bench: wrong numbers are usage errors, wrong scenes are wrong scenes") {
+    CHECK(run_candela({"bench", "--frames", "0"}).exit_code == 2);
+    CHECK(run_candela({"bench", "--threads", "-1"}).exit_code == 2);
+    CHECK(run_candela({"bench", "--set", "light.lamp.intensity=-1"}).exit_code == 3);
+    CHECK(run_candela({"bench", "no-such-scene.toml"}).exit_code == 1);
+}

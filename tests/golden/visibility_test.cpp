@@ -1,0 +1,162 @@
+// What is kept of one picture serves the next, and never shows in it.
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/command.h"
+#include "support/plugins.h"
+
+namespace {
+
+constexpr const char* k_scene = R"(version = 1
+[observer]
+position = [0.3, 1.6, 4.2]
+look_at = [0, 0, 0]
+[image]
+width = 203
+height = 131
+background = [20, 30, 40]
+[[light]]
+type = "point"
+position = [-2, 3, 3]
+intensity = 14
+[[light]]
+type = "ambient"
+color = [60, 60, 80]
+[[object]]
+type = "sphere"
+position = [-1.2, 0, 0]
+shading = "flat"
+reflection = "phong"
+[[object]]
+type = "torus"
+position = [0.9, -0.2, 0.6]
+rotation = [30, 0, 0]
+shading = "gouraud"
+reflection = "lambert"
+[[object]]
+type = "teapot"
+position = [0.2, 0.1, -1.2]
+segments = 4
+shading = "phong"
+reflection = "blinn-phong"
+)";
+
+using Bytes = std::vector<std::uint8_t>;
+
+class Fixture {
+  public:
+    explicit Fixture(const std::string& text) {
+        candela::SceneRequest request;
+        request.files = {write_file(scratch_directory() / "scene.toml", text)};
+        candela::Diagnostics diagnostics;
+        draft_ = candela::read_scene(request, test_registry(), diagnostics);
+        INFO(diagnostics.text(false));
+        REQUIRE(draft_.has_value());
+        auto compiled = candela::compile(*draft_, test_registry(), diagnostics);
+        REQUIRE(compiled.has_value());
+        scene = std::move(*compiled);
+    }
+
+    template <class Render>
+    Bytes picture(Render render) const {
+        candela::Film film(scene.image.width, scene.image.height, candela::PixelType::byte,
+                           scene.image.color_management);
+        statistics_ = render(film);
+        const auto bytes = film.view().bytes;
+        return {bytes.begin(), bytes.end()};
+    }
+    Bytes anew() const {
+        return picture([&](candela::Film& film) { return candela::render(scene, film, {}); });
+    }
+    Bytes by(candela::Visibility& visibility) const {
+        return picture([&](candela::Film& film) { return visibility.render(scene, film, {}); });
+    }
+    /// Compares without printing pictures.
+    void require_same(candela::Visibility& visibility) const {
+        const bool is_same = by(visibility) == anew();
+        REQUIRE(is_same);
+    }
+
+    const candela::RenderStatistics& statistics() const { return statistics_; }
+    const candela::Scene& source() const { return *draft_; }
+
+    candela::CompiledScene scene;
+
+  private:
+    std::optional<candela::Scene> draft_;
+    mutable candela::RenderStatistics statistics_;
+};
+
+}  // namespace
+
+TEST_CASE("a picture from what was kept is the picture rendered anew, whatever of the light has changed") {
+    for (const int samples : {1, 4}) {
+        Fixture fixture(k_scene);
+        fixture.scene.image.samples = samples;
+        candela::Visibility visibility;
+        const Bytes first = fixture.by(visibility);
+        const std::size_t pixels = fixture.statistics().pixels_shaded;
+        fixture.require_same(visibility);
+        CHECK(fixture.statistics().pixels_shaded == pixels);
+
+        fixture.scene.objects[0].surface.color = {0.1f, 0.9f, 0.2f};
+        fixture.require_same(visibility);
+        candela::ParamSet dimmer = fixture.source().lights[0].model.parameters;
+        dimmer.set("intensity", 3.0);
+        fixture.scene.lights[0].light =
+            test_registry().create<candela::Light>("point", dimmer, candela::ColorEncoding::srgb);
+        fixture.require_same(visibility);
+        fixture.scene.objects[2].surface.reflection = test_registry().create<candela::ReflectionModel>(
+            "half-lambert", test_registry().parameters(candela::PluginKind::reflection, "half-lambert"),
+            candela::ColorEncoding::srgb);
+        fixture.require_same(visibility);
+        // Where light is evaluated is no matter of visibility either.
+        fixture.scene.objects[0].surface.shading = test_registry().create<candela::ShadingModel>(
+            "phong", test_registry().parameters(candela::PluginKind::shading, "phong"),
+            candela::ColorEncoding::srgb);
+        fixture.require_same(visibility);
+        const bool is_other = fixture.by(visibility) != first;
+        CHECK(is_other);
+    }
+}
+
+TEST_CASE("what was kept is not used where the observer, the samples, the size or the objects are others") {
+    Fixture fixture(k_scene);
+    candela::Visibility visibility;
+    fixture.require_same(visibility);
+    fixture.scene.observer.position.x += 0.4f;
+    fixture.require_same(visibility);
+    fixture.scene.image.samples = 4;
+    fixture.require_same(visibility);
+    fixture.scene.image.width = 97;
+    fixture.require_same(visibility);
+    fixture.scene.objects.pop_back();
+    fixture.require_same(visibility);
+    fixture.scene.objects.clear();
+    fixture.require_same(visibility);
+}
+
+TEST_CASE("a mesh that was changed in place is seen once visibility is cleared") {
+    Fixture fixture(k_scene);
+    candela::Visibility visibility;
+    fixture.require_same(visibility);
+    for (float& y : fixture.scene.objects[0].mesh.position.y) y += 0.3f;
+    visibility.clear();
+    fixture.require_same(visibility);
+}
+
+TEST_CASE("a picture that failed is not taken for one that was kept") {
+    Fixture fixture(k_scene);
+    candela::Visibility visibility;
+    candela::Film film(fixture.scene.image.width, fixture.scene.image.height, candela::PixelType::byte,
+                       fixture.scene.image.color_management);
+    const auto stop = [](std::size_t, std::size_t) { throw std::runtime_error("enough"); };
+    CHECK_THROWS(visibility.render(fixture.scene, film, {.threads = 1, .progress = stop}));
+    fixture.require_same(visibility);
+}
