@@ -211,10 +211,11 @@ void gather_fragments(const ProjectedMesh& source, const FragmentList& fragments
                        points.vertex_normal.span().from(begin)});
         const Vec3 face_normal = mesh.face_normal.span()[triangle];
         const float facing = source.is_back(triangle) ? -1.0f : 1.0f;
-        for (std::size_t i = begin; i < end; ++i) {
-            points.face_normal.span().set(i, face_normal);
-            points.facing[i] = facing;
-        }
+        const auto run = end - begin;
+        std::fill_n(&points.face_normal.x[begin], run, face_normal.x);
+        std::fill_n(&points.face_normal.y[begin], run, face_normal.y);
+        std::fill_n(&points.face_normal.z[begin], run, face_normal.z);
+        std::fill_n(&points.facing[begin], run, facing);
         if (needs.uv || needs.derivatives)
             blend_attributes(mesh, vertices, needs, begin, end - begin, points);
         begin = end;

@@ -4,6 +4,7 @@ module;
 
 #include "candela/api.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -70,7 +71,7 @@ class CANDELA_API Lighting {
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 Scrutiny scrutiny);
     void find_normals(const SurfaceModels& surface, const SurfacePoints& points);
-    std::vector<Vec3Arrays*> written_by_plugins();
+    std::array<Vec3Arrays*, 7> written_by_plugins();
     void mark_ends();
     bool are_ends_intact();
     void require_sound(PluginKind kind, const std::string& plugin, std::size_t count,

@@ -77,13 +77,15 @@ void TileShader::fill_background(const SeenTile& seen) {
     const std::size_t plane = seen.plane();
     pixels_.resize(plane);
     const Vec3Span pixels = pixels_.span();
-    const auto weight = [&](std::size_t i) { return seen.is_empty ? 1.0f : seen.background_weight[i]; };
-    const auto put = [&](std::size_t i, Rgb background) {
-        const Rgb rgb = weight(i) * background;
-        pixels.set(i, {rgb.r, rgb.g, rgb.b});
-    };
     if (scene_.environment.is_uniform()) {
-        for (std::size_t i = 0; i < plane; ++i) put(i, scene_.environment.seen({}));
+        const Rgb background = scene_.environment.seen({});
+        const float* const weight = seen.background_weight.data();
+        const auto fill = [&](float* to, float channel) {
+            for (std::size_t i = 0; i < plane; ++i) to[i] = weight[i] * channel;
+        };
+        fill(pixels.x, background.r);
+        fill(pixels.y, background.g);
+        fill(pixels.z, background.b);
         return;
     }
     for (int row = 0; row < seen.height; ++row) {
@@ -92,7 +94,9 @@ void TileShader::fill_background(const SeenTile& seen) {
                                   static_cast<std::size_t>(column);
             const Vec3 towards = projected_.camera.view_through(static_cast<float>(seen.x0 + column) + 0.5f,
                                                                 static_cast<float>(seen.y0 + row) + 0.5f);
-            put(i, weight(i) > 0 ? scene_.environment.seen(towards) : Rgb{});
+            const float weight = seen.is_empty ? 1.0f : seen.background_weight[i];
+            const Rgb rgb = weight > 0 ? weight * scene_.environment.seen(towards) : Rgb{};
+            pixels.set(i, {rgb.r, rgb.g, rgb.b});
         }
     }
 }
@@ -120,10 +124,20 @@ void TileShader::light(std::uint32_t object, const Vec3Span& intensity) {
 void TileShader::add(const FragmentList& fragments, std::size_t first, std::size_t count,
                      ConstVec3Span intensity) {
     const Vec3Span pixels = pixels_.span();
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t pixel = fragments.pixel[first + i];
-        pixels.set(pixel, pixels[pixel] + fragments.weight[first + i] * intensity[i]);
+    const std::uint32_t* const pixel = &fragments.pixel[first];
+    const float* const weight = &fragments.weight[first];
+    // With one sample a pixel each pixel is there once, so that these are pixels side by side.
+    const bool is_stretch = scene_.image.samples == 1 && pixel[count - 1] - pixel[0] == count - 1;
+    if (is_stretch) {
+        const auto add_stretch = [&](float* to, const float* from) {
+            for (std::size_t i = 0; i < count; ++i) to[i] += weight[i] * from[i];
+        };
+        add_stretch(pixels.x + pixel[0], intensity.x);
+        add_stretch(pixels.y + pixel[0], intensity.y);
+        add_stretch(pixels.z + pixel[0], intensity.z);
+        return;
     }
+    for (std::size_t i = 0; i < count; ++i) pixels.set(pixel[i], pixels[pixel[i]] + weight[i] * intensity[i]);
 }
 
 /// Light at every fragment.
