@@ -46,7 +46,8 @@ Times measure(const candela::CompiledScene& scene, const Plan& plan, candela::Fi
               candela::RenderStatistics& statistics) {
     Times times;
     ProgressBar bar("measuring");
-    const auto all = static_cast<std::size_t>(plan.warm_up + 2 * plan.frames + 1);
+    const std::size_t all =
+        static_cast<std::size_t>(plan.warm_up) + 2 * static_cast<std::size_t>(plan.frames) + 1;
     std::size_t done = 0;
     for (int i = 0; i < plan.warm_up + plan.frames; ++i) {
         const Stopwatch drawing;

@@ -19,8 +19,6 @@ namespace generate {
 
 namespace {
 
-using candela::ParamSet;
-using candela::Vec3;
 
 class CppWriter {
   public:
