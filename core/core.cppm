@@ -2,6 +2,7 @@
 // instead.
 export module candela.core;
 
+export import candela.arrays;
 export import candela.constraints;
 export import candela.diagnostics;
 export import candela.environment;

@@ -19,7 +19,6 @@ namespace generate {
 
 namespace {
 
-
 class CppWriter {
   public:
     CppWriter(const ExportedScene& scene, const Templates& templates, candela::Registry& registry)

@@ -19,17 +19,34 @@ namespace candela {
 
 namespace {
 
-/// One row of one channel to 8 bits: clamped, encoded, rounded. NaN counts as black.
+/// A channel to 8 bits: clamped, encoded, rounded. NaN counts as black.
+[[gnu::always_inline]] inline std::uint8_t byte_of(float intensity, bool srgb) {
+    const float x = intensity > 0.0f ? (intensity < 1.0f ? intensity : 1.0f) : 0.0f;
+    // IEC 61966-2-1:1999, the same curve as linear_to_srgb().
+    const float curve = 1.055f * kernel::pow(x, 1 / 2.4f) - 0.055f;
+    const float encoded = srgb ? (x <= 0.0031308f ? 12.92f * x : curve) : x;
+    return static_cast<std::uint8_t>(static_cast<std::int32_t>(255.0f * encoded + 0.5f));
+}
+
+/// Where rows of pixels come from, and where they go to; how far the next row is.
+struct StoredRows {
+    ConstVec3Span intensity;
+    std::uint8_t* bytes;
+    std::size_t width, height;
+    std::size_t stride, pitch;
+};
+
 struct EncodeLoop {
-    CANDELA_BATCH_LOOP static void run(std::size_t count, const float* intensity, bool srgb,
-                                       std::uint8_t* bytes) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const float x = intensity[i] > 0.0f ? (intensity[i] < 1.0f ? intensity[i] : 1.0f) : 0.0f;
-            // IEC 61966-2-1:1999, the same curve as linear_to_srgb().
-            const float curve = 1.055f * kernel::pow(x, 1 / 2.4f) - 0.055f;
-            const float encoded = srgb ? (x <= 0.0031308f ? 12.92f * x : curve) : x;
-            bytes[i] = static_cast<std::uint8_t>(static_cast<std::int32_t>(255.0f * encoded + 0.5f));
+    CANDELA_BATCH_LOOP static void run(StoredRows rows, bool srgb) {
+        for (std::size_t row = 0; row < rows.height; ++row) {
+            const ConstVec3Span from = rows.intensity.from(row * rows.stride);
+            std::uint8_t* const to = rows.bytes + row * rows.pitch;
+            CANDELA_VECTORIZE
+            for (std::size_t i = 0; i < rows.width; ++i) {
+                to[3 * i] = byte_of(from.x[i], srgb);
+                to[3 * i + 1] = byte_of(from.y[i], srgb);
+                to[3 * i + 2] = byte_of(from.z[i], srgb);
+            }
         }
     }
 };
@@ -55,7 +72,8 @@ std::size_t Film::index_of(int x, int y) const noexcept {
 void Film::fill(int x, int y, int width, int height, Rgb intensity) {
     const float channels[3] = {intensity.r, intensity.g, intensity.b};
     std::uint8_t encoded[3];
-    multiversion<EncodeLoop>(std::size_t{3}, &channels[0], encoding_ == ColorEncoding::srgb, &encoded[0]);
+    const StoredRows one{{&channels[0], &channels[1], &channels[2]}, &encoded[0], 1, 1, 1, 3};
+    multiversion<EncodeLoop>(one, encoding_ == ColorEncoding::srgb);
     const auto fill_rows = [&](auto& all, const auto& pixel) {
         const auto first = all.begin() + static_cast<std::ptrdiff_t>(index_of(x, y));
         for (int i = 0; i < width; ++i) std::copy_n(pixel, 3, first + 3 * i);
@@ -71,27 +89,21 @@ void Film::fill(int x, int y, int width, int height, Rgb intensity) {
 }
 
 void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, int stride) {
-    const auto count = static_cast<std::size_t>(width);
-    std::vector<std::uint8_t> encoded(pixels_ == PixelType::byte ? 3 * count : 0);
-    for (int row = 0; row < height; ++row) {
-        const ConstVec3Span from =
-            intensity.from(static_cast<std::size_t>(row) * static_cast<std::size_t>(stride));
-        const std::size_t to = index_of(x, y + row);
-        if (pixels_ == PixelType::byte) {
-            const bool srgb = encoding_ == ColorEncoding::srgb;
-            const float* const channels[3] = {from.x, from.y, from.z};
-            for (std::size_t c = 0; c < 3; ++c) {
-                multiversion<EncodeLoop>(count, channels[c], srgb, encoded.data() + c * count);
-            }
-            for (std::size_t i = 0; i < count; ++i) {
-                for (std::size_t c = 0; c < 3; ++c) bytes_[to + 3 * i + c] = encoded[c * count + i];
-            }
-        } else {
-            for (std::size_t i = 0; i < count; ++i) {
-                reals_[to + 3 * i] = from.x[i];
-                reals_[to + 3 * i + 1] = from.y[i];
-                reals_[to + 3 * i + 2] = from.z[i];
-            }
+    const std::size_t pitch = index_of(0, 1);
+    const StoredRows rows{intensity,
+                          pixels_ == PixelType::byte ? &bytes_[index_of(x, y)] : nullptr,
+                          static_cast<std::size_t>(width),
+                          static_cast<std::size_t>(height),
+                          static_cast<std::size_t>(stride),
+                          pitch};
+    if (pixels_ == PixelType::byte) return multiversion<EncodeLoop>(rows, encoding_ == ColorEncoding::srgb);
+    for (std::size_t row = 0; row < rows.height; ++row) {
+        const ConstVec3Span from = intensity.from(row * rows.stride);
+        float* const to = &reals_[index_of(x, y) + row * pitch];
+        for (std::size_t i = 0; i < rows.width; ++i) {
+            to[3 * i] = from.x[i];
+            to[3 * i + 1] = from.y[i];
+            to[3 * i + 2] = from.z[i];
         }
     }
 }

@@ -6,44 +6,11 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 module candela.fragments;
 
 namespace candela {
-
-void FragmentList::clear() {
-    triangle.clear();
-    x.clear();
-    y.clear();
-    pixel.clear();
-    weight.clear();
-}
-
-void FragmentList::add(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel,
-                       float share) {
-    triangle.push_back(triangle_index);
-    x.push_back(at_x);
-    y.push_back(at_y);
-    pixel.push_back(at_pixel);
-    weight.push_back(share);
-}
-
-void FragmentList::add_run(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel,
-                           std::size_t count) {
-    const std::size_t first = size();
-    const std::size_t all = first + count;
-    triangle.resize(all, triangle_index);
-    y.resize(all, at_y);
-    weight.resize(all, 1.0f);
-    x.resize(all);
-    pixel.resize(all);
-    for (std::size_t i = 0; i < count; ++i) {
-        x[first + i] = at_x + static_cast<float>(i);
-        pixel[first + i] = at_pixel + static_cast<std::uint32_t>(i);
-    }
-}
 
 FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t triangle) {
     const auto& first = scene.first_triangle;
@@ -56,98 +23,169 @@ FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t 
     }
     if (used_ == lists_.size()) lists_.emplace_back();
     FragmentList& list = lists_[used_++];
-    list.clear();
+    list.runs.clear();
     list.object = static_cast<std::uint32_t>(std::ranges::upper_bound(first, triangle) - first.begin() - 1);
     return list;
 }
 
-void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& visibility,
-                            std::vector<float>& background_weight) {
+void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& visibility) {
     used_ = 0;
     last_ = 0;
-    background_weight.assign(visibility.plane(), 0.0f);
+    background_.clear();
+    pixels_seen_ = 0;
     if (visibility.samples == 1) {
-        collect_pixels(scene, visibility, background_weight);
+        collect_pixels(scene, visibility);
     } else {
-        collect_samples(scene, visibility, background_weight);
+        collect_samples(scene, visibility);
     }
     std::sort(lists_.begin(), lists_.begin() + static_cast<std::ptrdiff_t>(used_),
               [](const FragmentList& a, const FragmentList& b) { return a.object < b.object; });
 }
 
 /// One sample a pixel: runs of pixels that see the same triangle.
-void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility,
-                                   std::vector<float>& background_weight) {
+void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility) {
     for (int row = 0; row < visibility.height; ++row) {
-        const std::size_t row_begin =
-            static_cast<std::size_t>(row) * static_cast<std::size_t>(visibility.stride);
+        const std::uint32_t row_begin = static_cast<std::uint32_t>(row * visibility.stride);
         const std::uint32_t* const seen = visibility.triangle.data() + row_begin;
         const float y = static_cast<float>(visibility.y0 + row) + 0.5f;
         for (int begin = 0; begin < visibility.width;) {
             const std::uint32_t triangle = seen[begin];
             int end = begin + 1;
             while (end < visibility.width && seen[end] == triangle) ++end;
-            const auto first = static_cast<std::uint32_t>(row_begin) + static_cast<std::uint32_t>(begin);
-            const auto count = static_cast<std::size_t>(end - begin);
+            const std::uint32_t first = row_begin + static_cast<std::uint32_t>(begin);
+            const auto count = static_cast<std::uint32_t>(end - begin);
             if (triangle == k_no_triangle) {
-                std::fill_n(background_weight.begin() + first, count, 1.0f);
+                background_.push_back({first, count, 1.0f});
             } else {
+                pixels_seen_ += count;
                 FragmentList& list = list_of(scene, triangle);
-                list.add_run(triangle - scene.first_triangle[list.object],
-                             static_cast<float>(visibility.x0 + begin) + 0.5f, y, first, count);
+                list.runs.push_back({.triangle = triangle - scene.first_triangle[list.object],
+                                     .pixel = first,
+                                     .count = count,
+                                     .x = static_cast<float>(visibility.x0 + begin) + 0.5f,
+                                     .y = y,
+                                     .weight = 1});
             }
             begin = end;
         }
     }
 }
 
+namespace {
+
+/// A triangle that samples of one pixel see: how many, and the sum of their positions in sixteenths.
+struct SeenTriangle {
+    std::uint32_t triangle;
+    int count, x, y;
+};
+
+/// The triangles that one pixel's samples see, in the order of the samples.
+class SeenTriangles {
+  public:
+    SeenTriangles(const TileVisibility& visibility, std::span<const SamplePosition> pattern, int column,
+                  int row) {
+        for (int s = 0; s < visibility.samples; ++s) {
+            const std::uint32_t triangle = visibility.at(s, column, row);
+            const auto [x, y] = pattern[static_cast<std::size_t>(s)];
+            std::size_t k = 0;
+            while (k < size_ && seen_[k].triangle != triangle) ++k;
+            if (k == size_) seen_[size_++] = {triangle, 0, 0, 0};
+            ++seen_[k].count;
+            seen_[k].x += x;
+            seen_[k].y += y;
+        }
+    }
+    auto begin() const { return seen_.begin(); }
+    auto end() const { return seen_.begin() + size_; }
+    bool is_one() const { return size_ == 1; }
+
+  private:
+    std::array<SeenTriangle, 16> seen_;
+    std::size_t size_ = 0;
+};
+
+template <class Run>
+bool continues(const std::vector<Run>& runs, std::uint32_t pixel, int column) {
+    return column > 0 && !runs.empty() && runs.back().pixel + runs.back().count == pixel;
+}
+
+}  // namespace
+
 /// Several samples a pixel: what each of the triangles that a pixel's samples see contributes to it.
-void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisibility& visibility,
-                                    std::vector<float>& background_weight) {
+void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisibility& visibility) {
     const int samples = visibility.samples;
     const float share = 1 / static_cast<float>(samples);
     const std::span<const SamplePosition> pattern = sample_pattern(samples);
 
+    const auto add_background = [&](std::uint32_t pixel, int column, float weight) {
+        if (continues(background_, pixel, column) && background_.back().weight == weight) {
+            ++background_.back().count;
+        } else {
+            background_.push_back({pixel, 1, weight});
+        }
+    };
+    const auto add_fragment = [&](const FragmentRun& fragment, std::uint32_t id, int column) {
+        FragmentList& list = list_of(scene, id);
+        const std::uint32_t triangle = id - scene.first_triangle[list.object];
+        if (fragment.weight == 1 && continues(list.runs, fragment.pixel, column) &&
+            list.runs.back().triangle == triangle && list.runs.back().weight == 1) {
+            ++list.runs.back().count;
+        } else {
+            list.runs.push_back(fragment);
+            list.runs.back().triangle = triangle;
+        }
+    };
     for (int row = 0; row < visibility.height; ++row) {
+        const auto top = static_cast<float>(visibility.y0 + row);
         for (int column = 0; column < visibility.width; ++column) {
             const auto pixel = static_cast<std::uint32_t>(row * visibility.stride + column);
             const auto left = static_cast<float>(visibility.x0 + column);
-            const auto top = static_cast<float>(visibility.y0 + row);
-            // The triangles that the pixel's samples see, in the order of the samples.
-            struct Seen {
-                std::uint32_t triangle;
-                int count, x, y;  // samples, and the sum of their positions in sixteenths
-            };
-            std::array<Seen, 16> seen;
-            std::size_t kinds = 0;
-            for (int s = 0; s < samples; ++s) {
-                const std::uint32_t triangle = visibility.at(s, column, row);
-                const auto [x, y] = pattern[static_cast<std::size_t>(s)];
-                std::size_t k = 0;
-                while (k < kinds && seen[k].triangle != triangle) ++k;
-                if (k == kinds) seen[kinds++] = {triangle, 0, 0, 0};
-                ++seen[k].count;
-                seen[k].x += x;
-                seen[k].y += y;
-            }
-            for (std::size_t k = 0; k < kinds; ++k) {
-                const Seen& s = seen[k];
+            const SeenTriangles seen(visibility, pattern, column, row);
+            float background = 0;
+            for (const SeenTriangle& s : seen) {
                 const float weight = static_cast<float>(s.count) * share;
                 if (s.triangle == k_no_triangle) {
-                    background_weight[pixel] = weight;
+                    background = weight;
                     continue;
                 }
                 // In the pixel's middle; where the triangle covers only part of the pixel, in the middle of
                 // that part.
-                const bool is_whole = s.count == samples;
                 const float sixteenths = 16 * static_cast<float>(s.count);
-                const float x = is_whole ? 0.5f : static_cast<float>(s.x) / sixteenths;
-                const float y = is_whole ? 0.5f : static_cast<float>(s.y) / sixteenths;
-                FragmentList& list = list_of(scene, s.triangle);
-                list.add(s.triangle - scene.first_triangle[list.object], left + x, top + y, pixel, weight);
+                const float x = seen.is_one() ? 0.5f : static_cast<float>(s.x) / sixteenths;
+                const float y = seen.is_one() ? 0.5f : static_cast<float>(s.y) / sixteenths;
+                add_fragment({.triangle = 0,
+                              .pixel = pixel,
+                              .count = 1,
+                              .x = left + x,
+                              .y = top + y,
+                              .weight = weight},
+                             s.triangle, column);
             }
+            if (background < 1) ++pixels_seen_;
+            if (background > 0 || !seen.is_one()) add_background(pixel, column, background);
         }
     }
+}
+
+std::span<const FragmentRun> FragmentBatches::next() {
+    batch_.clear();
+    std::size_t room = k_batch_size;
+    while (room > 0 && !rest_.empty()) {
+        FragmentRun run = rest_.front();
+        run.pixel += done_;
+        run.x += static_cast<float>(done_);
+        run.count -= done_;
+        if (run.count > room) {
+            run.count = static_cast<std::uint32_t>(room);
+            done_ += run.count;
+        } else {
+            done_ = 0;
+            rest_ = rest_.subspan(1);
+        }
+        room -= run.count;
+        batch_.push_back(run);
+    }
+    return batch_;
 }
 
 }  // namespace candela

@@ -30,8 +30,9 @@ struct CANDELA_API SurfacePoints {
     Vec3Arrays face_normal;    // unit
     Vec3Arrays vertex_normal;  // interpolated; not unit
     Vec3Arrays barycentric;
-    std::vector<float> facing;  // 1, or -1 where an open surface is seen from behind
-    std::vector<float> u, v;    // filled where attributes are asked for and the mesh has them, else zero
+    AlignedVector<float> facing;  // 1, or -1 where an open surface is seen from behind
+    bool any_from_behind = false;
+    AlignedVector<float> u, v;  // filled where attributes are asked for and the mesh has them, else zero
     Vec3Arrays dpdu, dpdv;
 };
 
@@ -41,43 +42,68 @@ struct PointNeeds {
     bool derivatives = false;
 };
 
+/// Pixels of a row, side by side, to each of which one triangle contributes the same share.
+struct FragmentRun {
+    std::uint32_t triangle;  // of the object's mesh
+    std::uint32_t pixel;     // the first: row * stride + column of the tile
+    std::uint32_t count;
+    float x,
+        y;  // where the first is evaluated, in pixels of the picture; the next one to the right, and so on
+    float weight;  // the share of a pixel's samples that see the triangle
+};
+
 /// The fragments of one object in one tile, in the order of their pixels: each is what one triangle
 /// contributes to one pixel.
 struct FragmentList {
     std::uint32_t object = 0;
-    std::vector<std::uint32_t> triangle;  // of the object's mesh
-    std::vector<float> x, y;              // where it is evaluated, in pixels of the picture
-    std::vector<std::uint32_t> pixel;     // of the tile: row * stride + column
-    std::vector<float> weight;            // the share of the pixel's samples that see it
+    std::vector<FragmentRun> runs;
+};
 
-    inline std::size_t size() const { return triangle.size(); }
-    void clear();
-    void add(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel, float share);
-    /// Adds `count` whole pixels of a row, from the one at `at_pixel` whose middle is at (at_x, at_y).
-    void add_run(std::uint32_t triangle_index, float at_x, float at_y, std::uint32_t at_pixel,
-                 std::size_t count);
+/// Pixels of a row, side by side, that do not see one triangle alone: `weight` of each sees the background.
+struct BackgroundRun {
+    std::uint32_t pixel;
+    std::uint32_t count;
+    float weight;
 };
 
 /// All fragments of a tile, one list an object, in the scene's order. Reused from tile to tile.
 class CANDELA_API TileFragments {
   public:
-    /// Sorts what `visibility` holds. `background_weight` receives, per pixel of the tile, the share that
-    /// sees no object.
-    void collect(const ProjectedScene& scene, const TileVisibility& visibility,
-                 std::vector<float>& background_weight);
+    /// Sorts what `visibility` holds.
+    void collect(const ProjectedScene& scene, const TileVisibility& visibility);
 
     std::span<const FragmentList> lists() const { return {lists_.data(), used_}; }
 
+    /// The pixels whose intensity is not one fragment's alone.
+    std::span<const BackgroundRun> background() const { return background_; }
+
+    /// How many pixels see an object.
+    std::size_t pixels_seen() const { return pixels_seen_; }
+
   private:
     FragmentList& list_of(const ProjectedScene& scene, std::uint32_t triangle);
-    void collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility,
-                        std::vector<float>& background_weight);
-    void collect_samples(const ProjectedScene& scene, const TileVisibility& visibility,
-                         std::vector<float>& background_weight);
+    void collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility);
+    void collect_samples(const ProjectedScene& scene, const TileVisibility& visibility);
 
     std::vector<FragmentList> lists_;
+    std::vector<BackgroundRun> background_;
+    std::size_t pixels_seen_ = 0;
     std::size_t used_ = 0;
     std::size_t last_ = 0;
+};
+
+/// Cuts a list of runs into batches of at most k_batch_size fragments.
+class CANDELA_API FragmentBatches {
+  public:
+    explicit FragmentBatches(std::span<const FragmentRun> runs) : rest_(runs) {}
+
+    /// The runs of the next batch, until the call after; empty at the end.
+    std::span<const FragmentRun> next();
+
+  private:
+    std::span<const FragmentRun> rest_;
+    std::uint32_t done_ = 0;  // pixels of the first of the rest that were in a batch
+    std::vector<FragmentRun> batch_;
 };
 
 /// One mesh of a projected scene.
@@ -90,10 +116,10 @@ struct ProjectedMesh {
     bool is_back(std::uint32_t triangle) const;
 };
 
-/// Fills `points` with the fragments [first, first + count), count <= k_batch_size: barycentric coordinates
-/// on the triangle itself (Blinn 1992, "Hyperbolic interpolation"), and what follows from them.
-CANDELA_API void gather_fragments(const ProjectedMesh& mesh, const FragmentList& fragments, std::size_t first,
-                                  std::size_t count, PointNeeds needs, SurfacePoints& points);
+/// Fills `points` with the fragments of a batch: barycentric coordinates on the triangle itself (Blinn 1992,
+/// "Hyperbolic interpolation"), and what follows from them.
+CANDELA_API void gather_fragments(const ProjectedMesh& mesh, std::span<const FragmentRun> runs,
+                                  PointNeeds needs, SurfacePoints& points);
 
 /// Fills `points` with the centroids of triangles.
 CANDELA_API void gather_faces(const ProjectedMesh& mesh, std::span<const std::uint32_t> triangles,
@@ -114,5 +140,46 @@ CANDELA_API void gather_vertices(const ProjectedMesh& mesh, std::span<const Vert
 /// Fills `points` with points on triangles, their barycentric coordinates given; all are seen from the front.
 CANDELA_API void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles,
                                ConstVec3Span barycentric, PointNeeds needs, SurfacePoints& points);
+
+}  // namespace candela
+
+namespace candela {
+
+/// A triangle in homogeneous pixels, and its corners' attributes.
+struct TriangleAttributes {
+    float x[3], y[3], w[3];
+    Vec3 position[3];
+    Vec3 normal[3];
+};
+
+/// What is interpolated between corners.
+struct InterpolatedSpans {
+    Vec3Span barycentric, position, vertex_normal;
+};
+
+/// Interpolates over `count` fragments of one triangle, at (x, y).
+void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
+                 const InterpolatedSpans& points);
+
+/// Triangles side by side, for fragments that have one each. The same numbers as interpolate().
+class TriangleLanes {
+  public:
+    static constexpr std::size_t k_lanes = 64;
+
+    std::size_t size() const { return size_; }
+    bool is_full() const { return size_ == k_lanes; }
+    void add(const TriangleAttributes& triangle) {
+        const float* const from = &triangle.x[0];
+        for (std::size_t k = 0; k < k_numbers; ++k) numbers_[k][size_] = from[k];
+        ++size_;
+    }
+    /// Interpolates over the fragments that were added, at (x, y), and forgets them.
+    void interpolate(const float* x, const float* y, const InterpolatedSpans& points);
+
+  private:
+    static constexpr std::size_t k_numbers = sizeof(TriangleAttributes) / sizeof(float);
+    alignas(64) float numbers_[k_numbers][k_lanes];
+    std::size_t size_ = 0;
+};
 
 }  // namespace candela

@@ -1,8 +1,6 @@
 // Attributes of faces, vertices and fragments.
 module;
 
-#include "candela/multiversion.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,28 +15,6 @@ module candela.fragments;
 namespace candela {
 
 namespace {
-
-/// Where one attribute stands in memory, for each corner of a triangle.
-struct Corners {
-    Vec3 at[3];
-};
-
-/// A triangle in homogeneous pixels, and its corners' attributes.
-struct TriangleAttributes {
-    float x[3], y[3], w[3];
-    Corners position;
-    Corners normal;
-};
-
-struct PointSpans {
-    Vec3Span barycentric, position, vertex_normal;
-};
-
-[[gnu::always_inline]] inline Vec3 blend(const Corners& c, float b0, float b1, float b2) {
-    return {b0 * c.at[0].x + b1 * c.at[1].x + b2 * c.at[2].x,
-            b0 * c.at[0].y + b1 * c.at[1].y + b2 * c.at[2].y,
-            b0 * c.at[0].z + b1 * c.at[1].z + b2 * c.at[2].z};
-}
 
 /// Scales homogeneous coordinates that are so large, or so small, that products of two leave the range of
 /// floats. By a power of two, so that nothing is rounded.
@@ -57,45 +33,6 @@ void keep_in_range(TriangleAttributes& t) {
     }
 }
 
-/// A run of fragments of one triangle.
-struct RunLoop {
-    CANDELA_BATCH_LOOP static void run(TriangleAttributes t, std::size_t count, const float* px,
-                                       const float* py, PointSpans out) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            // Corners relative to the fragment; areas of the three part triangles, perspective already undone
-            // by w.
-            const float x0 = t.x[0] - px[i] * t.w[0], y0 = t.y[0] - py[i] * t.w[0];
-            const float x1 = t.x[1] - px[i] * t.w[1], y1 = t.y[1] - py[i] * t.w[1];
-            const float x2 = t.x[2] - px[i] * t.w[2], y2 = t.y[2] - py[i] * t.w[2];
-            float b0 = x1 * y2 - x2 * y1;
-            float b1 = x2 * y0 - x0 * y2;
-            float b2 = x0 * y1 - x1 * y0;
-            // On the triangle, also where its fixed-point image reaches a hair further than the triangle.
-            const float sign = b0 + b1 + b2 < 0.0f ? -1.0f : 1.0f;
-            b0 = b0 * sign > 0.0f ? b0 * sign : 0.0f;
-            b1 = b1 * sign > 0.0f ? b1 * sign : 0.0f;
-            b2 = b2 * sign > 0.0f ? b2 * sign : 0.0f;
-            const float sum = b0 + b1 + b2;
-            const float scale = 1.0f / (sum > 0.0f ? sum : 1.0f);
-            b0 = sum > 0.0f ? b0 * scale : 1.0f;
-            b1 = b1 * scale;
-            b2 = b2 * scale;
-            const Vec3 position = blend(t.position, b0, b1, b2);
-            const Vec3 normal = blend(t.normal, b0, b1, b2);
-            out.barycentric.x[i] = b0;
-            out.barycentric.y[i] = b1;
-            out.barycentric.z[i] = b2;
-            out.position.x[i] = position.x;
-            out.position.y[i] = position.y;
-            out.position.z[i] = position.z;
-            out.vertex_normal.x[i] = normal.x;
-            out.vertex_normal.y[i] = normal.y;
-            out.vertex_normal.z[i] = normal.z;
-        }
-    }
-};
-
 using Indices = std::array<std::uint32_t, 3>;
 
 Indices corners_of(const Mesh& mesh, std::uint32_t triangle) {
@@ -103,9 +40,15 @@ Indices corners_of(const Mesh& mesh, std::uint32_t triangle) {
     return {mesh.corners[first], mesh.corners[first + 1], mesh.corners[first + 2]};
 }
 
+using Corners = std::array<Vec3, 3>;
+
 Corners corners(const Vec3Arrays& arrays, const Indices& vertices) {
     const ConstVec3Span span = arrays.span();
-    return {{span[vertices[0]], span[vertices[1]], span[vertices[2]]}};
+    return {span[vertices[0]], span[vertices[1]], span[vertices[2]]};
+}
+
+Vec3 blend(const Corners& c, const Vec3& weight) {
+    return weight.x * c[0] + weight.y * c[1] + weight.z * c[2];
 }
 
 /// uv and derivatives of points whose barycentric coordinates are known.
@@ -130,16 +73,16 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
             // A mesh without parameters has those of its triangles: the edges from the first corner.
             const Corners p = corners(mesh.position, vertices);
             for (std::size_t k = 0; k < 3; ++k) {
-                dpdu.at[k] = p.at[1] - p.at[0];
-                dpdv.at[k] = p.at[2] - p.at[0];
+                dpdu[k] = p[1] - p[0];
+                dpdv[k] = p[2] - p[0];
             }
         } else {
             dpdu = corners(mesh.dpdu, vertices);
             dpdv = corners(mesh.dpdv, vertices);
         }
         for (std::size_t i = first; i < first + count; ++i) {
-            points.dpdu.span().set(i, blend(dpdu, weight.x[i], weight.y[i], weight.z[i]));
-            points.dpdv.span().set(i, blend(dpdv, weight.x[i], weight.y[i], weight.z[i]));
+            points.dpdu.span().set(i, blend(dpdu, weight[i]));
+            points.dpdv.span().set(i, blend(dpdv, weight[i]));
         }
     }
 }
@@ -148,9 +91,7 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
 void put_place(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
                SurfacePoints& points) {
     const Indices vertices = corners_of(mesh, triangle);
-    const auto blended = [&](const Vec3Arrays& arrays) {
-        return blend(corners(arrays, vertices), weight.x, weight.y, weight.z);
-    };
+    const auto blended = [&](const Vec3Arrays& arrays) { return blend(corners(arrays, vertices), weight); };
     points.position.span().set(i, blended(mesh.position));
     points.face_normal.span().set(i, mesh.face_normal.span()[triangle]);
     points.vertex_normal.span().set(i, blended(mesh.vertex_normal));
@@ -164,7 +105,7 @@ SurfacePoints::SurfacePoints() {
     for (Vec3Arrays* const arrays : {&position, &face_normal, &vertex_normal, &barycentric, &dpdu, &dpdv}) {
         arrays->resize(k_batch_size);
     }
-    for (std::vector<float>* const array : {&facing, &u, &v}) array->resize(k_batch_size);
+    for (AlignedVector<float>* const array : {&facing, &u, &v}) array->resize(k_batch_size);
 }
 
 bool ProjectedMesh::is_back(std::uint32_t triangle) const {
@@ -184,57 +125,117 @@ bool ProjectedMesh::is_back(std::uint32_t triangle) const {
            0;
 }
 
-void gather_fragments(const ProjectedMesh& source, const FragmentList& fragments, std::size_t first,
-                      std::size_t count, PointNeeds needs, SurfacePoints& points) {
-    const Mesh& mesh = source.mesh;
-    const bool perspective = source.scene.camera.projection == Projection::perspective;
-    points.count = count;
-    for (std::size_t begin = 0; begin < count;) {
-        const std::uint32_t triangle = fragments.triangle[first + begin];
-        std::size_t end = begin + 1;
-        while (end < count && fragments.triangle[first + end] == triangle) ++end;
+namespace {
 
-        const Indices vertices = corners_of(mesh, triangle);
-        TriangleAttributes t;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t v = source.first_vertex + vertices[k];
-            t.x[k] = source.scene.x[v];
-            t.y[k] = source.scene.y[v];
-            t.w[k] = perspective ? source.scene.distance[v] : 1.0f;
-        }
-        keep_in_range(t);
-        t.position = corners(mesh.position, vertices);
-        t.normal = corners(mesh.vertex_normal, vertices);
-        multiversion<RunLoop>(
-            t, end - begin, &fragments.x[first + begin], &fragments.y[first + begin],
-            PointSpans{points.barycentric.span().from(begin), points.position.span().from(begin),
-                       points.vertex_normal.span().from(begin)});
-        const Vec3 face_normal = mesh.face_normal.span()[triangle];
-        const float facing = source.is_back(triangle) ? -1.0f : 1.0f;
-        const auto run = end - begin;
-        std::fill_n(&points.face_normal.x[begin], run, face_normal.x);
-        std::fill_n(&points.face_normal.y[begin], run, face_normal.y);
-        std::fill_n(&points.face_normal.z[begin], run, face_normal.z);
-        std::fill_n(&points.facing[begin], run, facing);
-        if (needs.uv || needs.derivatives)
-            blend_attributes(mesh, vertices, needs, begin, end - begin, points);
-        begin = end;
+TriangleAttributes attributes_of(const ProjectedMesh& source, const Indices& vertices) {
+    const bool perspective = source.scene.camera.projection == Projection::perspective;
+    const ConstVec3Span position = source.mesh.position.span(), normal = source.mesh.vertex_normal.span();
+    TriangleAttributes t;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t v = source.first_vertex + vertices[k];
+        t.x[k] = source.scene.x[v];
+        t.y[k] = source.scene.y[v];
+        t.w[k] = perspective ? source.scene.distance[v] : 1.0f;
+        t.position[k] = position[vertices[k]];
+        t.normal[k] = normal[vertices[k]];
     }
+    keep_in_range(t);
+    return t;
+}
+
+/// The fragments of one triangle that are side by side in a batch.
+struct Group {
+    std::uint32_t triangle;
+    std::size_t first, count;
+};
+
+/// Lays the places of a batch's fragments side by side, and calls `visit` for each triangle's.
+template <class Visit>
+void each_group(std::span<const FragmentRun> runs, std::array<float, k_batch_size>& x,
+                std::array<float, k_batch_size>& y, Visit visit) {
+    std::size_t end = 0;
+    Group group{runs.empty() ? 0 : runs.front().triangle, 0, 0};
+    for (const FragmentRun& run : runs) {
+        if (run.triangle != group.triangle) {
+            visit(group);
+            group = {run.triangle, end, 0};
+        }
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            x[end + i] = run.x + static_cast<float>(i);
+            y[end + i] = run.y;
+        }
+        end += run.count;
+        group.count += run.count;
+    }
+    if (group.count > 0) visit(group);
+}
+
+/// From this many fragments on, a triangle is worth a loop of its own.
+constexpr std::size_t k_worth_a_loop = 6;
+
+}  // namespace
+
+void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> runs, PointNeeds needs,
+                      SurfacePoints& points) {
+    alignas(64) std::array<float, k_batch_size> x, y;
+    const auto spans_from = [&](std::size_t first) -> InterpolatedSpans {
+        return {points.barycentric.span().from(first), points.position.span().from(first),
+                points.vertex_normal.span().from(first)};
+    };
+    TriangleLanes lanes;
+    std::size_t first_lane = 0;
+    const auto finish_lanes = [&] {
+        if (lanes.size() > 0) lanes.interpolate(&x[first_lane], &y[first_lane], spans_from(first_lane));
+    };
+    points.any_from_behind = false;
+    points.count = 0;
+    each_group(runs, x, y, [&](const Group& group) {
+        const Indices vertices = corners_of(source.mesh, group.triangle);
+        const TriangleAttributes triangle = attributes_of(source, vertices);
+        if (group.count >= k_worth_a_loop) {
+            finish_lanes();
+            interpolate(triangle, group.count, &x[group.first], &y[group.first], spans_from(group.first));
+        } else {
+            for (std::size_t i = group.first; i < group.first + group.count; ++i) {
+                if (lanes.is_full()) finish_lanes();
+                if (lanes.size() == 0) first_lane = i;
+                lanes.add(triangle);
+            }
+        }
+        const Vec3 face_normal = source.mesh.face_normal.span()[group.triangle];
+        const bool is_back = source.is_back(group.triangle);
+        points.any_from_behind = points.any_from_behind || is_back;
+        std::fill_n(&points.face_normal.x[group.first], group.count, face_normal.x);
+        std::fill_n(&points.face_normal.y[group.first], group.count, face_normal.y);
+        std::fill_n(&points.face_normal.z[group.first], group.count, face_normal.z);
+        std::fill_n(&points.facing[group.first], group.count, is_back ? -1.0f : 1.0f);
+        points.count += group.count;
+    });
+    finish_lanes();
+    if (!needs.uv && !needs.derivatives) return;
+    each_group(runs, x, y, [&](const Group& group) {
+        blend_attributes(source.mesh, corners_of(source.mesh, group.triangle), needs, group.first,
+                         group.count, points);
+    });
 }
 
 void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> triangles, PointNeeds needs,
                   SurfacePoints& points) {
     constexpr float k_third = 1.0f / 3.0f;
     points.count = triangles.size();
+    points.any_from_behind = false;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         put_place(source.mesh, triangles[i], {k_third, k_third, k_third}, needs, i, points);
-        points.facing[i] = source.is_back(triangles[i]) ? -1.0f : 1.0f;
+        const bool is_back = source.is_back(triangles[i]);
+        points.facing[i] = is_back ? -1.0f : 1.0f;
+        points.any_from_behind = points.any_from_behind || is_back;
     }
 }
 
 void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, ConstVec3Span barycentric,
                    PointNeeds needs, SurfacePoints& points) {
     points.count = triangles.size();
+    points.any_from_behind = false;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         put_place(mesh, triangles[i], barycentric[i], needs, i, points);
         points.facing[i] = 1;
@@ -245,6 +246,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
                      SurfacePoints& points) {
     const Mesh& mesh = source.mesh;
     points.count = vertices.size();
+    points.any_from_behind = false;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const std::uint32_t v = vertices[i].vertex;
         const Vec3 normal = mesh.vertex_normal.span()[v];
@@ -253,6 +255,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
         points.vertex_normal.span().set(i, normal);
         points.barycentric.span().set(i, {1, 0, 0});
         points.facing[i] = vertices[i].is_back ? -1.0f : 1.0f;
+        points.any_from_behind = points.any_from_behind || vertices[i].is_back;
         if (needs.uv) {
             points.u[i] = mesh.u.empty() ? 0 : mesh.u[v];
             points.v[i] = mesh.v.empty() ? 0 : mesh.v[v];

@@ -164,7 +164,7 @@ std::array<Vec3Arrays*, 7> Lighting::written_by_plugins() {
 
 void Lighting::mark_ends() {
     for (Vec3Arrays* const arrays : written_by_plugins()) {
-        for (std::vector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
+        for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
             std::fill(array->begin() + k_batch_size, array->end(), k_mark);
     }
 }
@@ -173,7 +173,7 @@ bool Lighting::are_ends_intact() {
     // All of them, without a way out in between: that is a vector loop.
     std::uint32_t differing = 0;
     for (const Vec3Arrays* const arrays : written_by_plugins()) {
-        for (const std::vector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) {
+        for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) {
             const float* const end = array->data() + k_batch_size;
             for (std::size_t i = 0; i < k_guard; ++i)
                 differing |= std::bit_cast<std::uint32_t>(end[i]) ^ std::bit_cast<std::uint32_t>(k_mark);
@@ -201,7 +201,7 @@ void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::si
 void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
     guarded(PluginKind::shading, surface.shading_plugin,
             [&] { shading_normals(surface, points, normal_.span()); });
-    multiversion<FlipLoop>(points.facing.data(), points.count, normal_.span());
+    if (points.any_from_behind) multiversion<FlipLoop>(points.facing.data(), points.count, normal_.span());
 }
 
 float Lighting::light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,

@@ -11,26 +11,12 @@ module;
 
 export module candela.mesh;
 
+export import candela.arrays;
 import candela.math;
 import candela.shading;
 import candela.shape;
 
 export namespace candela {
-
-/// Three arrays of their own memory.
-struct Vec3Arrays {
-    std::vector<float> x, y, z;
-
-    inline void resize(std::size_t count) {
-        x.resize(count);
-        y.resize(count);
-        z.resize(count);
-    }
-    inline std::size_t size() const { return x.size(); }
-    inline bool empty() const { return x.empty(); }
-    inline Vec3Span span() { return {x.data(), y.data(), z.data()}; }
-    inline ConstVec3Span span() const { return {x.data(), y.data(), z.data()}; }
-};
 
 /// Triangles in world space. Vertices are shared; corners of a triangle run counter-clockwise seen from
 /// outside.

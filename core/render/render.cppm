@@ -8,6 +8,7 @@ module;
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -87,8 +88,8 @@ class CANDELA_API Visibility {
     void clear() noexcept;
 
     /// Renders the same picture as candela::render(): by what is kept if the observer, the objects, the
-    /// picture's size and its samples are as they were; else anew, and keeps that. Takes about 24 bytes a
-    /// pixel.
+    /// picture's size and its samples are as they were; else anew, and keeps that. Takes 24 bytes for each
+    /// stretch of pixels that sees one triangle.
     RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
 
   private:
@@ -114,7 +115,6 @@ struct SeenTile {
     int x0 = 0, y0 = 0, width = 0, height = 0, stride = 0;  // as in TileVisibility
     bool is_empty = true;                                   // nothing but the background
     TileFragments fragments;
-    std::vector<float> background_weight;  // a pixel each: the share that sees no object
 
     std::size_t plane() const { return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride); }
 };
@@ -150,7 +150,7 @@ class TileShader {
     void shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments);
     void fill_background(const SeenTile& seen);
     void light(std::uint32_t object, const Vec3Span& intensity);
-    void add(const FragmentList& fragments, std::size_t first, std::size_t count, ConstVec3Span intensity);
+    void add(std::span<const FragmentRun> runs, const ConstVec3Span& intensity);
 
     const CompiledScene& scene_;
     const ProjectedScene& projected_;

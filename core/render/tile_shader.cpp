@@ -1,6 +1,8 @@
 // One tile, from visibility to pixels.
 module;
 
+#include "candela/multiversion.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -24,6 +26,38 @@ import candela.shading;
 namespace candela {
 
 namespace {
+
+/// Adds the intensities of runs of fragments, one after the other, to the pixels that they are of.
+struct AddLoop {
+    CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, ConstVec3Span intensity,
+                                       Vec3Span pixels) {
+        for (const FragmentRun* run = runs; run != runs + count; ++run) {
+            const std::size_t length = run->count;
+            const Vec3Span to{pixels.x + run->pixel, pixels.y + run->pixel, pixels.z + run->pixel};
+            if (run->weight == 1) {
+                // Nothing else is seen there, and nothing stands there.
+                CANDELA_VECTORIZE
+                for (std::size_t i = 0; i < length; ++i) {
+                    to.x[i] = intensity.x[i];
+                    to.y[i] = intensity.y[i];
+                    to.z[i] = intensity.z[i];
+                }
+            } else {
+                to.x[0] += run->weight * intensity.x[0];
+                to.y[0] += run->weight * intensity.y[0];
+                to.z[0] += run->weight * intensity.z[0];
+            }
+            intensity = intensity.from(length);
+        }
+    }
+};
+
+void append_triangles(const FragmentList& fragments, std::vector<std::uint32_t>& triangles) {
+    triangles.clear();
+    for (const FragmentRun& run : fragments.runs) {
+        if (triangles.empty() || triangles.back() != run.triangle) triangles.push_back(run.triangle);
+    }
+}
 
 template <class T>
 void sort_unique(std::vector<T>& values) {
@@ -49,7 +83,7 @@ void TileViewer::look(int tile, SeenTile& seen) {
     seen.width = visibility_.width;
     seen.height = visibility_.height;
     seen.stride = visibility_.stride;
-    if (!seen.is_empty) seen.fragments.collect(projected_, visibility_, seen.background_weight);
+    if (!seen.is_empty) seen.fragments.collect(projected_, visibility_);
 }
 
 TileShader::TileShader(const CompiledScene& scene, const ProjectedScene& projected)
@@ -60,45 +94,44 @@ TileShader::TileShader(const CompiledScene& scene, const ProjectedScene& project
 void TileShader::run(const SeenTile& seen, Film& film) {
     if (seen.is_empty && scene_.environment.is_uniform())
         return film.fill(seen.x0, seen.y0, seen.width, seen.height, scene_.environment.seen({}));
+    pixels_.resize(seen.plane());
     fill_background(seen);
     if (!seen.is_empty) {
         for (const FragmentList& list : seen.fragments.lists()) shade(list);
-        for (int row = 0; row < seen.height; ++row) {
-            const auto first = seen.background_weight.begin() + std::ptrdiff_t{row} * seen.stride;
-            pixels_shaded_ += static_cast<std::size_t>(
-                std::count_if(first, first + seen.width, [](float weight) { return weight < 1; }));
-        }
+        pixels_shaded_ += seen.fragments.pixels_seen();
     }
     film.store(seen.x0, seen.y0, seen.width, seen.height, std::as_const(pixels_).span(), seen.stride);
 }
 
-/// What is seen beside the objects, as much of each pixel as shows it.
+/// What is seen beside the objects, as much of each pixel as shows it. Leaves out the pixels that are one
+/// fragment's alone.
 void TileShader::fill_background(const SeenTile& seen) {
-    const std::size_t plane = seen.plane();
-    pixels_.resize(plane);
     const Vec3Span pixels = pixels_.span();
-    if (scene_.environment.is_uniform()) {
-        const Rgb background = scene_.environment.seen({});
-        const float* const weight = seen.background_weight.data();
-        const auto fill = [&](float* to, float channel) {
-            for (std::size_t i = 0; i < plane; ++i) to[i] = weight[i] * channel;
-        };
-        fill(pixels.x, background.r);
-        fill(pixels.y, background.g);
-        fill(pixels.z, background.b);
+    const bool is_uniform = scene_.environment.is_uniform();
+    const auto fill = [&](const BackgroundRun& run) {
+        const auto row = static_cast<float>(run.pixel / static_cast<std::uint32_t>(seen.stride));
+        const auto column = static_cast<float>(run.pixel % static_cast<std::uint32_t>(seen.stride));
+        if (is_uniform) {
+            const Rgb background = run.weight * scene_.environment.seen({});
+            std::fill_n(pixels.x + run.pixel, run.count, background.r);
+            std::fill_n(pixels.y + run.pixel, run.count, background.g);
+            std::fill_n(pixels.z + run.pixel, run.count, background.b);
+            return;
+        }
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            const Vec3 towards = projected_.camera.view_through(
+                static_cast<float>(seen.x0) + column + static_cast<float>(i) + 0.5f,
+                static_cast<float>(seen.y0) + row + 0.5f);
+            const Rgb rgb = run.weight > 0 ? run.weight * scene_.environment.seen(towards) : Rgb{};
+            pixels.set(run.pixel + i, {rgb.r, rgb.g, rgb.b});
+        }
+    };
+    if (!seen.is_empty) {
+        for (const BackgroundRun& run : seen.fragments.background()) fill(run);
         return;
     }
-    for (int row = 0; row < seen.height; ++row) {
-        for (int column = 0; column < seen.width; ++column) {
-            const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(seen.stride) +
-                                  static_cast<std::size_t>(column);
-            const Vec3 towards = projected_.camera.view_through(static_cast<float>(seen.x0 + column) + 0.5f,
-                                                                static_cast<float>(seen.y0 + row) + 0.5f);
-            const float weight = seen.is_empty ? 1.0f : seen.background_weight[i];
-            const Rgb rgb = weight > 0 ? weight * scene_.environment.seen(towards) : Rgb{};
-            pixels.set(i, {rgb.r, rgb.g, rgb.b});
-        }
-    }
+    for (int row = 0; row < seen.height; ++row)
+        fill({static_cast<std::uint32_t>(row * seen.stride), static_cast<std::uint32_t>(seen.width), 1});
 }
 
 void TileShader::shade(const FragmentList& fragments) {
@@ -121,40 +154,25 @@ void TileShader::light(std::uint32_t object, const Vec3Span& intensity) {
     points_lit_ += points_.count;
 }
 
-void TileShader::add(const FragmentList& fragments, std::size_t first, std::size_t count,
-                     ConstVec3Span intensity) {
-    const Vec3Span pixels = pixels_.span();
-    const std::uint32_t* const pixel = &fragments.pixel[first];
-    const float* const weight = &fragments.weight[first];
-    // With one sample a pixel each pixel is there once, so that these are pixels side by side.
-    const bool is_stretch = scene_.image.samples == 1 && pixel[count - 1] - pixel[0] == count - 1;
-    if (is_stretch) {
-        const auto add_stretch = [&](float* to, const float* from) {
-            for (std::size_t i = 0; i < count; ++i) to[i] += weight[i] * from[i];
-        };
-        add_stretch(pixels.x + pixel[0], intensity.x);
-        add_stretch(pixels.y + pixel[0], intensity.y);
-        add_stretch(pixels.z + pixel[0], intensity.z);
-        return;
-    }
-    for (std::size_t i = 0; i < count; ++i) pixels.set(pixel[i], pixels[pixel[i]] + weight[i] * intensity[i]);
+void TileShader::add(std::span<const FragmentRun> runs, const ConstVec3Span& intensity) {
+    multiversion<AddLoop>(runs.data(), runs.size(), intensity, pixels_.span());
 }
 
 /// Light at every fragment.
 void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& fragments) {
-    const SurfaceModels& surface = scene_.objects[fragments.object].surface;
-    for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {
-        const std::size_t count = std::min(k_batch_size, fragments.size() - first);
-        gather_fragments(mesh, fragments, first, count, surface.needs(), points_);
+    const PointNeeds needs = scene_.objects[fragments.object].surface.needs();
+    FragmentBatches batches(fragments.runs);
+    for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
+        gather_fragments(mesh, runs, needs, points_);
         light(fragments.object, batch_.span());
-        add(fragments, first, count, std::as_const(batch_).span());
+        add(runs, std::as_const(batch_).span());
     }
 }
 
 /// Light once a face that the tile sees.
 void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const SurfaceModels& surface = scene_.objects[fragments.object].surface;
-    triangles_ = fragments.triangle;
+    append_triangles(fragments, triangles_);
     sort_unique(triangles_);
     places_.resize(triangles_.size());
     for (std::size_t first = 0; first < triangles_.size(); first += k_batch_size) {
@@ -162,19 +180,24 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
         gather_faces(mesh, std::span(triangles_).subspan(first, count), surface.needs(), points_);
         light(fragments.object, places_.span().from(first));
     }
-    for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {
-        const std::size_t count = std::min(k_batch_size, fragments.size() - first);
-        for (std::size_t i = 0; i < count; ++i) {
-            batch_.span().set(i, places_.span()[position_of(triangles_, fragments.triangle[first + i])]);
+    FragmentBatches batches(fragments.runs);
+    for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
+        std::size_t first = 0;
+        for (const FragmentRun& run : runs) {
+            const Vec3 intensity = places_.span()[position_of(triangles_, run.triangle)];
+            std::fill_n(&batch_.x[first], run.count, intensity.x);
+            std::fill_n(&batch_.y[first], run.count, intensity.y);
+            std::fill_n(&batch_.z[first], run.count, intensity.z);
+            first += run.count;
         }
-        add(fragments, first, count, std::as_const(batch_).span());
+        add(runs, std::as_const(batch_).span());
     }
 }
 
 /// Light once a vertex of a face that the tile sees, and once a side of it; interpolated in between.
 void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const SurfaceModels& surface = scene_.objects[fragments.object].surface;
-    triangles_ = fragments.triangle;
+    append_triangles(fragments, triangles_);
     sort_unique(triangles_);
     vertices_.clear();
     for (const std::uint32_t triangle : triangles_) {
@@ -189,22 +212,26 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
         light(fragments.object, places_.span().from(first));
     }
     const ConstVec3Span intensity = std::as_const(places_).span();
-    for (std::size_t first = 0; first < fragments.size(); first += k_batch_size) {
-        const std::size_t count = std::min(k_batch_size, fragments.size() - first);
-        gather_fragments(mesh, fragments, first, count, {}, points_);
+    FragmentBatches batches(fragments.runs);
+    for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
+        gather_fragments(mesh, runs, {}, points_);
+        std::size_t i = 0;
+        std::uint32_t triangle = k_no_triangle;
         std::array<Vec3, 3> at_corner;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t triangle = fragments.triangle[first + i];
-            if (i == 0 || triangle != fragments.triangle[first + i - 1]) {
+        for (const FragmentRun& run : runs) {
+            if (run.triangle != triangle) {
+                triangle = run.triangle;
                 for (std::size_t k = 0; k < 3; ++k) {
                     at_corner[k] =
                         intensity[position_of(vertices_, corner(mesh, triangle, k, points_.facing[i] < 0))];
                 }
             }
-            const Vec3 b = points_.barycentric.span()[i];
-            batch_.span().set(i, b.x * at_corner[0] + b.y * at_corner[1] + b.z * at_corner[2]);
+            for (const std::size_t end = i + run.count; i < end; ++i) {
+                const Vec3 b = points_.barycentric.span()[i];
+                batch_.span().set(i, b.x * at_corner[0] + b.y * at_corner[1] + b.z * at_corner[2]);
+            }
         }
-        add(fragments, first, count, std::as_const(batch_).span());
+        add(runs, std::as_const(batch_).span());
     }
 }
 

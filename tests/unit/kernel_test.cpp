@@ -2,18 +2,21 @@
 
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace k = candela::kernel;
 
 namespace {
 
+constexpr int k_points = 200000;
+
 /// The largest error over [low, high], relative to max(|exact|, floor).
 template <class Approximate, class Exact>
 double worst(double low, double high, double floor, Approximate approximate, Exact exact) {
     double error = 0;
-    for (int i = 0; i <= 200000; ++i) {
-        const auto x = static_cast<float>(low + (high - low) * i / 200000);
+    for (int i = 0; i <= k_points; ++i) {
+        const auto x = static_cast<float>(low + (high - low) * i / k_points);
         const double expected = exact(static_cast<double>(x));
         error = std::max(error, std::abs(static_cast<double>(approximate(x)) - expected) /
                                     std::max(std::abs(expected), floor));
@@ -33,6 +36,18 @@ TEST_CASE("kernel powers and logarithms agree with double precision to a few uni
     CHECK(worst(
               0.01, 100, 1e-2, [](float x) { return k::log(x); }, [](double x) { return std::log(x); }) <
           5e-7);
+}
+
+TEST_CASE(
+    "kernel inversesqrt agrees with double precision to a few units in the last place, and stays finite") {
+    const auto exact = [](double x) { return 1 / std::sqrt(x); };
+    for (int exponent = -126; exponent < 127; ++exponent) {
+        INFO("from 2^" << exponent);
+        const double low = std::ldexp(1.0, exponent);
+        CHECK(worst(low, 2 * low, 0, [](float x) { return k::inversesqrt(x); }, exact) < 2e-7);
+    }
+    CHECK(std::isfinite(k::inversesqrt(0.0f)));
+    CHECK(std::isfinite(k::inversesqrt(std::numeric_limits<float>::infinity())));
 }
 
 TEST_CASE("kernel pow agrees with double precision for every shininess in use") {

