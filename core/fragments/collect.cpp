@@ -42,6 +42,24 @@ void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& v
               [](const FragmentList& a, const FragmentList& b) { return a.object < b.object; });
 }
 
+namespace {
+
+/// How far from `begin` on a row sees the same triangle.
+int end_of_run(const std::uint32_t* seen, int begin, int width) {
+    constexpr int k_block = 16;
+    const std::uint32_t triangle = seen[begin];
+    int end = begin + 1;
+    for (; end + k_block <= width; end += k_block) {
+        std::uint32_t differing = 0;
+        for (int i = 0; i < k_block; ++i) differing |= seen[end + i] ^ triangle;
+        if (differing != 0) break;
+    }
+    while (end < width && seen[end] == triangle) ++end;
+    return end;
+}
+
+}  // namespace
+
 /// One sample a pixel: runs of pixels that see the same triangle.
 void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility) {
     for (int row = 0; row < visibility.height; ++row) {
@@ -50,8 +68,7 @@ void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibi
         const float y = static_cast<float>(visibility.y0 + row) + 0.5f;
         for (int begin = 0; begin < visibility.width;) {
             const std::uint32_t triangle = seen[begin];
-            int end = begin + 1;
-            while (end < visibility.width && seen[end] == triangle) ++end;
+            const int end = end_of_run(seen, begin, visibility.width);
             const std::uint32_t first = row_begin + static_cast<std::uint32_t>(begin);
             const auto count = static_cast<std::uint32_t>(end - begin);
             if (triangle == k_no_triangle) {

@@ -70,18 +70,13 @@ struct SeenScene {
     friend bool operator==(const SeenScene&, const SeenScene&) = default;
 };
 
-/// Figures that several threads add up.
-struct Totals {
-    std::atomic<std::size_t> tiles_done{0}, pixels_shaded{0}, points_lit{0};
-    std::atomic<float> brightest{0};
-
-    void add(const TileShader& shader) {
-        pixels_shaded += shader.pixels_shaded();
-        points_lit += shader.points_lit();
-        float before = brightest;
-        while (before < shader.brightest() && !brightest.compare_exchange_weak(before, shader.brightest())) {
-        }
-    }
+/// What a thread needs to work on a tile.
+struct TileWorker {
+    TileWorker(const CompiledScene& scene, const ProjectedScene& projected)
+        : viewer(projected, scene.image.samples), shader(scene, projected) {}
+    TileViewer viewer;
+    TileShader shader;
+    SeenTile seen;
 };
 
 /// What is kept of a picture.
@@ -105,7 +100,6 @@ ProjectedScene projected_scene(const CompiledScene& scene, const Film& film, int
 RenderStatistics render_stages(const CompiledScene& scene, Film& film, const RenderOptions& options,
                                int tile_size, KeptTiles* kept) {
     RenderStatistics statistics;
-    Totals totals;
     with_threads(options.threads, [&] {
         const auto begin = Clock::now();
         ProjectedScene of_this_picture;
@@ -118,27 +112,27 @@ RenderStatistics render_stages(const CompiledScene& scene, Film& film, const Ren
         statistics.triangles = projected.first_triangle.back();
 
         const auto tiles_begin = Clock::now();
-        // A few tiles at a time, so that a shader's arrays are made seldom and the threads still end
-        // together.
-        const std::size_t grain = std::clamp<std::size_t>(tiles / 64, 1, 16);
+        Pool<TileWorker> workers;
+        std::atomic<std::size_t> tiles_done{0};
+        const std::size_t grain = std::clamp<std::size_t>(tiles / 64, 1, 4);
         parallel_for(tiles, grain, [&](std::size_t first, std::size_t last) {
-            TileViewer viewer(projected, scene.image.samples);
-            TileShader shader(scene, projected);
-            SeenTile of_this_tile;
-            for (std::size_t tile = first; tile < last; ++tile) {
-                SeenTile& seen = kept != nullptr ? kept->tiles[tile] : of_this_tile;
-                if (!is_seen) viewer.look(static_cast<int>(tile), seen);
-                shader.run(seen, film);
-                const std::size_t done = ++totals.tiles_done;
-                if (options.progress) options.progress(done, tiles);
-            }
-            totals.add(shader);
+            const auto make = [&] { return std::make_unique<TileWorker>(scene, projected); };
+            workers.with(make, [&](TileWorker& worker) {
+                for (std::size_t tile = first; tile < last; ++tile) {
+                    SeenTile& seen = kept != nullptr ? kept->tiles[tile] : worker.seen;
+                    if (!is_seen) worker.viewer.look(static_cast<int>(tile), seen);
+                    worker.shader.run(seen, film);
+                    if (options.progress) options.progress(++tiles_done, tiles);
+                }
+            });
+        });
+        workers.each([&](const TileWorker& worker) {
+            statistics.pixels_shaded += worker.shader.pixels_shaded();
+            statistics.points_lit += worker.shader.points_lit();
+            statistics.brightest = std::max(statistics.brightest, worker.shader.brightest());
         });
         statistics.seconds_on_tiles = seconds_since(tiles_begin);
     });
-    statistics.pixels_shaded = totals.pixels_shaded;
-    statistics.points_lit = totals.points_lit;
-    statistics.brightest = totals.brightest;
     return statistics;
 }
 
