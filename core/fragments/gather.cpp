@@ -139,7 +139,7 @@ TriangleAttributes attributes_of(const ProjectedMesh& source, const Indices& ver
         t.position[k] = position[vertices[k]];
         t.normal[k] = normal[vertices[k]];
     }
-    keep_in_range(t);
+    if (!source.scene.is_moderate) keep_in_range(t);
     return t;
 }
 

@@ -1,11 +1,12 @@
-// From world space to fixed-point triangles in tiles: transformation, culling, clipping, binning.
+// From world space to fixed-point pixels.
 module;
 
+#include "candela/kernel.h"
 #include "candela/multiversion.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,11 +21,9 @@ namespace candela {
 
 namespace {
 
-/// What is nearer to the eye than a tenth of a millimetre is not seen (perspective only).
-constexpr float k_near = 1e-4f;
-
 constexpr std::size_t k_triangles_per_bin = 4096;
 constexpr std::size_t k_vertices_per_task = 16384;
+constexpr float k_moderate = 0x1p40f;
 
 struct ProjectLoop {
     CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count, float* x,
@@ -46,202 +45,56 @@ struct ProjectLoop {
     }
 };
 
-/// A vertex in homogeneous pixels: it is seen at (x / w, y / w).
-struct ClipVertex {
-    float x, y, w;
-    float ahead;  // distance in front of the near plane
-    float
-        closeness_w;  // closeness times w: 1 in perspective (1/w), minus the distance in an orthographic view
+/// Vertices in homogeneous pixels to fixed-point ones.
+struct ScreenLoop {
+    CANDELA_BATCH_LOOP static void run(Camera camera, int subpixel_bits, std::size_t count, const float* x,
+                                       const float* y, const float* distance, ScreenVertex* screen) {
+        const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
+        const auto one = static_cast<float>(1 << subpixel_bits);
+        const bool perspective = camera.projection == Projection::perspective;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const float w = perspective ? distance[i] : 1.0f;
+            const float ahead = perspective ? distance[i] - k_near : distance[i];
+            const float half_x = 0.5f * width * w, half_y = 0.5f * height * w;
+            const std::uint32_t view = (ahead < 0 ? Outside::near : 0u) | (x[i] < 0 ? Outside::left : 0u) |
+                                       (x[i] > width * w ? Outside::right : 0u) |
+                                       (y[i] < 0 ? Outside::top : 0u) |
+                                       (y[i] > height * w ? Outside::bottom : 0u);
+            const bool is_near =
+                ahead >= 0 && x[i] >= -half_x && x[i] <= 3 * half_x && y[i] >= -half_y && y[i] <= 3 * half_y;
+            const float inverse = 1 / w;
+            const float px = x[i] * inverse, py = y[i] * inverse;
+            const float from_x = kernel::abs(px - 0.5f * width), from_y = kernel::abs(py - 0.5f * height);
+            const bool is_somewhere = from_x <= 1.01f * width && from_y <= 1.01f * height;
+            screen[i].x = static_cast<std::int32_t>(kernel::round_to_even(is_somewhere ? px * one : 0.0f));
+            screen[i].y = static_cast<std::int32_t>(kernel::round_to_even(is_somewhere ? py * one : 0.0f));
+            screen[i].closeness = perspective ? inverse : -distance[i];
+            screen[i].outside =
+                view | (is_near ? 0u : Outside::guard) | (is_near && !is_somewhere ? Outside::nowhere : 0u);
+        }
+    }
 };
 
-ClipVertex between(const ClipVertex& a, const ClipVertex& b, float t) {
-    const auto mix = [t](float from, float to) { return from + t * (to - from); };
-    return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.ahead, b.ahead),
-            mix(a.closeness_w, b.closeness_w)};
-}
-
-/// Twice the signed area in homogeneous pixels, times the product of the w: its sign is the triangle's
-/// orientation on the screen, also where vertices lie behind the eye (Olano, Greer 1997).
-double orientation(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c) {
-    const double ax = a.x, ay = a.y, aw = a.w, bx = b.x, by = b.y, bw = b.w, cx = c.x, cy = c.y, cw = c.w;
-    return ax * (by * cw - cy * bw) - ay * (bx * cw - cx * bw) + aw * (bx * cy - cx * by);
-}
-
-/// Makes the fixed-point triangles of one stretch of a mesh and sorts them into tiles.
-class Binner {
-  public:
-    Binner(const ProjectedScene& scene, TriangleBin& bin)
-        : scene_(scene),
-          bin_(bin),
-          perspective_(scene.camera.projection == Projection::perspective),
-          width_(static_cast<float>(scene.camera.width)),
-          height_(static_cast<float>(scene.camera.height)),
-          one_(static_cast<float>(1 << scene.subpixel_bits)) {}
-
-    void add(const Mesh& mesh, std::uint32_t first_vertex, std::size_t triangle, std::uint32_t id) {
-        std::array<ClipVertex, 3> v;
-        unsigned outside_all = ~0u;
-        unsigned outside_any = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            v[k] = vertex(first_vertex + mesh.corners[3 * triangle + k]);
-            outside_all &= outside_view(v[k]);
-            outside_any |= outside_guard(v[k]);
+/// The largest magnitude among homogeneous pixels and, times the largest picture's size, w. As integers,
+/// which without a sign are in the same order as the floats of their bits.
+struct MagnitudeLoop {
+    CANDELA_BATCH_LOOP static void run(std::size_t count, const float* x, const float* y,
+                                       const float* distance, std::int32_t* bits) {
+        constexpr std::int32_t k_magnitude = 0x7fff'ffff;
+        constexpr float k_largest_picture = 65536;
+        std::int32_t largest = *bits;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int32_t at_x = std::bit_cast<std::int32_t>(x[i]) & k_magnitude;
+            const std::int32_t at_y = std::bit_cast<std::int32_t>(y[i]) & k_magnitude;
+            const std::int32_t w = std::bit_cast<std::int32_t>(k_largest_picture * distance[i]) & k_magnitude;
+            const std::int32_t xy = at_x > at_y ? at_x : at_y;
+            const std::int32_t xyw = xy > w ? xy : w;
+            largest = largest > xyw ? largest : xyw;
         }
-        if (outside_all != 0) return;
-        if (outside_any == 0) {
-            emit(v[0], v[1], v[2], id, !mesh.closed);
-        } else {
-            clip_and_emit(v, id, !mesh.closed);
-        }
+        *bits = largest;
     }
-
-    void sort_into_tiles() {
-        const int size = scene_.tile_size << scene_.subpixel_bits;
-        struct Range {
-            int column0, column1, row0, row1;
-        };
-        std::vector<Range> ranges;
-        ranges.reserve(bin_.triangles.size());
-        int column0 = scene_.tile_columns, column1 = -1, row0 = scene_.tile_rows, row1 = -1;
-        for (const RasterTriangle& t : bin_.triangles) {
-            const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
-            const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
-            const Range range{std::max(left, 0) / size, std::min(right / size, scene_.tile_columns - 1),
-                              std::max(top, 0) / size, std::min(bottom / size, scene_.tile_rows - 1)};
-            ranges.push_back(range);
-            column0 = std::min(column0, range.column0);
-            column1 = std::max(column1, range.column1);
-            row0 = std::min(row0, range.row0);
-            row1 = std::max(row1, range.row1);
-        }
-        if (ranges.empty()) return;
-        bin_.first_column = column0;
-        bin_.first_row = row0;
-        bin_.columns = column1 - column0 + 1;
-        bin_.rows = row1 - row0 + 1;
-        // Counting sort, so that a tile's triangles stay in the scene's order.
-        bin_.start.assign(static_cast<std::size_t>(bin_.columns) * static_cast<std::size_t>(bin_.rows) + 1,
-                          0);
-        const auto each_tile = [&](const Range& range, auto&& visit) {
-            for (int row = range.row0; row <= range.row1; ++row) {
-                for (int column = range.column0; column <= range.column1; ++column) {
-                    visit(static_cast<std::size_t>((row - row0) * bin_.columns + column - column0));
-                }
-            }
-        };
-        for (const Range& range : ranges) {
-            each_tile(range, [&](std::size_t tile) { ++bin_.start[tile + 1]; });
-        }
-        for (std::size_t tile = 1; tile < bin_.start.size(); ++tile) bin_.start[tile] += bin_.start[tile - 1];
-        bin_.entries.resize(bin_.start.back());
-        std::vector<std::uint32_t> next(bin_.start.begin(), bin_.start.end() - 1);
-        for (std::size_t i = 0; i < ranges.size(); ++i) {
-            each_tile(ranges[i],
-                      [&](std::size_t tile) { bin_.entries[next[tile]++] = static_cast<std::uint32_t>(i); });
-        }
-    }
-
-  private:
-    ClipVertex vertex(std::size_t i) const {
-        const float distance = scene_.distance[i];
-        if (perspective_) return {scene_.x[i], scene_.y[i], distance, distance - k_near, 1};
-        return {scene_.x[i], scene_.y[i], 1, distance, -distance};
-    }
-
-    /// A bit for each plane of the picture's pyramid or box that the vertex lies beyond.
-    unsigned outside_view(const ClipVertex& v) const {
-        return (v.ahead < 0 ? 1u : 0u) | (v.x < 0 ? 2u : 0u) | (v.x > width_ * v.w ? 4u : 0u) |
-               (v.y < 0 ? 8u : 0u) | (v.y > height_ * v.w ? 16u : 0u);
-    }
-
-    // Clipping against the picture itself would be needless work, as the rasteriser looks at the picture's
-    // pixels only; but fixed-point coordinates end somewhere: at half a picture beyond each edge.
-    static constexpr int k_guard_planes = 5;
-    float beyond(const ClipVertex& v, int plane) const {
-        switch (plane) {
-            case 0:
-                return v.ahead;
-            case 1:
-                return v.x + 0.5f * width_ * v.w;
-            case 2:
-                return 1.5f * width_ * v.w - v.x;
-            case 3:
-                return v.y + 0.5f * height_ * v.w;
-            default:
-                return 1.5f * height_ * v.w - v.y;
-        }
-    }
-    unsigned outside_guard(const ClipVertex& v) const {
-        unsigned bits = 0;
-        for (int plane = 0; plane < k_guard_planes; ++plane) bits |= beyond(v, plane) >= 0 ? 0u : 1u << plane;
-        return bits;
-    }
-
-    /// Sutherland, Hodgman (1974). A cut point is always computed from the inner end of an edge to the outer,
-    /// so that both triangles at an edge are cut at the same point.
-    void clip_and_emit(const std::array<ClipVertex, 3>& triangle, std::uint32_t id, bool two_sided) {
-        const bool is_front = orientation(triangle[0], triangle[1], triangle[2]) < 0;
-        if (!is_front && !two_sided) return;
-        std::array<ClipVertex, 3 + k_guard_planes> polygon{}, cut{};
-        std::ranges::copy(triangle, polygon.begin());
-        std::size_t count = 3;
-        for (int plane = 0; plane < k_guard_planes; ++plane) {
-            std::size_t kept = 0;
-            for (std::size_t i = 0; i < count; ++i) {
-                const ClipVertex& a = polygon[i];
-                const ClipVertex& b = polygon[i + 1 == count ? 0 : i + 1];
-                const float at_a = beyond(a, plane);
-                const float at_b = beyond(b, plane);
-                if (at_a >= 0) cut[kept++] = a;
-                if (at_a >= 0 && !(at_b >= 0)) cut[kept++] = between(a, b, at_a / (at_a - at_b));
-                if (at_b >= 0 && !(at_a >= 0)) cut[kept++] = between(b, a, at_b / (at_b - at_a));
-            }
-            polygon = cut;
-            count = kept;
-            if (count < 3) return;
-        }
-        for (std::size_t i = 2; i < count; ++i) emit(polygon[0], polygon[i - 1], polygon[i], id, true);
-    }
-
-    /// Counter-clockwise in the world, y up, is clockwise on the screen, y down.
-    void emit(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c, std::uint32_t id,
-              bool two_sided) {
-        RasterTriangle t{.x = {}, .y = {}, .closeness = {}, .id = id};
-        const ClipVertex* const corners[3] = {&a, &c, &b};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const float inverse = 1 / corners[k]->w;
-            const float px = corners[k]->x * inverse;
-            const float py = corners[k]->y * inverse;
-            // Beyond the guard band by more than rounding: a number that was no number.
-            if (!(std::abs(px - 0.5f * width_) <= 1.01f * width_ &&
-                  std::abs(py - 0.5f * height_) <= 1.01f * height_))
-                return;
-            t.x[k] = static_cast<std::int32_t>(std::lrint(px * one_));
-            t.y[k] = static_cast<std::int32_t>(std::lrint(py * one_));
-            t.closeness[k] = corners[k]->closeness_w * inverse;
-        }
-        const std::int64_t area = std::int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) -
-                                  std::int64_t{t.x[2] - t.x[0]} * (t.y[1] - t.y[0]);
-        if (area == 0 || (area < 0 && !two_sided)) return;
-        if (area < 0) {
-            std::swap(t.x[1], t.x[2]);
-            std::swap(t.y[1], t.y[2]);
-            std::swap(t.closeness[1], t.closeness[2]);
-        }
-        // Nothing where no sample can be: the box lies beside the picture.
-        const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
-        const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
-        if (right < 0 || bottom < 0 || left >= scene_.camera.width << scene_.subpixel_bits ||
-            top >= scene_.camera.height << scene_.subpixel_bits) {
-            return;
-        }
-        bin_.triangles.push_back(t);
-    }
-
-    const ProjectedScene& scene_;
-    TriangleBin& bin_;
-    bool perspective_;
-    float width_, height_, one_;
 };
 
 struct Stretch {
@@ -252,8 +105,10 @@ struct Stretch {
 
 }  // namespace
 
-ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size) {
+ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
+                       int samples) {
     ProjectedScene scene;
+    scene.samples = samples;
     scene.camera = camera;
     scene.tile_size = tile_size;
     scene.tile_columns = (camera.width + tile_size - 1) / tile_size;
@@ -282,24 +137,35 @@ ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera
     scene.x.resize(vertices);
     scene.y.resize(vertices);
     scene.distance.resize(vertices);
+    scene.screen.resize(vertices);
+    std::atomic<bool> is_moderate{true};
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         parallel_for(meshes[m]->vertex_count(), k_vertices_per_task, [&](std::size_t begin, std::size_t end) {
             const std::size_t at = scene.first_vertex[m] + begin;
-            multiversion<ProjectLoop>(camera, meshes[m]->position.span().from(begin), end - begin,
-                                      &scene.x[at], &scene.y[at], &scene.distance[at]);
+            float* const x = &scene.x[at];
+            float* const y = &scene.y[at];
+            float* const distance = &scene.distance[at];
+            multiversion<ProjectLoop>(camera, meshes[m]->position.span().from(begin), end - begin, x, y,
+                                      distance);
+            multiversion<ScreenLoop>(camera, scene.subpixel_bits, end - begin, static_cast<const float*>(x),
+                                     static_cast<const float*>(y), static_cast<const float*>(distance),
+                                     &scene.screen[at]);
+            std::int32_t largest = 0;
+            std::int32_t* const bits = &largest;
+            multiversion<MagnitudeLoop>(end - begin, static_cast<const float*>(x),
+                                        static_cast<const float*>(y), static_cast<const float*>(distance),
+                                        bits);
+            if (!(std::bit_cast<float>(largest) < k_moderate)) is_moderate = false;
         });
     }
+    scene.is_moderate = is_moderate;
 
     scene.bins.resize(stretches.size());
     parallel_for(stretches.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
             const auto [m, first, count] = stretches[s];
-            Binner binner(scene, scene.bins[s]);
-            for (std::size_t t = first; t < first + count; ++t) {
-                binner.add(*meshes[m], scene.first_vertex[m], t,
-                           scene.first_triangle[m] + static_cast<std::uint32_t>(t));
-            }
-            binner.sort_into_tiles();
+            scene.bins[s] = bin_triangles(scene, *meshes[m], scene.first_vertex[m], scene.first_triangle[m],
+                                          first, count);
         }
     });
     return scene;

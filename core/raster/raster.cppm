@@ -13,6 +13,7 @@ module;
 
 export module candela.raster;
 
+import candela.arrays;
 import candela.math;
 import candela.mesh;
 
@@ -54,6 +55,13 @@ struct RasterTriangle {
     std::uint32_t id;
 };
 
+/// A vertex in fixed-point pixels; what of it lies outside the view, as bits that Outside names.
+struct ScreenVertex {
+    std::int32_t x, y;
+    float closeness;
+    std::uint32_t outside;
+};
+
 /// The triangles of one stretch of the scene, by tile.
 struct TriangleBin {
     std::vector<RasterTriangle> triangles;
@@ -66,13 +74,16 @@ struct TriangleBin {
 struct ProjectedScene {
     Camera camera;
     int tile_size = 64;
+    int samples = 1;
     int subpixel_bits = 8;
     int tile_columns = 0, tile_rows = 0;
 
     // Per vertex, all meshes in turn: its pixel position times w, and its distance along the view. In
     // perspective w is that distance, in an orthographic view it is 1.
-    std::vector<float> x, y, distance;
-    std::vector<std::uint32_t> first_vertex;    // of each mesh
+    AlignedVector<float> x, y, distance;
+    std::vector<ScreenVertex> screen;
+    bool is_moderate = true;                  // products of two homogeneous pixels are within a float's range
+    std::vector<std::uint32_t> first_vertex;  // of each mesh
     std::vector<std::uint32_t> first_triangle;  // of each mesh, and the total
 
     std::vector<TriangleBin> bins;
@@ -80,9 +91,10 @@ struct ProjectedScene {
     inline int tile_count() const { return tile_columns * tile_rows; }
 };
 
-/// Tiles are squares of `tile_size` pixels, a multiple of 16. Triangles are numbered through all meshes.
-/// Throws std::length_error where there are more than 2^32 - 2 triangles or vertices.
-CANDELA_API ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size);
+/// Tiles are squares of `tile_size` pixels, a power of two from 16 on. Triangles are numbered through all
+/// meshes. Throws std::length_error where there are more than 2^32 - 2 triangles or vertices.
+CANDELA_API ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
+                                   int samples);
 
 /// What one tile sees. Reused from tile to tile.
 struct TileVisibility {
@@ -90,8 +102,8 @@ struct TileVisibility {
     int width = 0, height = 0;  // the pixels of it that lie in the picture
     int stride = 0;             // of a row, a multiple of 16
     int samples = 1;
-    std::vector<std::uint32_t> triangle;  // sample by sample, row by row; k_no_triangle: background
-    std::vector<float> closeness;
+    AlignedVector<std::uint32_t> triangle;  // sample by sample, row by row; k_no_triangle: background
+    AlignedVector<float> closeness;
 
     inline std::size_t plane() const {
         return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride);
@@ -105,6 +117,26 @@ struct TileVisibility {
 /// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle of each sample, of equally
 /// near ones the first; a sample on a shared edge belongs to one triangle only (top-left rule). Returns false
 /// where no triangle comes near the tile: `visibility` then holds its place only. Any thread.
-CANDELA_API bool rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibility& visibility);
+CANDELA_API bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility);
+
+}  // namespace candela
+
+namespace candela {
+
+/// Where a vertex lies: beyond which plane of the picture's pyramid or box, or beyond the guard band, so that
+/// its fixed-point pixels are no use; or nowhere, as its position is no number.
+struct Outside {
+    static constexpr std::uint32_t near = 1, left = 2, right = 4, top = 8, bottom = 16;
+    static constexpr std::uint32_t view = near | left | right | top | bottom;
+    static constexpr std::uint32_t guard = 32, nowhere = 64;
+};
+
+/// What is nearer to the eye than a tenth of a millimetre is not seen (perspective only).
+inline constexpr float k_near = 1e-4f;
+
+/// Makes the fixed-point triangles of a stretch of a mesh, and sorts them into tiles. `first_id`: of the
+/// mesh's first triangle.
+TriangleBin bin_triangles(const ProjectedScene& scene, const Mesh& mesh, std::uint32_t first_vertex,
+                          std::uint32_t first_id, std::size_t first_triangle, std::size_t count);
 
 }  // namespace candela

@@ -144,7 +144,8 @@ void clear(TileVisibility& visibility) {
 
 }  // namespace
 
-bool rasterize(const ProjectedScene& scene, int tile, int samples, TileVisibility& visibility) {
+bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility) {
+    const int samples = scene.samples;
     const int column = tile % scene.tile_columns;
     const int row = tile / scene.tile_columns;
     visibility.x0 = column * scene.tile_size;

@@ -73,7 +73,7 @@ struct SeenScene {
 /// What a thread needs to work on a tile.
 struct TileWorker {
     TileWorker(const CompiledScene& scene, const ProjectedScene& projected)
-        : viewer(projected, scene.image.samples), shader(scene, projected) {}
+        : viewer(projected), shader(scene, projected) {}
     TileViewer viewer;
     TileShader shader;
     SeenTile seen;
@@ -90,7 +90,8 @@ ProjectedScene projected_scene(const CompiledScene& scene, const Film& film, int
     std::vector<const Mesh*> meshes;
     for (const SolidObject& object : scene.objects) meshes.push_back(&object.mesh);
     try {
-        return project(meshes, camera_of(scene.observer, film.width(), film.height()), tile_size);
+        return project(meshes, camera_of(scene.observer, film.width(), film.height()), tile_size,
+                       scene.image.samples);
     } catch (const std::length_error& problem) {
         throw Error(ExitCode::failure, problem.what());
     }

@@ -56,8 +56,9 @@ CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& r
                                                  Diagnostics& diagnostics);
 
 struct RenderOptions {
-    int threads = 0;    // 0: all
-    int tile_size = 0;  // pixels, a multiple of 16; 0: chosen. The picture is the same whatever it is.
+    int threads = 0;  // 0: all
+    int tile_size =
+        0;  // pixels, a power of two from 16 on; 0: chosen. The picture is the same whatever it is.
     std::function<void(std::size_t done, std::size_t all)>
         progress{};  // tiles; called by any thread, by several at once
 };
@@ -122,12 +123,11 @@ struct SeenTile {
 /// Finds what a tile sees. Holds a tile's arrays: one for each thread.
 class TileViewer {
   public:
-    TileViewer(const ProjectedScene& projected, int samples) : projected_(projected), samples_(samples) {}
+    explicit TileViewer(const ProjectedScene& projected) : projected_(projected) {}
     void look(int tile, SeenTile& seen);
 
   private:
     const ProjectedScene& projected_;
-    int samples_;
     TileVisibility visibility_;
 };
 

@@ -77,7 +77,7 @@ VertexSide corner(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t
 }  // namespace
 
 void TileViewer::look(int tile, SeenTile& seen) {
-    seen.is_empty = !rasterize(projected_, tile, samples_, visibility_);
+    seen.is_empty = !rasterize(projected_, tile, visibility_);
     seen.x0 = visibility_.x0;
     seen.y0 = visibility_.y0;
     seen.width = visibility_.width;

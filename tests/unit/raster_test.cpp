@@ -28,12 +28,12 @@ Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>
 /// What each sample of a picture sees, row by row, sample by sample.
 std::vector<std::uint32_t> visible(const std::vector<const Mesh*>& meshes, const Camera& camera,
                                    int samples = 1, int tile_size = 64) {
-    const candela::ProjectedScene scene = candela::project(meshes, camera, tile_size);
+    const candela::ProjectedScene scene = candela::project(meshes, camera, tile_size, samples);
     std::vector<std::uint32_t> ids(static_cast<std::size_t>(camera.width * camera.height * samples),
                                    candela::k_no_triangle);
     candela::TileVisibility tile;
     for (int t = 0; t < scene.tile_count(); ++t) {
-        if (!candela::rasterize(scene, t, samples, tile)) continue;
+        if (!candela::rasterize(scene, t, tile)) continue;
         for (int y = 0; y < tile.height; ++y) {
             for (int x = 0; x < tile.width; ++x) {
                 for (int s = 0; s < samples; ++s) {
@@ -268,12 +268,12 @@ TEST_CASE("a large picture and a small tile see the same as a small picture woul
     // Beyond 8192 pixels, fixed point has fewer bits: an edge may move by a sixteenth of a pixel, no more.
     const Mesh mesh = mesh_of({{-30, -10, 0}, {30, -10, 0}, {0, 14, 0}}, {0, 1, 2});
     const candela::ProjectedScene scene =
-        candela::project(std::vector<const Mesh*>{&mesh}, pixel_camera(9000, 32), 64);
+        candela::project(std::vector<const Mesh*>{&mesh}, pixel_camera(9000, 32), 64, 1);
     CHECK(scene.subpixel_bits == 4);
     candela::TileVisibility tile;
     std::size_t seen = 0;
     for (int t = 0; t < scene.tile_count(); ++t) {
-        if (!candela::rasterize(scene, t, 1, tile)) continue;
+        if (!candela::rasterize(scene, t, tile)) continue;
         for (int y = 0; y < tile.height; ++y) {
             for (int x = 0; x < tile.width; ++x) seen += tile.at(0, x, y) == 0 ? 1u : 0u;
         }
