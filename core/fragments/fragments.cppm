@@ -150,36 +150,28 @@ struct TriangleAttributes {
     float x[3], y[3], w[3];
     Vec3 position[3];
     Vec3 normal[3];
+    Vec3 face_normal;
 };
 
-/// What is interpolated between corners.
+/// What becomes of a fragment's place on its triangle.
 struct InterpolatedSpans {
-    Vec3Span barycentric, position, vertex_normal;
+    Vec3Span barycentric, position, vertex_normal, face_normal;
 };
 
 /// Interpolates over `count` fragments of one triangle, at (x, y).
 void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
                  const InterpolatedSpans& points);
 
-/// Triangles side by side, for fragments that have one each. The same numbers as interpolate().
-class TriangleLanes {
-  public:
-    static constexpr std::size_t k_lanes = 64;
-
-    std::size_t size() const { return size_; }
-    bool is_full() const { return size_ == k_lanes; }
-    void add(const TriangleAttributes& triangle) {
-        const float* const from = &triangle.x[0];
-        for (std::size_t k = 0; k < k_numbers; ++k) numbers_[k][size_] = from[k];
-        ++size_;
-    }
-    /// Interpolates over the fragments that were added, at (x, y), and forgets them.
-    void interpolate(const float* x, const float* y, const InterpolatedSpans& points);
-
-  private:
-    static constexpr std::size_t k_numbers = sizeof(TriangleAttributes) / sizeof(float);
-    alignas(64) float numbers_[k_numbers][k_lanes];
-    std::size_t size_ = 0;
+/// A mesh whose vertices and triangles have numbers below 2^31.
+struct IndexedMesh {
+    const std::int32_t* corners;
+    const float *x, *y, *w;  // homogeneous pixels
+    bool perspective;        // else w is 1 instead
+    ConstVec3Span position, vertex_normal, face_normal;
 };
+
+/// Interpolates over `count` fragments of a triangle each, at (x, y). The same numbers as interpolate().
+void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::int32_t* triangle,
+                      const float* x, const float* y, const InterpolatedSpans& points);
 
 }  // namespace candela

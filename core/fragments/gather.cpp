@@ -127,7 +127,8 @@ bool ProjectedMesh::is_back(std::uint32_t triangle) const {
 
 namespace {
 
-TriangleAttributes attributes_of(const ProjectedMesh& source, const Indices& vertices) {
+TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t triangle) {
+    const Indices vertices = corners_of(source.mesh, triangle);
     const bool perspective = source.scene.camera.projection == Projection::perspective;
     const ConstVec3Span position = source.mesh.position.span(), normal = source.mesh.vertex_normal.span();
     TriangleAttributes t;
@@ -139,83 +140,98 @@ TriangleAttributes attributes_of(const ProjectedMesh& source, const Indices& ver
         t.position[k] = position[vertices[k]];
         t.normal[k] = normal[vertices[k]];
     }
+    t.face_normal = source.mesh.face_normal.span()[triangle];
     if (!source.scene.is_moderate) keep_in_range(t);
     return t;
 }
 
-/// The fragments of one triangle that are side by side in a batch.
-struct Group {
-    std::uint32_t triangle;
-    std::size_t first, count;
+IndexedMesh indexed(const ProjectedMesh& source) {
+    const ProjectedScene& scene = source.scene;
+    const Mesh& mesh = source.mesh;
+    return {.corners = reinterpret_cast<const std::int32_t*>(mesh.corners.data()),
+            .x = scene.x.data() + source.first_vertex,
+            .y = scene.y.data() + source.first_vertex,
+            .w = scene.distance.data() + source.first_vertex,
+            .perspective = scene.camera.projection == Projection::perspective,
+            .position = mesh.position.span(),
+            .vertex_normal = mesh.vertex_normal.span(),
+            .face_normal = mesh.face_normal.span()};
+}
+
+/// The fragments of a batch: where they are, and on which triangle.
+struct Places {
+    alignas(64) std::array<float, k_batch_size> x, y;
+    alignas(64) std::array<std::int32_t, k_batch_size> triangle;
+    std::size_t count = 0;
+
+    explicit Places(std::span<const FragmentRun> runs) {
+        for (const FragmentRun& run : runs) {
+            for (std::uint32_t i = 0; i < run.count; ++i) {
+                x[count + i] = run.x + static_cast<float>(i);
+                y[count + i] = run.y;
+                triangle[count + i] = static_cast<std::int32_t>(run.triangle);
+            }
+            count += run.count;
+        }
+    }
 };
 
-/// Lays the places of a batch's fragments side by side, and calls `visit` for each triangle's.
+/// Calls `visit(triangle, first, end)` for each triangle's fragments, side by side in a batch.
 template <class Visit>
-void each_group(std::span<const FragmentRun> runs, std::array<float, k_batch_size>& x,
-                std::array<float, k_batch_size>& y, Visit visit) {
-    std::size_t end = 0;
-    Group group{runs.empty() ? 0 : runs.front().triangle, 0, 0};
-    for (const FragmentRun& run : runs) {
-        if (run.triangle != group.triangle) {
-            visit(group);
-            group = {run.triangle, end, 0};
-        }
-        for (std::uint32_t i = 0; i < run.count; ++i) {
-            x[end + i] = run.x + static_cast<float>(i);
-            y[end + i] = run.y;
-        }
-        end += run.count;
-        group.count += run.count;
+void each_triangle(std::span<const FragmentRun> runs, Visit visit) {
+    std::size_t first = 0;
+    for (std::size_t run = 0; run < runs.size();) {
+        const std::uint32_t triangle = runs[run].triangle;
+        std::size_t end = first;
+        for (; run < runs.size() && runs[run].triangle == triangle; ++run) end += runs[run].count;
+        visit(triangle, first, end);
+        first = end;
     }
-    if (group.count > 0) visit(group);
 }
 
 /// From this many fragments on, a triangle is worth a loop of its own.
-constexpr std::size_t k_worth_a_loop = 6;
+constexpr std::size_t k_worth_a_loop = 16;
 
 }  // namespace
 
 void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> runs, PointNeeds needs,
                       SurfacePoints& points) {
-    alignas(64) std::array<float, k_batch_size> x, y;
+    const Places places(runs);
+    points.count = places.count;
     const auto spans_from = [&](std::size_t first) -> InterpolatedSpans {
         return {points.barycentric.span().from(first), points.position.span().from(first),
-                points.vertex_normal.span().from(first)};
+                points.vertex_normal.span().from(first), points.face_normal.span().from(first)};
     };
-    TriangleLanes lanes;
-    std::size_t first_lane = 0;
-    const auto finish_lanes = [&] {
-        if (lanes.size() > 0) lanes.interpolate(&x[first_lane], &y[first_lane], spans_from(first_lane));
+    constexpr std::size_t k_limit = std::size_t{1} << 31;
+    const bool may_fetch = source.scene.is_moderate && source.mesh.corners.size() < k_limit;
+    std::size_t interpolated = 0;
+    const auto fetch_up_to = [&](std::size_t end) {
+        if (end == interpolated) return;
+        interpolate_each(indexed(source), end - interpolated, &places.triangle[interpolated],
+                         &places.x[interpolated], &places.y[interpolated], spans_from(interpolated));
+        interpolated = end;
     };
-    points.any_from_behind = false;
-    points.count = 0;
-    each_group(runs, x, y, [&](const Group& group) {
-        const Indices vertices = corners_of(source.mesh, group.triangle);
-        const TriangleAttributes triangle = attributes_of(source, vertices);
-        if (group.count >= k_worth_a_loop) {
-            finish_lanes();
-            interpolate(triangle, group.count, &x[group.first], &y[group.first], spans_from(group.first));
-        } else {
-            for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-                if (lanes.is_full()) finish_lanes();
-                if (lanes.size() == 0) first_lane = i;
-                lanes.add(triangle);
-            }
-        }
-        const Vec3 face_normal = source.mesh.face_normal.span()[group.triangle];
-        const bool is_back = source.is_back(group.triangle);
-        points.any_from_behind = points.any_from_behind || is_back;
-        std::fill_n(&points.face_normal.x[group.first], group.count, face_normal.x);
-        std::fill_n(&points.face_normal.y[group.first], group.count, face_normal.y);
-        std::fill_n(&points.face_normal.z[group.first], group.count, face_normal.z);
-        std::fill_n(&points.facing[group.first], group.count, is_back ? -1.0f : 1.0f);
-        points.count += group.count;
+    each_triangle(runs, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+        if (may_fetch && end - first < k_worth_a_loop) return;
+        fetch_up_to(first);
+        interpolate(attributes_of(source, triangle), end - first, &places.x[first], &places.y[first],
+                    spans_from(first));
+        interpolated = end;
     });
-    finish_lanes();
-    if (!needs.uv && !needs.derivatives) return;
-    each_group(runs, x, y, [&](const Group& group) {
-        blend_attributes(source.mesh, corners_of(source.mesh, group.triangle), needs, group.first,
-                         group.count, points);
+    fetch_up_to(places.count);
+
+    points.any_from_behind = false;
+    std::fill_n(points.facing.begin(), places.count, 1.0f);
+    if (source.mesh.closed && !needs.uv && !needs.derivatives) return;
+    each_triangle(runs, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+        if (source.is_back(triangle)) {
+            points.any_from_behind = true;
+            std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
+                      points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
+        }
+        if (needs.uv || needs.derivatives)
+            blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first, end - first,
+                             points);
     });
 }
 

@@ -4,6 +4,7 @@ module;
 #include "candela/multiversion.h"
 
 #include <cstddef>
+#include <cstdint>
 
 module candela.fragments;
 
@@ -58,27 +59,40 @@ struct RunLoop {
             out.vertex_normal.x[i] = f.blend(t.normal[0].x, t.normal[1].x, t.normal[2].x);
             out.vertex_normal.y[i] = f.blend(t.normal[0].y, t.normal[1].y, t.normal[2].y);
             out.vertex_normal.z[i] = f.blend(t.normal[0].z, t.normal[1].z, t.normal[2].z);
+            out.face_normal.x[i] = t.face_normal.x;
+            out.face_normal.y[i] = t.face_normal.y;
+            out.face_normal.z[i] = t.face_normal.z;
         }
     }
 };
 
-/// The rows of TriangleLanes are the members of TriangleAttributes in their order.
-struct LaneLoop {
-    CANDELA_BATCH_LOOP static void run(const float (*n)[TriangleLanes::k_lanes], std::size_t count,
+/// Each fragment fetches the corners of its triangle.
+struct FetchLoop {
+    CANDELA_BATCH_LOOP static void run(IndexedMesh m, std::size_t count, const std::int32_t* triangle,
                                        const float* px, const float* py, InterpolatedSpans out) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const Fragment f(px[i], py[i], n[0][i], n[3][i], n[6][i], n[1][i], n[4][i], n[7][i], n[2][i],
-                             n[5][i], n[8][i]);
+            const std::int32_t t = triangle[i];
+            const std::int32_t v0 = m.corners[3 * t], v1 = m.corners[3 * t + 1], v2 = m.corners[3 * t + 2];
+            const float w0 = m.perspective ? m.w[v0] : 1.0f;
+            const float w1 = m.perspective ? m.w[v1] : 1.0f;
+            const float w2 = m.perspective ? m.w[v2] : 1.0f;
+            const Fragment f(px[i], py[i], m.x[v0], m.y[v0], w0, m.x[v1], m.y[v1], w1, m.x[v2], m.y[v2], w2);
             out.barycentric.x[i] = f.b0;
             out.barycentric.y[i] = f.b1;
             out.barycentric.z[i] = f.b2;
-            out.position.x[i] = f.blend(n[9][i], n[12][i], n[15][i]);
-            out.position.y[i] = f.blend(n[10][i], n[13][i], n[16][i]);
-            out.position.z[i] = f.blend(n[11][i], n[14][i], n[17][i]);
-            out.vertex_normal.x[i] = f.blend(n[18][i], n[21][i], n[24][i]);
-            out.vertex_normal.y[i] = f.blend(n[19][i], n[22][i], n[25][i]);
-            out.vertex_normal.z[i] = f.blend(n[20][i], n[23][i], n[26][i]);
+            out.position.x[i] = f.blend(m.position.x[v0], m.position.x[v1], m.position.x[v2]);
+            out.position.y[i] = f.blend(m.position.y[v0], m.position.y[v1], m.position.y[v2]);
+            out.position.z[i] = f.blend(m.position.z[v0], m.position.z[v1], m.position.z[v2]);
+            out.vertex_normal.x[i] =
+                f.blend(m.vertex_normal.x[v0], m.vertex_normal.x[v1], m.vertex_normal.x[v2]);
+            out.vertex_normal.y[i] =
+                f.blend(m.vertex_normal.y[v0], m.vertex_normal.y[v1], m.vertex_normal.y[v2]);
+            out.vertex_normal.z[i] =
+                f.blend(m.vertex_normal.z[v0], m.vertex_normal.z[v1], m.vertex_normal.z[v2]);
+            out.face_normal.x[i] = m.face_normal.x[t];
+            out.face_normal.y[i] = m.face_normal.y[t];
+            out.face_normal.z[i] = m.face_normal.z[t];
         }
     }
 };
@@ -90,10 +104,9 @@ void interpolate(const TriangleAttributes& triangle, std::size_t count, const fl
     multiversion<RunLoop>(triangle, count, x, y, points);
 }
 
-void TriangleLanes::interpolate(const float* x, const float* y, const InterpolatedSpans& points) {
-    const float(*const numbers)[k_lanes] = numbers_;
-    multiversion<LaneLoop>(numbers, size_, x, y, points);
-    size_ = 0;
+void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::int32_t* triangle,
+                      const float* x, const float* y, const InterpolatedSpans& points) {
+    multiversion<FetchLoop>(mesh, count, triangle, x, y, points);
 }
 
 }  // namespace candela
