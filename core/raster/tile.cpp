@@ -4,6 +4,7 @@ module;
 #include "candela/multiversion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -142,10 +143,79 @@ void clear(TileVisibility& visibility) {
     visibility.closeness.assign(size, -std::numeric_limits<float>::infinity());
 }
 
+/// Sees one tile's triangles.
+class TileRaster {
+  public:
+    TileRaster(const ProjectedScene& scene, TileVisibility& visibility)
+        : scene_(scene), visibility_(visibility), pattern_(sample_pattern(scene.samples)) {}
+
+    void see(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count) {
+        if (scene_.samples > 1) {
+            for (std::size_t i = 0; i < count; ++i) see_large(all[numbers[i]]);
+            return;
+        }
+        for (std::size_t first = 0; first < count; first += SmallTriangles::k_size)
+            see_some(all, numbers + first, std::min(SmallTriangles::k_size, count - first));
+    }
+
+  private:
+    /// In their order, as of equally near ones the first is seen.
+    void see_some(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count) {
+        small_.set_up(all, numbers, count, scene_.subpixel_bits);
+        for (std::size_t i = 0; i < count; ++i) {
+            const RasterTriangle& triangle = all[numbers[i]];
+            if (small_.is_small[i] != 0) {
+                see_small(i, triangle.id);
+            } else {
+                see_large(triangle);
+            }
+        }
+    }
+
+    void see_small(std::size_t i, std::uint32_t id) {
+        const int x0 = small_.x[i] - visibility_.x0, y0 = small_.y[i] - visibility_.y0;
+        for (auto covered = static_cast<unsigned>(small_.covered[i]); covered != 0; covered &= covered - 1) {
+            const int bit = std::countr_zero(covered);
+            const int column = bit % 4, row = bit / 4;
+            const int x = x0 + column, y = y0 + row;
+            if (x < 0 || x >= visibility_.width || y < 0 || y >= visibility_.height) continue;
+            const auto pixel = static_cast<std::size_t>(y * visibility_.stride + x);
+            const float closeness = small_.closeness[i] + static_cast<float>(column) * small_.to_right[i] +
+                                    static_cast<float>(row) * small_.down[i];
+            if (!(closeness > visibility_.closeness[pixel])) continue;
+            visibility_.closeness[pixel] = closeness;
+            visibility_.triangle[pixel] = id;
+        }
+    }
+
+    void see_large(const RasterTriangle& triangle) {
+        const std::int64_t sixteenth = std::int64_t{1} << (scene_.subpixel_bits - 4);
+        for (std::size_t s = 0; s < pattern_.size(); ++s) {
+            const auto [sx, sy] = pattern_[s];
+            const SampleGrid grid{
+                .x = (std::int64_t{visibility_.x0} << scene_.subpixel_bits) + sx * sixteenth,
+                .y = (std::int64_t{visibility_.y0} << scene_.subpixel_bits) + sy * sixteenth,
+                .bits = scene_.subpixel_bits,
+                .width = visibility_.width,
+                .height = visibility_.height};
+            TileTriangle set;
+            if (!set_up(triangle, grid, set)) continue;
+            const std::size_t plane = s * visibility_.plane();
+            multiversion<TriangleLoop>(set,
+                                       SamplePlane{visibility_.stride, visibility_.closeness.data() + plane,
+                                                   visibility_.triangle.data() + plane});
+        }
+    }
+
+    const ProjectedScene& scene_;
+    TileVisibility& visibility_;
+    std::span<const SamplePosition> pattern_;
+    SmallTriangles small_;
+};
+
 }  // namespace
 
 bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility) {
-    const int samples = scene.samples;
     const int column = tile % scene.tile_columns;
     const int row = tile / scene.tile_columns;
     visibility.x0 = column * scene.tile_size;
@@ -153,10 +223,9 @@ bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility
     visibility.width = std::min(scene.tile_size, scene.camera.width - visibility.x0);
     visibility.height = std::min(scene.tile_size, scene.camera.height - visibility.y0);
     visibility.stride = scene.tile_size;
-    visibility.samples = samples;
+    visibility.samples = scene.samples;
 
-    const std::span<const SamplePosition> pattern = sample_pattern(samples);
-    const std::int64_t sixteenth = std::int64_t{1} << (scene.subpixel_bits - 4);
+    TileRaster raster(scene, visibility);
     bool is_cleared = false;
     for (const TriangleBin& bin : scene.bins) {
         const int bin_column = column - bin.first_column;
@@ -164,26 +233,11 @@ bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility
         if (bin_column < 0 || bin_column >= bin.columns || bin_row < 0 || bin_row >= bin.rows) continue;
         const std::size_t list = static_cast<std::size_t>(bin_row) * static_cast<std::size_t>(bin.columns) +
                                  static_cast<std::size_t>(bin_column);
-        for (std::uint32_t entry = bin.start[list]; entry < bin.start[list + 1]; ++entry) {
-            if (!is_cleared) clear(visibility);
-            is_cleared = true;
-            const RasterTriangle& triangle = bin.triangles[bin.entries[entry]];
-            for (int s = 0; s < samples; ++s) {
-                const auto [sx, sy] = pattern[static_cast<std::size_t>(s)];
-                const SampleGrid grid{
-                    .x = (std::int64_t{visibility.x0} << scene.subpixel_bits) + sx * sixteenth,
-                    .y = (std::int64_t{visibility.y0} << scene.subpixel_bits) + sy * sixteenth,
-                    .bits = scene.subpixel_bits,
-                    .width = visibility.width,
-                    .height = visibility.height};
-                TileTriangle set;
-                if (!set_up(triangle, grid, set)) continue;
-                const std::size_t plane = static_cast<std::size_t>(s) * visibility.plane();
-                multiversion<TriangleLoop>(set,
-                                           SamplePlane{visibility.stride, visibility.closeness.data() + plane,
-                                                       visibility.triangle.data() + plane});
-            }
-        }
+        const std::size_t first = bin.start[list], end = bin.start[list + 1];
+        if (first == end) continue;
+        if (!is_cleared) clear(visibility);
+        is_cleared = true;
+        raster.see(bin.triangles.data(), bin.entries.data() + first, end - first);
     }
     return is_cleared;
 }
