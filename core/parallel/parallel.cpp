@@ -7,6 +7,8 @@ module;
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <mutex>
 
 #if defined(CANDELA_THREAD_SANITIZER)
 extern "C" void __tsan_acquire(void* address);
@@ -51,10 +53,24 @@ void hand_over(Run run) {
 
 }  // namespace
 
+namespace {
+
+/// Arenas are kept, one for each number of threads: to make one takes time, and the memory that oneTBB aligns
+/// for it is seldom used again (glibc's bug 14581), so that a program that renders on and on would grow.
+tbb::task_arena& arena_of(int threads) {
+    static std::mutex mutex;
+    // Never destroyed, as work may go on in other threads while the process ends.
+    static auto& arenas = *new std::map<int, tbb::task_arena>;
+    const std::scoped_lock lock(mutex);
+    return arenas.try_emplace(threads, threads).first->second;
+}
+
+}  // namespace
+
 int available_threads() noexcept { return std::max(tbb::info::default_concurrency(), 1); }
 
 void with_threads(int threads, FunctionRef<> work) {
-    tbb::task_arena arena(threads > 0 ? threads : available_threads());
+    tbb::task_arena& arena = arena_of(threads > 0 ? threads : available_threads());
     hand_over([&](auto in_worker) { arena.execute([&] { in_worker([&] { work(); }); }); });
 }
 

@@ -1,7 +1,9 @@
 // What is kept of one picture serves the next, and never shows in it.
+#include <unistd.h>
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -93,6 +95,14 @@ class Fixture {
     mutable candela::RenderStatistics statistics_;
 };
 
+/// Bytes of memory that this process holds.
+std::size_t resident() {
+    std::ifstream statm("/proc/self/statm");
+    std::size_t all = 0, in_memory = 0;
+    statm >> all >> in_memory;
+    return in_memory * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
 
 TEST_CASE("a picture from what was kept is the picture rendered anew, whatever of the light has changed") {
@@ -160,3 +170,24 @@ TEST_CASE("a picture that failed is not taken for one that was kept") {
     CHECK_THROWS(visibility.render(fixture.scene, film, {.threads = 1, .progress = stop}));
     fixture.require_same(visibility);
 }
+
+// A sanitizer keeps memory back on purpose.
+#if !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer)
+TEST_CASE("the thousandth picture holds no more memory than the hundredth") {
+    Fixture fixture(k_scene);
+    candela::Visibility visibility;
+    const auto render = [&](int pictures) {
+        for (int i = 0; i < pictures; ++i) {
+            fixture.scene.observer.position.x = 0.3f + 0.01f * static_cast<float>(i % 7);
+            fixture.by(visibility);  // seen anew
+            fixture.by(visibility);  // lit anew
+            fixture.anew();
+        }
+    };
+    render(100);
+    const std::size_t before = resident();
+    render(9000);
+    INFO(before << " bytes, then " << resident());
+    CHECK(resident() < before + (std::size_t{1} << 20));
+}
+#endif
