@@ -22,8 +22,6 @@ void subtract(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, s
     for (std::size_t i = 0; i < count; ++i) result[i] = static_cast<std::uint8_t>(a[i] - b[i]);
 }
 
-/// A row as the file has it: the filter's number, then the row less the pixels to the left or above,
-/// whichever leaves more zeros. `above`: null for the first row.
 }  // namespace
 
 void filter_row(std::span<const std::uint8_t> row, const std::uint8_t* above, std::uint8_t* result) {

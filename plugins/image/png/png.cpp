@@ -25,7 +25,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
-constexpr std::size_t k_band = std::size_t{1} << 18;
+constexpr std::size_t k_band = std::size_t{1} << 18;         // of pixels, about; but a row at least
 constexpr std::size_t k_longest_row = std::size_t{1} << 30;  // a band of one row is to fit into a chunk
 constexpr std::uint32_t k_adler_of_nothing = 1;
 
@@ -50,34 +50,35 @@ void append_chunk(Bytes& bytes, std::string_view type, std::initializer_list<Byt
 }
 
 /// What one thread works with.
-struct Bench {
-    explicit Bench(int compression) : deflater(Deflater::create(compression)) {}
+struct Tools {
+    explicit Tools(int compression) : deflater(Deflater::create(compression)) {}
     std::unique_ptr<Deflater> deflater;
     Bytes filtered;
 };
 
-/// Benches that no thread stands at. Memory that is new takes longer to come by than a band does to compress.
-class Benches {
+/// Tools that no thread has in hand. New memory for each band takes longer to come by than the band to
+/// compress.
+class SpareTools {
   public:
-    std::unique_ptr<Bench> take(int compression) {
+    std::unique_ptr<Tools> take(int compression) {
         {
             const std::scoped_lock lock(mutex_);
-            if (!free_.empty()) {
-                std::unique_ptr<Bench> bench = std::move(free_.back());
-                free_.pop_back();
-                return bench;
+            if (!spare_.empty()) {
+                std::unique_ptr<Tools> tools = std::move(spare_.back());
+                spare_.pop_back();
+                return tools;
             }
         }
-        return std::make_unique<Bench>(compression);
+        return std::make_unique<Tools>(compression);
     }
-    void give_back(std::unique_ptr<Bench> bench) {
+    void give_back(std::unique_ptr<Tools> tools) {
         const std::scoped_lock lock(mutex_);
-        free_.push_back(std::move(bench));
+        spare_.push_back(std::move(tools));
     }
 
   private:
     std::mutex mutex_;
-    std::vector<std::unique_ptr<Bench>> free_;
+    std::vector<std::unique_ptr<Tools>> spare_;
 };
 
 /// The rows from `begin` to `end`, compressed; and what they add to the checksum of all.
@@ -107,11 +108,11 @@ class Png final : public candela::ImageFormat {
         std::vector<Band> bands(count);
         for (std::size_t i = 0; i < count; ++i)
             bands[i] = {.begin = height * i / count, .end = height * (i + 1) / count};
-        Benches benches;
+        SpareTools spare;
         candela::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
-            std::unique_ptr<Bench> bench = benches.take(options_.compression);
-            for (std::size_t i = begin; i < end; ++i) encode(picture, bands[i], *bench);
-            benches.give_back(std::move(bench));
+            std::unique_ptr<Tools> tools = spare.take(options_.compression);
+            for (std::size_t i = begin; i < end; ++i) encode(picture, bands[i], *tools);
+            spare.give_back(std::move(tools));
         });
 
         Bytes head = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -137,20 +138,21 @@ class Png final : public candela::ImageFormat {
     }
 
   private:
-    void encode(const candela::PictureView& picture, Band& band, Bench& bench) const {
+    void encode(const candela::PictureView& picture, Band& band, Tools& tools) const {
         const std::size_t row = k_pixel * static_cast<std::size_t>(picture.width);
-        bench.filtered.resize((row + 1) * (band.end - band.begin));
-        std::uint8_t* out = bench.filtered.data();
+        tools.filtered.resize((row + 1) * (band.end - band.begin));
+        std::uint8_t* out = tools.filtered.data();
         for (std::size_t y = band.begin; y < band.end; ++y, out += row + 1) {
             const std::uint8_t* const pixels = &picture.bytes[y * row];
             filter_row({pixels, row}, y > 0 ? pixels - row : nullptr, out);
         }
-        band.adler = isal_adler32(k_adler_of_nothing, bench.filtered.data(), bench.filtered.size());
+        band.adler = isal_adler32(k_adler_of_nothing, tools.filtered.data(), tools.filtered.size());
         const bool is_last = band.end == static_cast<std::size_t>(picture.height);
-        constexpr std::array<std::uint8_t, 2> k_zlib_header = {0x78, 0x01};  // deflate, a window of 32 kB
+        // Deflate, with a window of 32 kB.
+        static constexpr std::array<std::uint8_t, 2> k_zlib_header = {0x78, 0x01};
         append_chunk(band.chunk, "IDAT",
                      {band.begin == 0 ? ByteView(k_zlib_header) : ByteView(),
-                      bench.deflater->deflate(bench.filtered, is_last)});
+                      tools.deflater->deflate(tools.filtered, is_last)});
     }
 
     PngOptions options_;
