@@ -149,7 +149,7 @@ void check_round_trip(const Picture& picture, int compression) {
     CHECK((back.pixels == picture.pixels));
 }
 
-/// Some are of one band, some of two or more: a band is of 256 kB at most, but of one row at least.
+/// Some are of one band, some of two or more: a band is of about 256 kB, but of one row at least.
 constexpr std::pair<int, int> k_sizes[] = {{1, 1},       {1, 700},     {700, 1},   {2, 3},
                                            {333, 217},   {256, 341},   {256, 342}, {257, 343},
                                            {1, 100'000}, {100'001, 3}, {641, 479}};
