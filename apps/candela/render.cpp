@@ -11,6 +11,8 @@
 #include "terminal.h"
 #include "verbs.h"
 
+import candela.parallel;
+
 namespace po = boost::program_options;
 using candela::Error;
 using candela::ExitCode;
@@ -79,7 +81,7 @@ int run_render(const std::vector<std::string>& arguments) {
     if (!darkness.empty())
         std::cerr << fmt::format("candela: warning: nothing in the picture is lit: {}\n", darkness);
     const Stopwatch writing;
-    candela::write_picture(film, format, output, registry);
+    candela::with_threads(threads, [&] { candela::write_picture(film, format, output, registry); });
     const double write_ms = writing.milliseconds();
 
     if (line.has("verbose")) {

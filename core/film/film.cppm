@@ -59,7 +59,8 @@ struct PictureFormat {
 /// nobody writes.
 CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
-/// Writes the picture as an OutputFile, which nobody ever finds half of. Throws Error.
+/// Writes the picture as an OutputFile, which nobody ever finds half of. Plugins that encode on several
+/// threads use those of with_threads(). Throws Error.
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
                                const std::filesystem::path& path, Registry& registry);
 

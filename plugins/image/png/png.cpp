@@ -1,15 +1,92 @@
-#include <spng.h>
+// Bands of rows are filtered and compressed by different threads. Where they begin depends on the picture's
+// size alone, so that the file is the same for any number of threads.
+#include <isa-l/igzip_lib.h>
+#include <zlib.h>
 
-#include <exception>
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
-#include <string>
+#include <string_view>
+#include <vector>
 
 #include "candela/image_plugin.h"
+#include "deflate.h"
+#include "filter.h"
+
+import candela.parallel;
 
 using namespace candela::sdk;
 
 namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
+
+constexpr std::size_t k_band = std::size_t{1} << 18;         // of pixels, about; but a row at least
+constexpr std::size_t k_longest_row = std::size_t{1} << 30;  // a band of one row is to fit into a chunk
+constexpr std::uint32_t k_adler_of_nothing = 1;
+
+Bytes big_endian(std::uint32_t value) {
+    return {static_cast<std::uint8_t>(value >> 24), static_cast<std::uint8_t>(value >> 16),
+            static_cast<std::uint8_t>(value >> 8), static_cast<std::uint8_t>(value)};
+}
+
+void append(Bytes& bytes, ByteView more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
+
+/// Length, type, contents, checksum.
+void append_chunk(Bytes& bytes, std::string_view type, std::initializer_list<ByteView> contents) {
+    std::size_t size = 0;
+    for (const ByteView part : contents) size += part.size();
+    bytes.reserve(bytes.size() + size + 12);
+    append(bytes, big_endian(static_cast<std::uint32_t>(size)));
+    const std::size_t checked = bytes.size();
+    bytes.insert(bytes.end(), type.begin(), type.end());
+    for (const ByteView part : contents) append(bytes, part);
+    append(bytes, big_endian(static_cast<std::uint32_t>(
+                      crc32(0, &bytes[checked], static_cast<uInt>(bytes.size() - checked)))));
+}
+
+/// What one thread works with.
+struct Tools {
+    explicit Tools(int compression) : deflater(Deflater::create(compression)) {}
+    std::unique_ptr<Deflater> deflater;
+    Bytes filtered;
+};
+
+/// Tools that no thread has in hand. New memory for each band takes longer to come by than the band to
+/// compress.
+class SpareTools {
+  public:
+    std::unique_ptr<Tools> take(int compression) {
+        {
+            const std::scoped_lock lock(mutex_);
+            if (!spare_.empty()) {
+                std::unique_ptr<Tools> tools = std::move(spare_.back());
+                spare_.pop_back();
+                return tools;
+            }
+        }
+        return std::make_unique<Tools>(compression);
+    }
+    void give_back(std::unique_ptr<Tools> tools) {
+        const std::scoped_lock lock(mutex_);
+        spare_.push_back(std::move(tools));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Tools>> spare_;
+};
+
+/// The rows from `begin` to `end`, compressed; and what they add to the checksum of all.
+struct Band {
+    std::size_t begin = 0, end = 0;
+    Bytes chunk{};
+    std::uint32_t adler = 0;
+};
 
 struct PngOptions {
     std::int32_t compression;
@@ -20,47 +97,62 @@ class Png final : public candela::ImageFormat {
     explicit Png(const PngOptions& options) : options_(options) {}
 
     void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
-        const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(SPNG_CTX_ENCODER),
-                                                                     spng_ctx_free);
-        if (context == nullptr) throw std::bad_alloc();
-        Stream stream{sink, nullptr};
-        const auto check = [&](int result) {
-            if (stream.problem) std::rethrow_exception(stream.problem);
-            if (result != 0) throw std::runtime_error(spng_strerror(result));
-        };
-        check(spng_set_png_stream(context.get(), pass_on, &stream));
-        check(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, options_.compression));
-        // One filter for all rows: choosing the best for each costs more time than it saves bytes.
-        check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_UP));
-        spng_ihdr header{};
-        header.width = static_cast<std::uint32_t>(picture.width);
-        header.height = static_cast<std::uint32_t>(picture.height);
-        header.bit_depth = 8;
-        header.color_type = SPNG_COLOR_TYPE_TRUECOLOR;
-        check(spng_set_ihdr(context.get(), &header));
+        const auto width = static_cast<std::size_t>(std::max(picture.width, 0));
+        const auto height = static_cast<std::size_t>(std::max(picture.height, 0));
+        if (width == 0 || height == 0 || width > k_longest_row / k_pixel ||
+            picture.bytes.size() != k_pixel * width * height)
+            throw std::runtime_error("this is no picture that a PNG file can hold");
+        const std::size_t row = k_pixel * width;
+
+        const std::size_t count = std::clamp(row * height / k_band + 1, std::size_t{1}, height);
+        std::vector<Band> bands(count);
+        for (std::size_t i = 0; i < count; ++i)
+            bands[i] = {.begin = height * i / count, .end = height * (i + 1) / count};
+        SpareTools spare;
+        candela::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+            std::unique_ptr<Tools> tools = spare.take(options_.compression);
+            for (std::size_t i = begin; i < end; ++i) encode(picture, bands[i], *tools);
+            spare.give_back(std::move(tools));
+        });
+
+        Bytes head = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+        const std::array<std::uint8_t, 5> kind = {8, 2, 0, 0, 0};  // bits; red, green, blue; no choices
+        append_chunk(head, "IHDR",
+                     {big_endian(static_cast<std::uint32_t>(width)),
+                      big_endian(static_cast<std::uint32_t>(height)), kind});
         if (picture.encoding == candela::ColorEncoding::srgb) {
-            check(spng_set_srgb(context.get(), 0));  // rendering intent: perceptual
+            const std::array<std::uint8_t, 1> perceptual = {0};
+            append_chunk(head, "sRGB", {perceptual});
         }
-        check(spng_encode_image(context.get(), picture.bytes.data(), picture.bytes.size(), SPNG_FMT_PNG,
-                                SPNG_ENCODE_FINALIZE));
+        sink.write(std::as_bytes(std::span(head)));
+        uLong adler = k_adler_of_nothing;
+        for (const Band& band : bands) {
+            sink.write(std::as_bytes(std::span(band.chunk)));
+            adler =
+                adler32_combine(adler, band.adler, static_cast<z_off_t>((row + 1) * (band.end - band.begin)));
+        }
+        Bytes tail;
+        append_chunk(tail, "IDAT", {big_endian(static_cast<std::uint32_t>(adler))});
+        append_chunk(tail, "IEND", {});
+        sink.write(std::as_bytes(std::span(tail)));
     }
 
   private:
-    /// Where the bytes go, and what went wrong there: an exception must not pass through C.
-    struct Stream {
-        candela::ByteSink& sink;
-        std::exception_ptr problem;
-    };
-
-    static int pass_on(spng_ctx*, void* user, void* bytes, std::size_t count) {
-        auto& stream = *static_cast<Stream*>(user);
-        try {
-            stream.sink.write({static_cast<const std::byte*>(bytes), count});
-            return 0;
-        } catch (...) {
-            stream.problem = std::current_exception();
-            return SPNG_IO_ERROR;
+    void encode(const candela::PictureView& picture, Band& band, Tools& tools) const {
+        const std::size_t row = k_pixel * static_cast<std::size_t>(picture.width);
+        tools.filtered.resize((row + 1) * (band.end - band.begin));
+        std::uint8_t* out = tools.filtered.data();
+        for (std::size_t y = band.begin; y < band.end; ++y, out += row + 1) {
+            const std::uint8_t* const pixels = &picture.bytes[y * row];
+            filter_row({pixels, row}, y > 0 ? pixels - row : nullptr, out);
         }
+        band.adler = isal_adler32(k_adler_of_nothing, tools.filtered.data(), tools.filtered.size());
+        const bool is_last = band.end == static_cast<std::size_t>(picture.height);
+        // Deflate, with a window of 32 kB.
+        static constexpr std::array<std::uint8_t, 2> k_zlib_header = {0x78, 0x01};
+        append_chunk(band.chunk, "IDAT",
+                     {band.begin == 0 ? ByteView(k_zlib_header) : ByteView(),
+                      tools.deflater->deflate(tools.filtered, is_last)});
     }
 
     PngOptions options_;
