@@ -49,9 +49,10 @@ Times measure(const candela::CompiledScene& scene, const Plan& plan, candela::Fi
     const std::size_t all =
         static_cast<std::size_t>(plan.warm_up) + 2 * static_cast<std::size_t>(plan.frames) + 1;
     std::size_t done = 0;
+    candela::Renderer renderer;
     for (int i = 0; i < plan.warm_up + plan.frames; ++i) {
         const Stopwatch drawing;
-        statistics = candela::render(scene, film, {.threads = plan.threads});
+        statistics = renderer.render(scene, film, {.threads = plan.threads});
         const double milliseconds = drawing.milliseconds();
         bar.update(++done, all);
         if (i < plan.warm_up) continue;
@@ -59,10 +60,10 @@ Times measure(const candela::CompiledScene& scene, const Plan& plan, candela::Fi
         times.projection.push_back(1e3 * statistics.seconds_projecting);
         times.tiles.push_back(1e3 * statistics.seconds_on_tiles);
     }
-    candela::Visibility visibility;
+    renderer = candela::Renderer(candela::Renderer::Keep::visibility);
     for (int i = 0; i < 1 + plan.frames; ++i) {
         const Stopwatch lighting;
-        visibility.render(scene, film, {.threads = plan.threads});
+        renderer.render(scene, film, {.threads = plan.threads});
         if (i > 0) times.relit.push_back(lighting.milliseconds());
         bar.update(++done, all);
     }

@@ -149,14 +149,18 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
     surface.shading->normals(batch, normal);
 }
 
-Lighting::Lighting(std::span<const LitSource> lights, const Environment& environment, const Camera& camera)
-    : lights_(lights), environment_(environment), camera_(camera) {
+Lighting::Lighting() {
     for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
     for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard);
     mark_ends();
 }
 
 Lighting::~Lighting() = default;
+
+void Lighting::begin(const LitScene& scene) {
+    scene_ = scene;
+    surroundings_.reset();
+}
 
 std::array<Vec3Arrays*, 7> Lighting::written_by_plugins() {
     return {&normal_, &to_light_, &light_diffuse_, &light_specular_, &ambient_, &diffuse_, &specular_};
@@ -225,7 +229,7 @@ void Lighting::add_up(const SurfaceModels& surface, const Interior& interior, co
     find_normals(surface, points);
     look_at(PluginKind::shading, surface.shading_plugin, {&normal_});
     const ConstVec3Span normal = std::as_const(normal_).span();
-    multiversion<ToObserverLoop>(camera_, points.position.span(), count, to_observer_.span());
+    multiversion<ToObserverLoop>(scene_.camera, points.position.span(), count, to_observer_.span());
     const bool needs_tangent = surface.reflection->needs_tangent();
     if (needs_tangent) multiversion<TangentLoop>(points.dpdu.span(), normal, count, tangent_.span());
 
@@ -239,7 +243,7 @@ void Lighting::add_up(const SurfaceModels& surface, const Interior& interior, co
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
 
-    for (const LitSource& source : lights_) {
+    for (const LitSource& source : scene_.lights) {
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
             guarded(PluginKind::light, source.plugin, [&] {
                 source.light->illuminate(sample, receivers,
@@ -262,7 +266,8 @@ void Lighting::add_up(const SurfaceModels& surface, const Interior& interior, co
         }
     }
     if (surface.reflection->shows_surroundings()) {
-        if (surroundings_ == nullptr) surroundings_ = std::make_unique<ObjectSurroundings>(environment_);
+        if (surroundings_ == nullptr)
+            surroundings_ = std::make_unique<ObjectSurroundings>(*scene_.environment);
         surroundings_->set_object(surface, interior);
         guarded(PluginKind::reflection, surface.reflection_plugin,
                 [&] { surface.reflection->show_surroundings(batch, *surroundings_, reflected); });

@@ -53,11 +53,21 @@ struct Interior {
 
 class ObjectSurroundings;
 
+/// What shines on a scene, and from where it is looked at.
+struct LitScene {
+    std::span<const LitSource> lights;
+    const Environment* environment = nullptr;
+    Camera camera;
+};
+
 /// Evaluates light, batch by batch. Holds the batch's arrays: one for each thread.
 class CANDELA_API Lighting {
   public:
-    Lighting(std::span<const LitSource> lights, const Environment& environment, const Camera& camera);
+    Lighting();
     ~Lighting();
+
+    /// The scene that the calls to come are about.
+    void begin(const LitScene& scene);
 
     /// Writes the intensity that `points` send to the observer: I_a + sum of I_d + I_s over the lights (CA
     /// DD6). Returns the largest of them. Throws Error, naming the plugin, where one throws, gives what is no
@@ -77,10 +87,8 @@ class CANDELA_API Lighting {
     void require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
                        std::initializer_list<const Vec3Arrays*> results);
 
-    std::span<const LitSource> lights_;
-    const Environment& environment_;
+    LitScene scene_;
     std::unique_ptr<ObjectSurroundings> surroundings_;  // once a model asks
-    Camera camera_;
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;
     Vec3Arrays ambient_, diffuse_, specular_;

@@ -45,7 +45,11 @@ class Binner {
           perspective_(scene.camera.projection == Projection::perspective),
           width_(static_cast<float>(scene.camera.width)),
           height_(static_cast<float>(scene.camera.height)),
-          one_(static_cast<float>(1 << scene.subpixel_bits)) {}
+          one_(static_cast<float>(1 << scene.subpixel_bits)) {
+        bin_.triangles.clear();
+        bin_.entries.clear();
+        bin_.columns = bin_.rows = 0;
+    }
 
     void add(const std::uint32_t* corners, std::uint32_t first_vertex, std::uint32_t id, bool two_sided) {
         const ScreenVertex* const screen = scene_.screen.data() + first_vertex;
@@ -215,15 +219,13 @@ class Binner {
 
 }  // namespace
 
-TriangleBin bin_triangles(const ProjectedScene& scene, const Mesh& mesh, std::uint32_t first_vertex,
-                          std::uint32_t first_id, std::size_t first_triangle, std::size_t count) {
-    TriangleBin bin;
+void bin_triangles(const ProjectedScene& scene, const Mesh& mesh, std::uint32_t first_vertex,
+                   std::uint32_t first_id, std::size_t first_triangle, std::size_t count, TriangleBin& bin) {
     Binner binner(scene, bin);
     const std::uint32_t* const corners = mesh.corners.data();
     for (std::size_t t = first_triangle; t < first_triangle + count; ++t)
         binner.add(corners + 3 * t, first_vertex, first_id + static_cast<std::uint32_t>(t), !mesh.closed);
     binner.sort_into_tiles();
-    return bin;
 }
 
 }  // namespace candela

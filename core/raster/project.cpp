@@ -108,6 +108,14 @@ struct Stretch {
 ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
                        int samples) {
     ProjectedScene scene;
+    project(meshes, camera, tile_size, samples, scene);
+    return scene;
+}
+
+void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size, int samples,
+             ProjectedScene& scene) {
+    scene.first_vertex.clear();
+    scene.first_triangle.clear();
     scene.samples = samples;
     scene.camera = camera;
     scene.tile_size = tile_size;
@@ -164,11 +172,10 @@ ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera
     parallel_for(stretches.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
             const auto [m, first, count] = stretches[s];
-            scene.bins[s] = bin_triangles(scene, *meshes[m], scene.first_vertex[m], scene.first_triangle[m],
-                                          first, count);
+            bin_triangles(scene, *meshes[m], scene.first_vertex[m], scene.first_triangle[m], first, count,
+                          scene.bins[s]);
         }
     });
-    return scene;
 }
 
 }  // namespace candela

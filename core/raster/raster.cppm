@@ -96,6 +96,10 @@ struct ProjectedScene {
 CANDELA_API ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
                                    int samples);
 
+/// The same, in the memory of a scene that was projected before.
+CANDELA_API void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
+                         int samples, ProjectedScene& scene);
+
 /// What one tile sees. Reused from tile to tile.
 struct TileVisibility {
     int x0 = 0, y0 = 0;         // its top left pixel
@@ -136,8 +140,8 @@ inline constexpr float k_near = 1e-4f;
 
 /// Makes the fixed-point triangles of a stretch of a mesh, and sorts them into tiles. `first_id`: of the
 /// mesh's first triangle.
-TriangleBin bin_triangles(const ProjectedScene& scene, const Mesh& mesh, std::uint32_t first_vertex,
-                          std::uint32_t first_id, std::size_t first_triangle, std::size_t count);
+void bin_triangles(const ProjectedScene& scene, const Mesh& mesh, std::uint32_t first_vertex,
+                   std::uint32_t first_id, std::size_t first_triangle, std::size_t count, TriangleBin& bin);
 
 /// Triangles whose box covers four by four pixels at most, side by side; one sample a pixel. What they cover,
 /// and how close it is, depends on the triangle alone, not on the tile.

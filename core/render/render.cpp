@@ -7,6 +7,7 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -72,58 +73,64 @@ struct SeenScene {
 
 /// What a thread needs to work on a tile.
 struct TileWorker {
-    TileWorker(const CompiledScene& scene, const ProjectedScene& projected)
-        : viewer(projected), shader(scene, projected) {}
     TileViewer viewer;
     TileShader shader;
     SeenTile seen;
 };
 
-/// What is kept of a picture.
-struct KeptTiles {
-    ProjectedScene projected;
-    std::vector<SeenTile> tiles;
-    bool is_whole = false;
-};
+int tile_size_of(const CompiledScene& scene, const RenderOptions& options) {
+    return options.tile_size > 0 ? options.tile_size : tile_size_for(scene.image.samples);
+}
 
-ProjectedScene projected_scene(const CompiledScene& scene, const Film& film, int tile_size) {
+void project_scene(const CompiledScene& scene, const Film& film, int tile_size, ProjectedScene& projected) {
     std::vector<const Mesh*> meshes;
     for (const SolidObject& object : scene.objects) meshes.push_back(&object.mesh);
     try {
-        return project(meshes, camera_of(scene.observer, film.width(), film.height()), tile_size,
-                       scene.image.samples);
+        project(meshes, camera_of(scene.observer, film.width(), film.height()), tile_size,
+                scene.image.samples, projected);
     } catch (const std::length_error& problem) {
         throw Error(ExitCode::failure, problem.what());
     }
 }
 
-/// The stages from projection on. `kept`: what is seen already, or is to be kept; null: neither.
-RenderStatistics render_stages(const CompiledScene& scene, Film& film, const RenderOptions& options,
-                               int tile_size, KeptTiles* kept) {
-    RenderStatistics statistics;
-    with_threads(options.threads, [&] {
+}  // namespace
+
+struct Renderer::Kept {
+    explicit Kept(Keep keep) : what(keep) {}
+
+    Keep what;
+    ProjectedScene projected;
+    Pool<TileWorker> workers;
+    std::vector<SeenTile> tiles;    // where visibility is kept
+    std::optional<SeenScene> seen;  // what the tiles are of, once they are whole
+
+    /// The stages from projection on, or from light on.
+    RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options,
+                            bool is_seen) {
+        RenderStatistics statistics;
         const auto begin = Clock::now();
-        ProjectedScene of_this_picture;
-        const bool is_seen = kept != nullptr && kept->is_whole;
-        ProjectedScene& projected = kept != nullptr ? kept->projected : of_this_picture;
-        if (!is_seen) projected = projected_scene(scene, film, tile_size);
-        const auto tiles = static_cast<std::size_t>(projected.tile_count());
-        if (kept != nullptr) kept->tiles.resize(tiles);
+        if (!is_seen) project_scene(scene, film, tile_size_of(scene, options), projected);
+        const auto tile_count = static_cast<std::size_t>(projected.tile_count());
+        if (what == Keep::visibility) tiles.resize(tile_count);
         statistics.seconds_projecting = seconds_since(begin);
         statistics.triangles = projected.first_triangle.back();
 
         const auto tiles_begin = Clock::now();
-        Pool<TileWorker> workers;
+        workers.each([&](TileWorker& worker) { worker.shader.begin(scene, projected); });
+        const auto make = [&] {
+            auto worker = std::make_unique<TileWorker>();
+            worker->shader.begin(scene, projected);
+            return worker;
+        };
         std::atomic<std::size_t> tiles_done{0};
-        const std::size_t grain = std::clamp<std::size_t>(tiles / 64, 1, 4);
-        parallel_for(tiles, grain, [&](std::size_t first, std::size_t last) {
-            const auto make = [&] { return std::make_unique<TileWorker>(scene, projected); };
+        const std::size_t grain = std::clamp<std::size_t>(tile_count / 64, 1, 4);
+        parallel_for(tile_count, grain, [&](std::size_t first, std::size_t last) {
             workers.with(make, [&](TileWorker& worker) {
                 for (std::size_t tile = first; tile < last; ++tile) {
-                    SeenTile& seen = kept != nullptr ? kept->tiles[tile] : worker.seen;
-                    if (!is_seen) worker.viewer.look(static_cast<int>(tile), seen);
-                    worker.shader.run(seen, film);
-                    if (options.progress) options.progress(++tiles_done, tiles);
+                    SeenTile& seen_tile = what == Keep::visibility ? tiles[tile] : worker.seen;
+                    if (!is_seen) worker.viewer.look(projected, static_cast<int>(tile), seen_tile);
+                    worker.shader.run(seen_tile, film);
+                    if (options.progress) options.progress(++tiles_done, tile_count);
                 }
             });
         });
@@ -133,41 +140,30 @@ RenderStatistics render_stages(const CompiledScene& scene, Film& film, const Ren
             statistics.brightest = std::max(statistics.brightest, worker.shader.brightest());
         });
         statistics.seconds_on_tiles = seconds_since(tiles_begin);
-    });
-    return statistics;
-}
-
-int tile_size_of(const CompiledScene& scene, const RenderOptions& options) {
-    return options.tile_size > 0 ? options.tile_size : tile_size_for(scene.image.samples);
-}
-
-}  // namespace
-
-RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
-    return render_stages(scene, film, options, tile_size_of(scene, options), nullptr);
-}
-
-struct Visibility::Kept {
-    SeenScene seen;
-    KeptTiles tiles{};
+        return statistics;
+    }
 };
 
-Visibility::Visibility() = default;
-Visibility::Visibility(Visibility&&) noexcept = default;
-Visibility& Visibility::operator=(Visibility&&) noexcept = default;
-Visibility::~Visibility() = default;
+Renderer::Renderer(Keep keep) : kept_(std::make_unique<Kept>(keep)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
 
-void Visibility::clear() noexcept { kept_.reset(); }
+void Renderer::forget() noexcept { kept_->seen.reset(); }
 
-RenderStatistics Visibility::render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
-    const int tile_size = tile_size_of(scene, options);
-    SeenScene seen(scene, film, tile_size);
-    // What was begun and not ended, because something threw, is no use.
-    if (kept_ == nullptr || !kept_->tiles.is_whole || !(kept_->seen == seen))
-        kept_ = std::make_unique<Kept>(Kept{.seen = std::move(seen)});
-    const RenderStatistics statistics = render_stages(scene, film, options, tile_size, &kept_->tiles);
-    kept_->tiles.is_whole = true;
+RenderStatistics Renderer::render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
+    SeenScene to_see(scene, film, tile_size_of(scene, options));
+    const bool is_seen = kept_->what == Keep::visibility && kept_->seen == to_see;
+    // Until the tiles are whole, they are of nothing: something may throw.
+    if (!is_seen) kept_->seen.reset();
+    RenderStatistics statistics;
+    with_threads(options.threads, [&] { statistics = kept_->render(scene, film, options, is_seen); });
+    if (!is_seen) kept_->seen = std::move(to_see);
     return statistics;
+}
+
+RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
+    return Renderer().render(scene, film, options);
 }
 
 }  // namespace candela

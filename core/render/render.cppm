@@ -75,22 +75,24 @@ struct RenderStatistics {
 /// Renders one picture. The same bytes for any number of threads and any tile size. Throws Error.
 CANDELA_API RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
 
-/// What an observer sees of a scene: which triangle at each place of the picture. Kept from one picture to
-/// the next, it saves all but the light where only lights, colours or models have changed. One thread at a
-/// time.
-class CANDELA_API Visibility {
+/// Renders pictures one after another, the same ones as candela::render(), and keeps from each to the next
+/// what the next can use. One thread at a time.
+class CANDELA_API Renderer {
   public:
-    Visibility();
-    Visibility(Visibility&&) noexcept;
-    Visibility& operator=(Visibility&&) noexcept;
-    ~Visibility();
+    enum class Keep {
+        memory,     // the arrays
+        visibility  // also which triangle is seen where: if nothing but lights, colours or models has changed
+                    // since the picture before, only light is evaluated; 24 bytes for each stretch of pixels
+                    // that sees one triangle
+    };
+    explicit Renderer(Keep keep = Keep::memory);
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+    ~Renderer();
 
-    /// Forgets what is kept. To be called where a mesh has changed in place; all else is noticed.
-    void clear() noexcept;
+    /// Forgets what is seen. To be called where a mesh has changed in place; all else is noticed.
+    void forget() noexcept;
 
-    /// Renders the same picture as candela::render(): by what is kept if the observer, the objects, the
-    /// picture's size and its samples are as they were; else anew, and keeps that. Takes 24 bytes for each
-    /// stretch of pixels that sees one triangle.
     RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
 
   private:
@@ -123,18 +125,19 @@ struct SeenTile {
 /// Finds what a tile sees. Holds a tile's arrays: one for each thread.
 class TileViewer {
   public:
-    explicit TileViewer(const ProjectedScene& projected) : projected_(projected) {}
-    void look(int tile, SeenTile& seen);
+    void look(const ProjectedScene& projected, int tile, SeenTile& seen);
 
   private:
-    const ProjectedScene& projected_;
     TileVisibility visibility_;
 };
 
 /// Turns what a tile sees into intensities. Holds a tile's arrays: one for each thread.
 class TileShader {
   public:
-    TileShader(const CompiledScene& scene, const ProjectedScene& projected);
+    TileShader();
+
+    /// The scene that the calls to come are about; counts anew.
+    void begin(const CompiledScene& scene, const ProjectedScene& projected);
 
     /// Lights what is seen, and stores it.
     void run(const SeenTile& seen, Film& film);
@@ -152,8 +155,8 @@ class TileShader {
     void light(std::uint32_t object, const Vec3Span& intensity);
     void add(std::span<const FragmentRun> runs, const ConstVec3Span& intensity);
 
-    const CompiledScene& scene_;
-    const ProjectedScene& projected_;
+    const CompiledScene* scene_ = nullptr;
+    const ProjectedScene* projected_ = nullptr;
     Lighting lighting_;
     SurfacePoints points_;
     std::vector<std::uint32_t> triangles_;

@@ -76,24 +76,29 @@ VertexSide corner(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t
 
 }  // namespace
 
-void TileViewer::look(int tile, SeenTile& seen) {
-    seen.is_empty = !rasterize(projected_, tile, visibility_);
+void TileViewer::look(const ProjectedScene& projected, int tile, SeenTile& seen) {
+    seen.is_empty = !rasterize(projected, tile, visibility_);
     seen.x0 = visibility_.x0;
     seen.y0 = visibility_.y0;
     seen.width = visibility_.width;
     seen.height = visibility_.height;
     seen.stride = visibility_.stride;
-    if (!seen.is_empty) seen.fragments.collect(projected_, visibility_);
+    if (!seen.is_empty) seen.fragments.collect(projected, visibility_);
 }
 
-TileShader::TileShader(const CompiledScene& scene, const ProjectedScene& projected)
-    : scene_(scene), projected_(projected), lighting_(scene.lights, scene.environment, projected.camera) {
-    batch_.resize(k_batch_size);
+TileShader::TileShader() { batch_.resize(k_batch_size); }
+
+void TileShader::begin(const CompiledScene& scene, const ProjectedScene& projected) {
+    scene_ = &scene;
+    projected_ = &projected;
+    lighting_.begin({scene.lights, &scene.environment, projected.camera});
+    pixels_shaded_ = points_lit_ = 0;
+    brightest_ = 0;
 }
 
 void TileShader::run(const SeenTile& seen, Film& film) {
-    if (seen.is_empty && scene_.environment.is_uniform())
-        return film.fill(seen.x0, seen.y0, seen.width, seen.height, scene_.environment.seen({}));
+    if (seen.is_empty && scene_->environment.is_uniform())
+        return film.fill(seen.x0, seen.y0, seen.width, seen.height, scene_->environment.seen({}));
     pixels_.resize(seen.plane());
     fill_background(seen);
     if (!seen.is_empty) {
@@ -107,22 +112,22 @@ void TileShader::run(const SeenTile& seen, Film& film) {
 /// fragment's alone.
 void TileShader::fill_background(const SeenTile& seen) {
     const Vec3Span pixels = pixels_.span();
-    const bool is_uniform = scene_.environment.is_uniform();
+    const bool is_uniform = scene_->environment.is_uniform();
     const auto fill = [&](const BackgroundRun& run) {
         const auto row = static_cast<float>(run.pixel / static_cast<std::uint32_t>(seen.stride));
         const auto column = static_cast<float>(run.pixel % static_cast<std::uint32_t>(seen.stride));
         if (is_uniform) {
-            const Rgb background = run.weight * scene_.environment.seen({});
+            const Rgb background = run.weight * scene_->environment.seen({});
             std::fill_n(pixels.x + run.pixel, run.count, background.r);
             std::fill_n(pixels.y + run.pixel, run.count, background.g);
             std::fill_n(pixels.z + run.pixel, run.count, background.b);
             return;
         }
         for (std::uint32_t i = 0; i < run.count; ++i) {
-            const Vec3 towards = projected_.camera.view_through(
+            const Vec3 towards = projected_->camera.view_through(
                 static_cast<float>(seen.x0) + column + static_cast<float>(i) + 0.5f,
                 static_cast<float>(seen.y0) + row + 0.5f);
-            const Rgb rgb = run.weight > 0 ? run.weight * scene_.environment.seen(towards) : Rgb{};
+            const Rgb rgb = run.weight > 0 ? run.weight * scene_->environment.seen(towards) : Rgb{};
             pixels.set(run.pixel + i, {rgb.r, rgb.g, rgb.b});
         }
     };
@@ -135,8 +140,8 @@ void TileShader::fill_background(const SeenTile& seen) {
 }
 
 void TileShader::shade(const FragmentList& fragments) {
-    const SolidObject& object = scene_.objects[fragments.object];
-    const ProjectedMesh mesh{projected_, object.mesh, projected_.first_vertex[fragments.object]};
+    const SolidObject& object = scene_->objects[fragments.object];
+    const ProjectedMesh mesh{*projected_, object.mesh, projected_->first_vertex[fragments.object]};
     switch (object.surface.shading->lighting_rate()) {
         case LightingRate::face:
             return shade_faces(mesh, fragments);
@@ -148,7 +153,7 @@ void TileShader::shade(const FragmentList& fragments) {
 }
 
 void TileShader::light(std::uint32_t object, const Vec3Span& intensity) {
-    const SolidObject& solid = scene_.objects[object];
+    const SolidObject& solid = scene_->objects[object];
     const Interior interior{&solid.mesh, solid.tree ? &*solid.tree : nullptr};
     brightest_ = std::max(brightest_, lighting_.light(solid.surface, interior, points_, intensity));
     points_lit_ += points_.count;
@@ -160,7 +165,7 @@ void TileShader::add(std::span<const FragmentRun> runs, const ConstVec3Span& int
 
 /// Light at every fragment.
 void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& fragments) {
-    const PointNeeds needs = scene_.objects[fragments.object].surface.needs();
+    const PointNeeds needs = scene_->objects[fragments.object].surface.needs();
     FragmentBatches batches(fragments.runs);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
         gather_fragments(mesh, runs, needs, points_);
@@ -171,7 +176,7 @@ void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& 
 
 /// Light once a face that the tile sees.
 void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments) {
-    const SurfaceModels& surface = scene_.objects[fragments.object].surface;
+    const SurfaceModels& surface = scene_->objects[fragments.object].surface;
     append_triangles(fragments, triangles_);
     sort_unique(triangles_);
     places_.resize(triangles_.size());
@@ -196,7 +201,7 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
 
 /// Light once a vertex of a face that the tile sees, and once a side of it; interpolated in between.
 void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments) {
-    const SurfaceModels& surface = scene_.objects[fragments.object].surface;
+    const SurfaceModels& surface = scene_->objects[fragments.object].surface;
     append_triangles(fragments, triangles_);
     sort_unique(triangles_);
     vertices_.clear();

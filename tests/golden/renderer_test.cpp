@@ -76,12 +76,12 @@ class Fixture {
     Bytes anew() const {
         return picture([&](candela::Film& film) { return candela::render(scene, film, {}); });
     }
-    Bytes by(candela::Visibility& visibility) const {
-        return picture([&](candela::Film& film) { return visibility.render(scene, film, {}); });
+    Bytes by(candela::Renderer& renderer) const {
+        return picture([&](candela::Film& film) { return renderer.render(scene, film, {}); });
     }
     /// Compares without printing pictures.
-    void require_same(candela::Visibility& visibility) const {
-        const bool is_same = by(visibility) == anew();
+    void require_same(candela::Renderer& renderer) const {
+        const bool is_same = by(renderer) == anew();
         REQUIRE(is_same);
     }
 
@@ -109,78 +109,78 @@ TEST_CASE("a picture from what was kept is the picture rendered anew, whatever o
     for (const int samples : {1, 4}) {
         Fixture fixture(k_scene);
         fixture.scene.image.samples = samples;
-        candela::Visibility visibility;
-        const Bytes first = fixture.by(visibility);
+        candela::Renderer renderer(candela::Renderer::Keep::visibility);
+        const Bytes first = fixture.by(renderer);
         const std::size_t pixels = fixture.statistics().pixels_shaded;
-        fixture.require_same(visibility);
+        fixture.require_same(renderer);
         CHECK(fixture.statistics().pixels_shaded == pixels);
 
         fixture.scene.objects[0].surface.color = {0.1f, 0.9f, 0.2f};
-        fixture.require_same(visibility);
+        fixture.require_same(renderer);
         candela::ParamSet dimmer = fixture.source().lights[0].model.parameters;
         dimmer.set("intensity", 3.0);
         fixture.scene.lights[0].light =
             test_registry().create<candela::Light>("point", dimmer, candela::ColorEncoding::srgb);
-        fixture.require_same(visibility);
+        fixture.require_same(renderer);
         fixture.scene.objects[2].surface.reflection = test_registry().create<candela::ReflectionModel>(
             "half-lambert", test_registry().parameters(candela::PluginKind::reflection, "half-lambert"),
             candela::ColorEncoding::srgb);
-        fixture.require_same(visibility);
+        fixture.require_same(renderer);
         // Where light is evaluated is no matter of visibility either.
         fixture.scene.objects[0].surface.shading = test_registry().create<candela::ShadingModel>(
             "phong", test_registry().parameters(candela::PluginKind::shading, "phong"),
             candela::ColorEncoding::srgb);
-        fixture.require_same(visibility);
-        const bool is_other = fixture.by(visibility) != first;
+        fixture.require_same(renderer);
+        const bool is_other = fixture.by(renderer) != first;
         CHECK(is_other);
     }
 }
 
 TEST_CASE("what was kept is not used where the observer, the samples, the size or the objects are others") {
     Fixture fixture(k_scene);
-    candela::Visibility visibility;
-    fixture.require_same(visibility);
+    candela::Renderer renderer(candela::Renderer::Keep::visibility);
+    fixture.require_same(renderer);
     fixture.scene.observer.position.x += 0.4f;
-    fixture.require_same(visibility);
+    fixture.require_same(renderer);
     fixture.scene.image.samples = 4;
-    fixture.require_same(visibility);
+    fixture.require_same(renderer);
     fixture.scene.image.width = 97;
-    fixture.require_same(visibility);
+    fixture.require_same(renderer);
     fixture.scene.objects.pop_back();
-    fixture.require_same(visibility);
+    fixture.require_same(renderer);
     fixture.scene.objects.clear();
-    fixture.require_same(visibility);
+    fixture.require_same(renderer);
 }
 
 TEST_CASE("a mesh that was changed in place is seen once visibility is cleared") {
     Fixture fixture(k_scene);
-    candela::Visibility visibility;
-    fixture.require_same(visibility);
+    candela::Renderer renderer(candela::Renderer::Keep::visibility);
+    fixture.require_same(renderer);
     for (float& y : fixture.scene.objects[0].mesh.position.y) y += 0.3f;
-    visibility.clear();
-    fixture.require_same(visibility);
+    renderer.forget();
+    fixture.require_same(renderer);
 }
 
 TEST_CASE("a picture that failed is not taken for one that was kept") {
     Fixture fixture(k_scene);
-    candela::Visibility visibility;
+    candela::Renderer renderer(candela::Renderer::Keep::visibility);
     candela::Film film(fixture.scene.image.width, fixture.scene.image.height, candela::PixelType::byte,
                        fixture.scene.image.color_management);
     const auto stop = [](std::size_t, std::size_t) { throw std::runtime_error("enough"); };
-    CHECK_THROWS(visibility.render(fixture.scene, film, {.threads = 1, .progress = stop}));
-    fixture.require_same(visibility);
+    CHECK_THROWS(renderer.render(fixture.scene, film, {.threads = 1, .progress = stop}));
+    fixture.require_same(renderer);
 }
 
 // A sanitizer keeps memory back on purpose.
 #if !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer)
 TEST_CASE("the thousandth picture holds no more memory than the hundredth") {
     Fixture fixture(k_scene);
-    candela::Visibility visibility;
+    candela::Renderer renderer(candela::Renderer::Keep::visibility);
     const auto render = [&](int pictures) {
         for (int i = 0; i < pictures; ++i) {
             fixture.scene.observer.position.x = 0.3f + 0.01f * static_cast<float>(i % 7);
-            fixture.by(visibility);  // seen anew
-            fixture.by(visibility);  // lit anew
+            fixture.by(renderer);  // seen anew
+            fixture.by(renderer);  // lit anew
             fixture.anew();
         }
     };
