@@ -1,4 +1,4 @@
-"""bench.py BUILD OUT [--scenes A,AR,B,C] [--sizes 512x512,1920x1080] [--rounds 7]: Candela against OpenGL.
+"""bench.py BUILD OUT [--scenes A,AR,B,C] [--sizes 512x512,1920x1080,3840x2160] [--rounds 7]: Candela against OpenGL.
 
 The rivals take turns within one run; each figure is the median of its rounds, each ratio is Candela's time over OpenGL's of the
 same round. Writes OUT/results.json and OUT/results.md."""
@@ -50,9 +50,15 @@ class Bench:
         return statistics.median(float(x) for x in lines[5:])
 
     def whole(self, words):
+        """Milliseconds from start to end, and the most memory held, in MiB."""
         begin = time.perf_counter()
-        run(words, env=self.env)
-        return 1e3 * (time.perf_counter() - begin)
+        process = subprocess.Popen([str(w) for w in words], env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        milliseconds = 1e3 * (time.perf_counter() - begin)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            sys.exit(f"{words[0]} ended with {process.returncode}")
+        return milliseconds, usage.ru_maxrss / 1024
 
     def same_picture(self, scene, dump, width, height):
         """How the pictures differ; far more than rounding is an error."""
@@ -77,15 +83,21 @@ def measure(bench, build, scene, width, height, rounds):
     for _ in range(rounds):
         ours, relit = bench.ours(scene, width, height, frames)
         theirs = bench.theirs(dump, width, height, frames)
-        png = bench.whole([bench.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height,
-                           "-o", bench.out / "whole.png"])
-        their_png = bench.whole([bench.rival, dump, width, height, "--png", bench.out / "whole.png"])
-        rows.append((ours, relit, theirs, png, their_png))
-    ours, relit, theirs, png, their_png = zip(*rows)
+        ours_to = [bench.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o"]
+        png, memory = bench.whole([*ours_to, bench.out / "candela.png"])
+        their_png, their_memory = bench.whole([bench.rival, dump, width, height, "--png", bench.out / "opengl.png"])
+        ppm, _ = bench.whole([*ours_to, bench.out / "candela.ppm"])
+        nothing, _ = bench.whole(["true"])
+        rows.append((ours, relit, theirs, png, their_png, memory, their_memory, ppm, nothing))
+    ours, relit, theirs, png, their_png, memory, their_memory, ppm, nothing = zip(*rows)
     result["frame"] = {"candela_ms": spread(ours), "opengl_ms": spread(theirs), "ratio": spread([a / b for a, b in zip(ours, theirs)])}
     result["relit"] = {"candela_ms": spread(relit), "ratio_to_frame": spread([a / b for a, b in zip(relit, ours)])}
     result["whole_process_png"] = {"candela_ms": spread(png), "opengl_ms": spread(their_png),
                                    "ratio": spread([a / b for a, b in zip(png, their_png)])}
+    result["whole_process_ppm"] = {"candela_ms": spread(ppm), "ratio_to_true": spread([a / b for a, b in zip(ppm, nothing)])}
+    result["peak_memory"] = {"candela_mib": spread(memory), "opengl_mib": spread(their_memory),
+                             "ratio": spread([a / b for a, b in zip(memory, their_memory)])}
+    result["png_size_ratio"] = (bench.out / "candela.png").stat().st_size / (bench.out / "opengl.png").stat().st_size
     return result
 
 
@@ -94,13 +106,19 @@ def table(results, machine):
         return f"{r['median']:.3f} ({r['least']:.3f} to {r['most']:.3f})"
 
     lines = [f"Machine: {machine['processor']}, {machine['threads']} threads; OpenGL: {machine['opengl']}.", "",
-             "| scene | size | Candela frame | OpenGL frame | ratio | relit / frame | whole process to PNG: Candela | OpenGL | ratio |",
-             "|---|---|---|---|---|---|---|---|---|"]
+             "| scene | size | Candela frame | OpenGL frame | ratio | relit / frame |", "|---|---|---|---|---|---|"]
     for r in results:
-        frame, whole = r["frame"], r["whole_process_png"]
+        frame = r["frame"]
         lines.append(f"| {r['scene']} | {r['width']} x {r['height']} | {frame['candela_ms']['median']:.2f} ms | "
-                     f"{frame['opengl_ms']['median']:.2f} ms | {ratio(frame['ratio'])} | {ratio(r['relit']['ratio_to_frame'])} | "
-                     f"{whole['candela_ms']['median']:.1f} ms | {whole['opengl_ms']['median']:.1f} ms | {ratio(whole['ratio'])} |")
+                     f"{frame['opengl_ms']['median']:.2f} ms | {ratio(frame['ratio'])} | {ratio(r['relit']['ratio_to_frame'])} |")
+    lines += ["", "| scene | size | whole process to PNG: Candela | OpenGL | ratio | size of the file, ratio | peak memory: Candela | "
+              "OpenGL | without PNG, over an empty process |", "|---|---|---|---|---|---|---|---|---|"]
+    for r in results:
+        whole, memory = r["whole_process_png"], r["peak_memory"]
+        lines.append(f"| {r['scene']} | {r['width']} x {r['height']} | {whole['candela_ms']['median']:.1f} ms | "
+                     f"{whole['opengl_ms']['median']:.1f} ms | {ratio(whole['ratio'])} | {r['png_size_ratio']:.2f} | "
+                     f"{memory['candela_mib']['median']:.0f} MiB | {memory['opengl_mib']['median']:.0f} MiB | "
+                     f"{r['whole_process_ppm']['ratio_to_true']['median']:.1f} |")
     return "\n".join(lines) + "\n"
 
 
@@ -109,7 +127,7 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--scenes", default="A,AR,B,C")
-    parser.add_argument("--sizes", default="512x512,1920x1080")
+    parser.add_argument("--sizes", default="512x512,1920x1080,3840x2160")
     parser.add_argument("--rounds", type=int, default=7)
     arguments = parser.parse_args()
     build, out = arguments.build.resolve(), arguments.out.resolve()
