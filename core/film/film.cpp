@@ -38,7 +38,7 @@ namespace {
     exp2 = exp2 * g + 0.240247448f;
     exp2 = exp2 * g + 0.693121815f;
     exp2 = exp2 * g + 0.999999261f;
-    const float power =
+    const auto power =
         std::bit_cast<float>(std::bit_cast<std::int32_t>(exp2) +
                              static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(shifted) << 23));
     return x <= 0.0031308f ? (255 * 12.92f) * x : (255 * 1.055f) * power - 255 * 0.055f;

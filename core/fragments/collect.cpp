@@ -63,7 +63,7 @@ int end_of_run(const std::uint32_t* seen, int begin, int width) {
 /// One sample a pixel: runs of pixels that see the same triangle.
 void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility) {
     for (int row = 0; row < visibility.height; ++row) {
-        const std::uint32_t row_begin = static_cast<std::uint32_t>(row * visibility.stride);
+        const auto row_begin = static_cast<std::uint32_t>(row * visibility.stride);
         const std::uint32_t* const seen = visibility.triangle.data() + row_begin;
         const float y = static_cast<float>(visibility.y0 + row) + 0.5f;
         for (int begin = 0; begin < visibility.width;) {

@@ -73,7 +73,8 @@ struct FetchLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const std::int32_t t = triangle[i];
-            const std::int32_t v0 = m.corners[3 * t], v1 = m.corners[3 * t + 1], v2 = m.corners[3 * t + 2];
+            const std::int32_t corner = 3 * t;
+            const std::int32_t v0 = m.corners[corner], v1 = m.corners[corner + 1], v2 = m.corners[corner + 2];
             const float w0 = m.perspective ? m.w[v0] : 1.0f;
             const float w1 = m.perspective ? m.w[v1] : 1.0f;
             const float w2 = m.perspective ? m.w[v2] : 1.0f;

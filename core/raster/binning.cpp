@@ -167,7 +167,7 @@ class Binner {
 
     void emit(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c, std::uint32_t id,
               bool two_sided) {
-        ScreenVertex corners[3];
+        std::array<ScreenVertex, 3> corners{};
         std::size_t k = 0;
         for (const ClipVertex* const corner : {&a, &c, &b}) {
             const float inverse = 1 / corner->w;

@@ -179,7 +179,9 @@ class TileRaster {
             const int column = bit % 4, row = bit / 4;
             const int x = x0 + column, y = y0 + row;
             if (x < 0 || x >= visibility_.width || y < 0 || y >= visibility_.height) continue;
-            const auto pixel = static_cast<std::size_t>(y * visibility_.stride + x);
+            const std::size_t pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(visibility_.stride) +
+                static_cast<std::size_t>(x);
             const float closeness = small_.closeness[i] + static_cast<float>(column) * small_.to_right[i] +
                                     static_cast<float>(row) * small_.down[i];
             if (!(closeness > visibility_.closeness[pixel])) continue;

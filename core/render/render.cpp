@@ -46,12 +46,12 @@ namespace {
 
 /// A scene as far as what is seen of it depends on it.
 struct SeenScene {
-    explicit SeenScene(const CompiledScene& scene, const Film& film, int tile_size_)
+    explicit SeenScene(const CompiledScene& scene, const Film& film, int size_of_tiles)
         : observer(scene.observer),
           width(film.width()),
           height(film.height()),
           samples(scene.image.samples),
-          tile_size(tile_size_) {
+          tile_size(size_of_tiles) {
         for (const SolidObject& object : scene.objects)
             meshes.push_back(
                 {object.mesh.position.x.data(), object.mesh.corners.data(), object.mesh.corners.size()});

@@ -114,8 +114,6 @@ void TileShader::fill_background(const SeenTile& seen) {
     const Vec3Span pixels = pixels_.span();
     const bool is_uniform = scene_->environment.is_uniform();
     const auto fill = [&](const BackgroundRun& run) {
-        const auto row = static_cast<float>(run.pixel / static_cast<std::uint32_t>(seen.stride));
-        const auto column = static_cast<float>(run.pixel % static_cast<std::uint32_t>(seen.stride));
         if (is_uniform) {
             const Rgb background = run.weight * scene_->environment.seen({});
             std::fill_n(pixels.x + run.pixel, run.count, background.r);
@@ -123,10 +121,12 @@ void TileShader::fill_background(const SeenTile& seen) {
             std::fill_n(pixels.z + run.pixel, run.count, background.b);
             return;
         }
+        const auto stride = static_cast<std::uint32_t>(seen.stride);
+        const std::uint32_t row = run.pixel / stride, column = run.pixel % stride;
         for (std::uint32_t i = 0; i < run.count; ++i) {
             const Vec3 towards = projected_->camera.view_through(
-                static_cast<float>(seen.x0) + column + static_cast<float>(i) + 0.5f,
-                static_cast<float>(seen.y0) + row + 0.5f);
+                static_cast<float>(seen.x0) + static_cast<float>(column + i) + 0.5f,
+                static_cast<float>(seen.y0) + static_cast<float>(row) + 0.5f);
             const Rgb rgb = run.weight > 0 ? run.weight * scene_->environment.seen(towards) : Rgb{};
             pixels.set(run.pixel + i, {rgb.r, rgb.g, rgb.b});
         }

@@ -123,7 +123,7 @@ CANDELA_KERNEL_INLINE float sqrt(float x) { return __builtin_sqrtf(x); }
 /// processor does in one unit, element by element.
 CANDELA_KERNEL_INLINE float inversesqrt(float x) {
     const float bounded = min(x, 3.4e38f);
-    const float guess = std::bit_cast<float>(0x5f300000 - (std::bit_cast<std::int32_t>(bounded) >> 1));
+    const auto guess = std::bit_cast<float>(0x5f300000 - (std::bit_cast<std::int32_t>(bounded) >> 1));
     const float h = bounded * guess * guess;
     const float y = guess * ((0.44615132f * h - 1.38836106f) * h + 1.94225498f);
     const float rest = 1.0f - bounded * y * y;
