@@ -2,6 +2,7 @@
 # Measures Candela against OpenGL on this machine, in turns, and prints a table; build/bench/results.{md,json}.
 #   scripts/bench.sh                              all scenes, 512 x 512 to 3840 x 2160, seven rounds (some twenty minutes)
 #   scripts/bench.sh --scenes A --sizes 512x512   less
+#   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
 #   scripts/bench.sh --instructions               records how many instructions the default scene takes, which a test compares
 # On a machine that does nothing else.
 set -euo pipefail
@@ -13,6 +14,10 @@ cmake --preset release -DCANDELA_TESTS=ON >/dev/null
 if [ "${1-}" = --instructions ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
     exec python3 -B "$root/tests/bench/instructions.py" "$root/build/release/bin/candela" "$root/tests/bench/instructions.json" --update
+fi
+if [ "${1-}" = --sweep ]; then
+    cmake --build --preset release --target candela_runtime >/dev/null
+    exec python3 -B "$root/tests/bench/sweep.py" "$root/build/release" "$root/build/bench" "${@:2}"
 fi
 cmake --build --preset release --target candela_runtime candela_diff candela_dump_scene candela_opengl_rival >/dev/null
 python3 -B "$root/tests/bench/bench.py" "$root/build/release" "$root/build/bench" "$@"

@@ -132,8 +132,8 @@ void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile
         scene.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
         vertices += meshes[m]->vertex_count();
         triangles += meshes[m]->triangle_count();
-        if (vertices >= k_no_triangle || triangles >= k_no_triangle) {
-            throw std::length_error("the scene has more than 4294967294 triangles or vertices");
+        if (vertices > k_no_triangle / 2 || triangles >= k_no_triangle) {
+            throw std::length_error("the scene has more than 4294967294 triangles, or half as many vertices");
         }
         for (std::size_t first = 0; first < meshes[m]->triangle_count(); first += k_triangles_per_bin) {
             stretches.push_back(

@@ -131,6 +131,33 @@ class TileViewer {
     TileVisibility visibility_;
 };
 
+/// Numbers different indices in the order in which they come: a sparse set (Briggs, Torczon 1993), which is
+/// emptied at no cost.
+class Numbering {
+  public:
+    /// Forgets all; indices to come are below `count`.
+    void begin(std::size_t count) {
+        if (number_.size() < count) number_.resize(count);
+        indices_.clear();
+    }
+    void add(std::uint32_t index) {
+        if (contains(index)) return;
+        number_[index] = static_cast<std::uint32_t>(indices_.size());
+        indices_.push_back(index);
+    }
+    std::uint32_t number_of(std::uint32_t index) const { return number_[index]; }
+    std::span<const std::uint32_t> indices() const { return indices_; }
+
+  private:
+    bool contains(std::uint32_t index) const {
+        const std::uint32_t number = number_[index];
+        return number < indices_.size() && indices_[number] == index;
+    }
+
+    std::vector<std::uint32_t> number_;
+    std::vector<std::uint32_t> indices_;
+};
+
 /// Turns what a tile sees into intensities. Holds a tile's arrays: one for each thread.
 class TileShader {
   public:
@@ -159,10 +186,10 @@ class TileShader {
     const ProjectedScene* projected_ = nullptr;
     Lighting lighting_;
     SurfacePoints points_;
-    std::vector<std::uint32_t> triangles_;
-    std::vector<VertexSide> vertices_;
-    Vec3Arrays batch_;   // intensities of one batch
-    Vec3Arrays places_;  // of a tile's faces or vertices
+    Numbering numbering_;               // of a tile's faces, or sides of vertices
+    std::vector<VertexSide> vertices_;  // in the order of their numbers
+    Vec3Arrays batch_;                  // intensities of one batch
+    Vec3Arrays places_;                 // of a tile's faces or vertices
     Vec3Arrays pixels_;
     std::size_t pixels_shaded_ = 0;
     std::size_t points_lit_ = 0;

@@ -52,26 +52,9 @@ struct AddLoop {
     }
 };
 
-void append_triangles(const FragmentList& fragments, std::vector<std::uint32_t>& triangles) {
-    triangles.clear();
-    for (const FragmentRun& run : fragments.runs) {
-        if (triangles.empty() || triangles.back() != run.triangle) triangles.push_back(run.triangle);
-    }
-}
-
-template <class T>
-void sort_unique(std::vector<T>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-template <class T>
-std::size_t position_of(const std::vector<T>& sorted, const T& value) {
-    return static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
-}
-
-VertexSide corner(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t k, bool is_back) {
-    return {mesh.mesh.corners[3 * std::size_t{triangle} + k], is_back};
+/// A side of a vertex as an index.
+std::uint32_t index_of(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t k, bool is_back) {
+    return 2 * mesh.mesh.corners[3 * std::size_t{triangle} + k] + (is_back ? 1 : 0);
 }
 
 }  // namespace
@@ -177,19 +160,20 @@ void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& 
 /// Light once a face that the tile sees.
 void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
-    append_triangles(fragments, triangles_);
-    sort_unique(triangles_);
-    places_.resize(triangles_.size());
-    for (std::size_t first = 0; first < triangles_.size(); first += k_batch_size) {
-        const std::size_t count = std::min(k_batch_size, triangles_.size() - first);
-        gather_faces(mesh, std::span(triangles_).subspan(first, count), surface.needs(), points_);
+    numbering_.begin(mesh.mesh.triangle_count());
+    for (const FragmentRun& run : fragments.runs) numbering_.add(run.triangle);
+    const std::span<const std::uint32_t> triangles = numbering_.indices();
+    places_.resize(triangles.size());
+    for (std::size_t first = 0; first < triangles.size(); first += k_batch_size) {
+        const std::size_t count = std::min(k_batch_size, triangles.size() - first);
+        gather_faces(mesh, triangles.subspan(first, count), surface.needs(), points_);
         light(fragments.object, places_.span().from(first));
     }
     FragmentBatches batches(fragments.runs);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
         std::size_t first = 0;
         for (const FragmentRun& run : runs) {
-            const Vec3 intensity = places_.span()[position_of(triangles_, run.triangle)];
+            const Vec3 intensity = places_.span()[numbering_.number_of(run.triangle)];
             std::fill_n(&batch_.x[first], run.count, intensity.x);
             std::fill_n(&batch_.y[first], run.count, intensity.y);
             std::fill_n(&batch_.z[first], run.count, intensity.z);
@@ -202,14 +186,16 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
 /// Light once a vertex of a face that the tile sees, and once a side of it; interpolated in between.
 void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
-    append_triangles(fragments, triangles_);
-    sort_unique(triangles_);
-    vertices_.clear();
-    for (const std::uint32_t triangle : triangles_) {
-        const bool is_back = mesh.is_back(triangle);
-        for (std::size_t k = 0; k < 3; ++k) vertices_.push_back(corner(mesh, triangle, k, is_back));
+    numbering_.begin(2 * mesh.mesh.vertex_count());
+    std::uint32_t last = k_no_triangle;
+    for (const FragmentRun& run : fragments.runs) {
+        if (run.triangle == last) continue;
+        last = run.triangle;
+        const bool is_back = mesh.is_back(run.triangle);
+        for (std::size_t k = 0; k < 3; ++k) numbering_.add(index_of(mesh, run.triangle, k, is_back));
     }
-    sort_unique(vertices_);
+    vertices_.clear();
+    for (const std::uint32_t index : numbering_.indices()) vertices_.push_back({index / 2, index % 2 == 1});
     places_.resize(vertices_.size());
     for (std::size_t first = 0; first < vertices_.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, vertices_.size() - first);
@@ -228,7 +214,7 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
                 triangle = run.triangle;
                 for (std::size_t k = 0; k < 3; ++k) {
                     at_corner[k] =
-                        intensity[position_of(vertices_, corner(mesh, triangle, k, points_.facing[i] < 0))];
+                        intensity[numbering_.number_of(index_of(mesh, triangle, k, points_.facing[i] < 0))];
                 }
             }
             for (const std::size_t end = i + run.count; i < end; ++i) {

@@ -1,0 +1,129 @@
+"""sweep.py BUILD OUT [--quick]: what Candela's frames cost as threads, instruction sets, models, lights and triangles grow.
+
+Writes OUT/sweep.json and OUT/sweep.md. --quick: small pictures and few frames, to try it."""
+
+import argparse
+import itertools
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+HEAD = """version = 1
+observer = { position = [0.0, 0.6, 3.4], look_at = [0.0, 0.0, 0.0] }
+"""
+
+
+def light(i, count):
+    angle = 2 * math.pi * i / count
+    return (f'[[light]]\ntype = "point"\nposition = [{3 * math.sin(angle):.4f}, 2.5, {3 * math.cos(angle):.4f}]\n'
+            f"intensity = {14 / count:.4f}\n")
+
+
+def sphere(segments):
+    return f'[[object]]\ntype = "sphere"\nradius = 1.0\nsegments = {segments}\ncolor = [90, 170, 220]\n'
+
+
+class Sweep:
+    def __init__(self, build, out, quick):
+        self.candela = build / "bin/candela"
+        self.out = out
+        self.frames = 3 if quick else 20
+        self.size = (160, 90) if quick else (1920, 1080)
+
+    def figures(self, scene, *more, **environment):
+        words = [self.candela, "bench", scene, "--width", self.size[0], "--height", self.size[1], "--frames", self.frames, "--json",
+                 "--defaults", *more]
+        text = subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True,
+                              env={**os.environ, **environment}).stdout
+        return json.loads(text)
+
+    def scene(self, name, *parts):
+        file = self.out / name
+        file.write_text(HEAD + "".join(parts))
+        return file
+
+    def names(self, kind):
+        listed = json.loads(subprocess.run([str(self.candela), "list", kind, "--json"], check=True, capture_output=True,
+                                           text=True).stdout)
+        return [plugin["name"] for plugin in listed]
+
+    def processors(self):
+        """Threads and instruction sets."""
+        sets = ["baseline", "avx2", "avx512"]
+        sets = sets[:1 + sets.index(self.figures(HERE / "scenes/A.toml")["instruction_set"])]
+        threads = sorted({1, os.cpu_count()})
+        return [{"scene": name, "instruction_set": used, "threads": count,
+                 "frame_ms": self.figures(HERE / f"scenes/{name}.toml", "--threads", count,
+                                          CANDELA_INSTRUCTION_SET=used)["frame_ms"]}
+                for name in ("A", "AR", "B", "C") for used in sets for count in threads]
+
+    def models(self):
+        """Every shading model with every reflection model, under 1, 8 and 64 lights."""
+        rows = []
+        for lights in (1, 8, 64):
+            scene = self.scene(f"lights-{lights}.toml", *(light(i, lights) for i in range(lights)), sphere(64))
+            for shading, reflection in itertools.product(self.names("shading"), self.names("reflection")):
+                figures = self.figures(scene, "--shading", shading, "--reflection", reflection)
+                rows.append({"lights": lights, "shading": shading, "reflection": reflection, "frame_ms": figures["frame_ms"]})
+            print(f"sweep: {lights} light(s) done", file=sys.stderr)
+        return rows
+
+    def triangles(self):
+        """A sphere of a thousand triangles to ten millions."""
+        rows = []
+        for power in range(3, 8):
+            segments = 2 * round(math.sqrt(10**power) / 2)
+            figures = self.figures(self.scene(f"triangles-{power}.toml", light(0, 1), sphere(segments)))
+            rows.append({key: figures[key] for key in ("triangles", "meshes_ms", "projection_ms", "tiles_ms", "frame_ms")})
+        return rows
+
+
+def table(head, rows):
+    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head),
+                      *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
+
+
+def markdown(found):
+    sets = list(dict.fromkeys(r["instruction_set"] for r in found["processors"]))
+    threads = sorted({r["threads"] for r in found["processors"]})
+    cell = {(r["scene"], r["instruction_set"], r["threads"]): r["frame_ms"] for r in found["processors"]}
+    parts = ["Frames in milliseconds, by instruction set and threads:\n",
+             table(["scene", *(f"{s}, {t}" for s in sets for t in threads)],
+                   [[scene, *(f"{cell[scene, s, t]:.2f}" for s in sets for t in threads)] for scene in ("A", "AR", "B", "C")])]
+    shadings = list(dict.fromkeys(r["shading"] for r in found["models"]))
+    reflections = list(dict.fromkeys(r["reflection"] for r in found["models"]))
+    for lights in sorted({r["lights"] for r in found["models"]}):
+        cell = {(r["reflection"], r["shading"]): r["frame_ms"] for r in found["models"] if r["lights"] == lights}
+        parts += [f"\nA sphere of 8,000 triangles under {lights} light(s), frames in milliseconds, by shading model:\n",
+                  table(["reflection model", *shadings],
+                        [[name, *(f"{cell[name, s]:.2f}" for s in shadings)] for name in reflections])]
+    parts += ["\nA sphere of more and more triangles, milliseconds:\n",
+              table(["triangles", "meshes, once", "projection", "tiles", "frame"],
+                    [[f"{r['triangles']:,}", *(f"{r[key]:.2f}" for key in ("meshes_ms", "projection_ms", "tiles_ms", "frame_ms"))]
+                     for r in found["triangles"]])]
+    return "\n".join(parts)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--quick", action="store_true")
+    arguments = parser.parse_args()
+    out = arguments.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    sweep = Sweep(arguments.build.resolve(), out, arguments.quick)
+    found = {"processors": sweep.processors(), "triangles": sweep.triangles(), "models": sweep.models()}
+    (out / "sweep.json").write_text(json.dumps(found, indent=2) + "\n")
+    text = markdown(found)
+    (out / "sweep.md").write_text(text)
+    print(text, end="")
+
+
+if __name__ == "__main__":
+    main()
