@@ -95,14 +95,6 @@ class Fixture {
     mutable candela::RenderStatistics statistics_;
 };
 
-/// Bytes of memory that this process holds.
-std::size_t resident() {
-    std::ifstream statm("/proc/self/statm");
-    std::size_t all = 0, in_memory = 0;
-    statm >> all >> in_memory;
-    return in_memory * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
-
 }  // namespace
 
 TEST_CASE("a picture from what was kept is the picture rendered anew, whatever of the light has changed") {
@@ -173,6 +165,18 @@ TEST_CASE("a picture that failed is not taken for one that was kept") {
 
 // A sanitizer keeps memory back on purpose.
 #if !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer)
+namespace {
+
+/// Bytes of memory that this process holds.
+std::size_t resident() {
+    std::ifstream statm("/proc/self/statm");
+    std::size_t all = 0, in_memory = 0;
+    statm >> all >> in_memory;
+    return in_memory * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
 TEST_CASE("the thousandth picture holds no more memory than the hundredth") {
     Fixture fixture(k_scene);
     candela::Renderer renderer(candela::Renderer::Keep::visibility);
