@@ -7,7 +7,6 @@
 #include <array>
 #include <initializer_list>
 #include <memory>
-#include <mutex>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -56,31 +55,6 @@ struct Tools {
     Bytes filtered;
 };
 
-/// Tools that no thread has in hand. New memory for each band takes longer to come by than the band to
-/// compress.
-class SpareTools {
-  public:
-    std::unique_ptr<Tools> take(int compression) {
-        {
-            const std::scoped_lock lock(mutex_);
-            if (!spare_.empty()) {
-                std::unique_ptr<Tools> tools = std::move(spare_.back());
-                spare_.pop_back();
-                return tools;
-            }
-        }
-        return std::make_unique<Tools>(compression);
-    }
-    void give_back(std::unique_ptr<Tools> tools) {
-        const std::scoped_lock lock(mutex_);
-        spare_.push_back(std::move(tools));
-    }
-
-  private:
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<Tools>> spare_;
-};
-
 /// The rows from `begin` to `end`, compressed; and what they add to the checksum of all.
 struct Band {
     std::size_t begin = 0, end = 0;
@@ -108,11 +82,13 @@ class Png final : public candela::ImageFormat {
         std::vector<Band> bands(count);
         for (std::size_t i = 0; i < count; ++i)
             bands[i] = {.begin = height * i / count, .end = height * (i + 1) / count};
-        SpareTools spare;
+        // New memory for each band takes longer to come by than the band to compress.
+        candela::Pool<Tools> pool;
+        const auto make = [&] { return std::make_unique<Tools>(options_.compression); };
         candela::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
-            std::unique_ptr<Tools> tools = spare.take(options_.compression);
-            for (std::size_t i = begin; i < end; ++i) encode(picture, bands[i], *tools);
-            spare.give_back(std::move(tools));
+            pool.with(make, [&](Tools& tools) {
+                for (std::size_t i = begin; i < end; ++i) encode(picture, bands[i], tools);
+            });
         });
 
         Bytes head = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
