@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/command.h"
+#include "support/compiled.h"
 #include "support/plugins.h"
 
 namespace {
@@ -17,17 +18,12 @@ struct Rendered {
 };
 
 Rendered render_file(const std::filesystem::path& file) {
-    candela::Diagnostics diagnostics;
     candela::SceneRequest request;
     request.files = {file};
-    const auto scene = candela::read_scene(request, test_registry(), diagnostics);
-    INFO(diagnostics.text(false));
-    REQUIRE(scene.has_value());
-    const auto compiled = candela::compile(*scene, test_registry(), diagnostics);
-    REQUIRE(compiled.has_value());
-    candela::Film film(scene->image.width, scene->image.height, candela::PixelType::real,
+    const candela::CompiledScene scene = compiled(request).scene;
+    candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real,
                        candela::ColorEncoding::srgb);
-    const auto statistics = candela::render(*compiled, film, {.threads = 2});
+    const auto statistics = candela::render(scene, film, {.threads = 2});
     Rendered result;
     result.shaded = statistics.pixels_shaded;
     for (const float x : film.view().reals) {

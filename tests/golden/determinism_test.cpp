@@ -1,10 +1,10 @@
 // The same scene is the same picture, however it is worked on.
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
-#include <optional>
 #include <string>
 
 #include "support/command.h"
+#include "support/compiled.h"
 #include "support/plugins.h"
 
 namespace {
@@ -58,28 +58,19 @@ reflection = "half-lambert"
 
 class Fixture {
   public:
-    explicit Fixture(int samples) {
-        candela::Diagnostics diagnostics;
-        candela::SceneRequest request;
-        request.files = {write_file(scratch_directory() / "scene.toml", k_scene)};
-        request.settings = {{"--samples", "image.samples", std::to_string(samples)}};
-        const auto scene = candela::read_scene(request, test_registry(), diagnostics);
-        INFO(diagnostics.text(false));
-        REQUIRE(scene.has_value());
-        compiled_ = candela::compile(*scene, test_registry(), diagnostics);
-        REQUIRE(compiled_.has_value());
-    }
+    explicit Fixture(int samples)
+        : scene_(compiled(k_scene, {{"--samples", "image.samples", std::to_string(samples)}}).scene) {}
 
     std::vector<float> picture(int threads, int tile_size) const {
-        candela::Film film(compiled_->image.width, compiled_->image.height, candela::PixelType::real,
+        candela::Film film(scene_.image.width, scene_.image.height, candela::PixelType::real,
                            candela::ColorEncoding::srgb);
-        candela::render(*compiled_, film, {.threads = threads, .tile_size = tile_size});
+        candela::render(scene_, film, {.threads = threads, .tile_size = tile_size});
         const auto pixels = film.view().reals;
         return {pixels.begin(), pixels.end()};
     }
 
   private:
-    std::optional<candela::CompiledScene> compiled_;
+    candela::CompiledScene scene_;
 };
 
 }  // namespace

@@ -4,23 +4,11 @@
 #include <numbers>
 #include <vector>
 
-#include "support/command.h"
+#include "support/compiled.h"
 #include "support/plugins.h"
 #include "support/samples.h"
 
 namespace {
-
-candela::CompiledScene compiled(const std::string& text) {
-    candela::Diagnostics diagnostics;
-    candela::SceneRequest request;
-    request.files = {write_file(scratch_directory() / "scene.toml", text)};
-    const auto scene = candela::read_scene(request, test_registry(), diagnostics);
-    INFO(diagnostics.text(false));
-    REQUIRE(scene.has_value());
-    auto result = candela::compile(*scene, test_registry(), diagnostics);
-    REQUIRE(result.has_value());
-    return std::move(*result);
-}
 
 std::vector<float> rendered(const candela::CompiledScene& scene) {
     candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real,
@@ -71,7 +59,7 @@ candela::Environment compass() {
 
 TEST_CASE("a glass ball shows the world upside down, as Snell's law and Fresnel's equations say") {
     candela::CompiledScene scene =
-        compiled(std::string(k_ball) + "[object.material]\ninternal_reflections = 0\n");
+        compiled(std::string(k_ball) + "[object.material]\ninternal_reflections = 0\n").scene;
     scene.environment = compass();
     const std::vector<float> picture = rendered(scene);
     // Along the middle row the path stays in the plane y = 0: two refractions, each turning by theta_1 -
@@ -111,7 +99,7 @@ TEST_CASE("clear objects of any shape cannot be seen in surroundings of one inte
             text.replace(type, text.find("color = ") - type,
                          "type = \"" + std::string(shape) + "\"\nrotation = [30, 40, 0]\n");
             text.replace(text.find("model = \"phong\""), 15, "model = \"" + std::string(shading) + "\"");
-            for (const float x : rendered(compiled(text))) {
+            for (const float x : rendered(compiled(text).scene)) {
                 if (std::abs(x - 1) > 2e-4f) FAIL("a channel is " << x);
             }
         }
@@ -123,7 +111,7 @@ TEST_CASE("an environment is the background of a perspective picture, each pixel
     text.resize(text.find("[[object]]"));
     text.replace(text.find("projection"), std::string("projection = \"orthographic\"\nheight = 2.2").size(),
                  "fov = 90");
-    candela::CompiledScene scene = compiled(text);
+    candela::CompiledScene scene = compiled(text).scene;
     scene.environment = compass();
     const std::vector<float> picture = rendered(scene);
     for (const auto& [column, row] : {std::pair{0, 0}, {109, 0}, {55, 55}, {17, 93}}) {

@@ -4,13 +4,12 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cstdint>
 #include <fstream>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "support/command.h"
+#include "support/compiled.h"
 #include "support/plugins.h"
 
 namespace {
@@ -53,17 +52,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 class Fixture {
   public:
-    explicit Fixture(const std::string& text) {
-        candela::SceneRequest request;
-        request.files = {write_file(scratch_directory() / "scene.toml", text)};
-        candela::Diagnostics diagnostics;
-        draft_ = candela::read_scene(request, test_registry(), diagnostics);
-        INFO(diagnostics.text(false));
-        REQUIRE(draft_.has_value());
-        auto compiled = candela::compile(*draft_, test_registry(), diagnostics);
-        REQUIRE(compiled.has_value());
-        scene = std::move(*compiled);
-    }
+    explicit Fixture(const std::string& text) : Fixture(compiled(text)) {}
 
     template <class Render>
     Bytes picture(Render render) const {
@@ -86,12 +75,15 @@ class Fixture {
     }
 
     const candela::RenderStatistics& statistics() const { return statistics_; }
-    const candela::Scene& source() const { return *draft_; }
+    const candela::Scene& source() const { return source_; }
 
     candela::CompiledScene scene;
 
   private:
-    std::optional<candela::Scene> draft_;
+    explicit Fixture(Compiled compiled)
+        : scene(std::move(compiled.scene)), source_(std::move(compiled.source)) {}
+
+    candela::Scene source_;
     mutable candela::RenderStatistics statistics_;
 };
 
