@@ -141,15 +141,14 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
             background_.push_back({pixel, 1, weight});
         }
     };
-    const auto add_fragment = [&](const FragmentRun& fragment, std::uint32_t id, int column) {
-        FragmentList& list = list_of(scene, id);
-        const std::uint32_t triangle = id - scene.first_triangle[list.object];
+    const auto add_fragment = [&](FragmentRun fragment, int column) {
+        FragmentList& list = list_of(scene, fragment.triangle);
+        fragment.triangle -= scene.first_triangle[list.object];
         if (fragment.weight == 1 && continues(list.runs, fragment.pixel, column) &&
-            list.runs.back().triangle == triangle && list.runs.back().weight == 1) {
+            list.runs.back().triangle == fragment.triangle && list.runs.back().weight == 1) {
             ++list.runs.back().count;
         } else {
             list.runs.push_back(fragment);
-            list.runs.back().triangle = triangle;
         }
     };
     for (int row = 0; row < visibility.height; ++row) {
@@ -170,13 +169,13 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
                 const float sixteenths = 16 * static_cast<float>(s.count);
                 const float x = seen.is_one() ? 0.5f : static_cast<float>(s.x) / sixteenths;
                 const float y = seen.is_one() ? 0.5f : static_cast<float>(s.y) / sixteenths;
-                add_fragment({.triangle = 0,
+                add_fragment({.triangle = s.triangle,
                               .pixel = pixel,
                               .count = 1,
                               .x = left + x,
                               .y = top + y,
                               .weight = weight},
-                             s.triangle, column);
+                             column);
             }
             if (background < 1) ++pixels_seen_;
             if (background > 0 || !seen.is_one()) add_background(pixel, column, background);

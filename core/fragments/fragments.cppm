@@ -129,8 +129,6 @@ CANDELA_API void gather_faces(const ProjectedMesh& mesh, std::span<const std::ui
 struct VertexSide {
     std::uint32_t vertex;
     bool is_back;
-
-    friend auto operator<=>(const VertexSide&, const VertexSide&) = default;
 };
 
 /// Fills `points` with vertices. A vertex has no face of its own: its face normal is its vertex normal.

@@ -155,14 +155,11 @@ void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile
             float* const distance = &scene.distance[at];
             multiversion<ProjectLoop>(camera, meshes[m]->position.span().from(begin), end - begin, x, y,
                                       distance);
-            multiversion<ScreenLoop>(camera, scene.subpixel_bits, end - begin, static_cast<const float*>(x),
-                                     static_cast<const float*>(y), static_cast<const float*>(distance),
+            multiversion<ScreenLoop>(camera, scene.subpixel_bits, end - begin, x, y, distance,
                                      &scene.screen[at]);
             std::int32_t largest = 0;
             std::int32_t* const bits = &largest;
-            multiversion<MagnitudeLoop>(end - begin, static_cast<const float*>(x),
-                                        static_cast<const float*>(y), static_cast<const float*>(distance),
-                                        bits);
+            multiversion<MagnitudeLoop>(end - begin, x, y, distance, bits);
             if (!(std::bit_cast<float>(largest) < k_moderate)) is_moderate = false;
         });
     }
