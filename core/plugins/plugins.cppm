@@ -8,6 +8,7 @@ module;
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -141,6 +142,8 @@ class CANDELA_API Registry {
 
     /// All usable plugins, by kind and name.
     std::vector<const PluginFile*> list();
+    /// All usable plugins of a kind, by name; reads no other kind's manifests.
+    std::vector<const PluginFile*> list(PluginKind kind);
     std::vector<std::string> names(PluginKind kind);
     /// The candidates that list() and find() have passed over.
     std::vector<Refusal> refusals() const;
@@ -170,13 +173,13 @@ class CANDELA_API Registry {
     [[noreturn]] static void throw_wrong_interface(PluginKind kind, std::string_view name);
     const PluginFile* look_at(const std::filesystem::path& directory, const std::string& id, PluginKind kind,
                               std::string_view name);
-    void scan();
+    void scan(PluginKind kind);
     const PluginDescriptor& load(const PluginFile& file);
 
     std::vector<std::filesystem::path> search_path_;
     PluginTrust trust_;
     mutable std::recursive_mutex mutex_;
-    bool scanned_ = false;
+    std::set<PluginKind> scanned_;
     std::map<std::string, std::unique_ptr<PluginFile>, std::less<>>
         found_;  // by id; null: looked for in vain
     std::map<std::filesystem::path, std::string> refused_;

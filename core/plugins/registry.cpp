@@ -7,6 +7,7 @@ module;
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/dll/runtime_symbol_info.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -49,10 +50,13 @@ std::optional<std::string> text_of_file(const fs::path& file) {
     if (!is_regular(file)) return std::nullopt;
     std::ifstream in(file, std::ios::binary);
     if (!in) return std::nullopt;
-    std::string text(k_largest_manifest + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    std::string text;
+    std::array<char, 4096> some{};
+    while (in && text.size() <= k_largest_manifest) {
+        in.read(some.data(), some.size());
+        text.append(some.data(), static_cast<std::size_t>(in.gcount()));
+    }
     if (in.bad()) return std::nullopt;
-    text.resize(static_cast<std::size_t>(in.gcount()));
     return text;
 }
 
@@ -138,17 +142,19 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
             }
         }
     }
+    const auto refuse_abi = [&](std::string_view abi) {
+        return refuse(fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                                  fingerprint_text(abi), host_abi()));
+    };
     auto file = std::make_unique<PluginFile>();
     try {
-        if (const std::string abi = abi_from_json(*text); !abi.empty() && abi != host_abi()) {
-            return refuse(
-                fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
-                            fingerprint_text(abi), host_abi()));
-        }
         file->manifest = manifest_from_json(*text);
     } catch (const Error& problem) {
+        if (const std::string abi = abi_from_json(*text); !abi.empty() && abi != host_abi())
+            return refuse_abi(abi);
         return refuse(fmt::format("its manifest {}.json cannot be used: {}", stem, problem.what()));
     }
+    if (file->manifest.abi != host_abi()) return refuse_abi(file->manifest.abi);
     if (file->manifest.id() != id) {
         return refuse(fmt::format("its manifest is that of {}; a plugin's file is called <kind>-<name>.so",
                                   file->manifest.id()));
@@ -185,43 +191,45 @@ const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
                             known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }
 
-void Registry::scan() {
-    if (scanned_) return;
-    scanned_ = true;
+void Registry::scan(PluginKind kind) {
+    if (!scanned_.insert(kind).second) return;
+    const std::string prefix = fmt::format("{}-", candela::name_of(kind));
     for (const fs::path& directory : search_path_) {
         std::error_code ignored;
-        std::set<std::string> stems;
+        std::set<std::string> names;
         for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
             const std::string extension = entry.path().extension().string();
-            if (extension == ".so" || extension == ".json") stems.insert(entry.path().stem().string());
+            const std::string stem = entry.path().stem().string();
+            if ((extension == ".so" || extension == ".json") && stem.starts_with(prefix))
+                names.insert(stem.substr(prefix.size()));
         }
-        for (const std::string& stem : stems) {
-            const auto hyphen = stem.find('-');
-            if (hyphen == std::string::npos) continue;
-            if (const auto kind = plugin_kind_named(stem.substr(0, hyphen)))
-                find(*kind, stem.substr(hyphen + 1));
-        }
+        for (const std::string& name : names) find(kind, name);
     }
 }
 
-std::vector<const PluginFile*> Registry::list() {
+std::vector<const PluginFile*> Registry::list(PluginKind kind) {
     const std::lock_guard lock(mutex_);
-    scan();
+    scan(kind);
     std::vector<const PluginFile*> all;
     for (const auto& [id, file] : found_) {
-        if (file != nullptr) all.push_back(file.get());
+        if (file != nullptr && file->manifest.kind == kind) all.push_back(file.get());
     }
-    std::ranges::sort(all, [](const PluginFile* a, const PluginFile* b) {
-        return std::pair(a->manifest.kind, a->manifest.name) < std::pair(b->manifest.kind, b->manifest.name);
-    });
+    std::ranges::sort(all, {}, [](const PluginFile* file) -> const std::string& { return file->manifest.name; });
+    return all;
+}
+
+std::vector<const PluginFile*> Registry::list() {
+    std::vector<const PluginFile*> all;
+    for (const PluginKind kind : k_plugin_kinds) {
+        const auto some = list(kind);
+        all.insert(all.end(), some.begin(), some.end());
+    }
     return all;
 }
 
 std::vector<std::string> Registry::names(PluginKind kind) {
     std::vector<std::string> result;
-    for (const PluginFile* file : list()) {
-        if (file->manifest.kind == kind) result.push_back(file->manifest.name);
-    }
+    for (const PluginFile* file : list(kind)) result.push_back(file->manifest.name);
     return result;
 }
 
@@ -245,7 +253,7 @@ const PluginFile* Registry::find_format(std::string_view extension, FormatUse us
     if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && is_able(file))
         return file;
     const PluginFile* best = nullptr;
-    for (const PluginFile* file : list()) {
+    for (const PluginFile* file : list(PluginKind::image)) {
         if (is_able(file) && (best == nullptr || (is_fallback(best) && !is_fallback(file)))) best = file;
     }
     return best;
@@ -253,7 +261,7 @@ const PluginFile* Registry::find_format(std::string_view extension, FormatUse us
 
 std::vector<std::string> Registry::extensions(FormatUse use) {
     std::set<std::string> all;
-    for (const PluginFile* file : list()) {
+    for (const PluginFile* file : list(PluginKind::image)) {
         for (const ManifestFormat& format : file->manifest.formats) {
             if (use == FormatUse::write || format.reads) all.insert(format.extension);
         }
