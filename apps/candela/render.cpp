@@ -81,7 +81,10 @@ int run_render(const std::vector<std::string>& arguments) {
     if (!darkness.empty())
         std::cerr << fmt::format("candela: warning: nothing in the picture is lit: {}\n", darkness);
     const Stopwatch writing;
-    candela::with_threads(threads, [&] { candela::write_picture(film, format, output, registry); });
+    // A pixel takes its encoder some three nanoseconds.
+    candela::with_threads(
+        threads, [&] { candela::write_picture(film, format, output, registry); },
+        3e-6 * film.width() * film.height());
     const double write_ms = writing.milliseconds();
 
     if (line.has("verbose")) {

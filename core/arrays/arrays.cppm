@@ -2,7 +2,9 @@
 module;
 
 #include <cstddef>
+#include <cstdlib>
 #include <new>
+#include <utility>
 #include <vector>
 
 export module candela.arrays;
@@ -33,6 +35,37 @@ struct CacheLineAllocator {
 
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+
+/// Memory that the system zeroes page by page, for whichever thread writes to a page first. What is
+/// constructed without a value keeps the zeros, so a vector must not shrink and then grow in place.
+template <class T>
+struct ZeroedAllocator {
+    using value_type = T;
+
+    ZeroedAllocator() = default;
+    template <class Other>
+    // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
+    ZeroedAllocator(const ZeroedAllocator<Other>&) noexcept {}
+
+    T* allocate(std::size_t count) {
+        // NOLINTNEXTLINE(cppcoreguidelines-no-malloc): nothing else of the standard's gets such memory
+        void* const memory = std::calloc(count, sizeof(T));
+        if (memory == nullptr) throw std::bad_alloc();
+        return static_cast<T*>(memory);
+    }
+    // NOLINTNEXTLINE(cppcoreguidelines-no-malloc)
+    void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
+
+    template <class U, class... Arguments>
+    void construct(U* place, Arguments&&... arguments) {
+        if constexpr (sizeof...(Arguments) > 0) ::new (place) U(std::forward<Arguments>(arguments)...);
+    }
+
+    friend bool operator==(const ZeroedAllocator&, const ZeroedAllocator&) { return true; }
+};
+
+template <class T>
+using ZeroedVector = std::vector<T, ZeroedAllocator<T>>;
 
 /// Three arrays of their own memory.
 struct Vec3Arrays {

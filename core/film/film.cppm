@@ -8,10 +8,10 @@ module;
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 export module candela.film;
 
+import candela.arrays;
 import candela.image;
 import candela.math;
 import candela.params;
@@ -44,8 +44,8 @@ class CANDELA_API Film {
     int height_;
     PixelType pixels_;
     ColorEncoding encoding_;
-    std::vector<std::uint8_t> bytes_;
-    std::vector<float> reals_;
+    ZeroedVector<std::uint8_t> bytes_;
+    ZeroedVector<float> reals_;
 };
 
 /// Which plugin writes a picture, and how it wants its pixels.

@@ -6,9 +6,11 @@ module;
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #if defined(CANDELA_THREAD_SANITIZER)
 extern "C" void __tsan_acquire(void* address);
@@ -51,9 +53,23 @@ void hand_over(Run run) {
     from_workers.take();
 }
 
-}  // namespace
+/// Whether parallel_for() keeps to this thread.
+thread_local bool is_alone = false;
 
-namespace {
+class Alone {
+  public:
+    explicit Alone(bool alone) : before_(std::exchange(is_alone, alone)) {}
+    ~Alone() { is_alone = before_; }
+    Alone(const Alone&) = delete;
+    Alone& operator=(const Alone&) = delete;
+
+  private:
+    bool before_;
+};
+
+/// What it takes to find oneTBB's parts and to start its threads.
+constexpr double k_starting_ms = 1.5;
+std::atomic<bool> has_started = false;
 
 /// Arenas are kept, one for each number of threads: to make one takes time, and the memory that oneTBB aligns
 /// for it is seldom used again (glibc's bug 14581), so that a program that renders on and on would grow.
@@ -69,14 +85,19 @@ tbb::task_arena& arena_of(int threads) {
 
 int available_threads() noexcept { return std::max(tbb::info::default_concurrency(), 1); }
 
-void with_threads(int threads, FunctionRef<> work) {
-    tbb::task_arena& arena = arena_of(threads > 0 ? threads : available_threads());
+void with_threads(int threads, FunctionRef<> work, double milliseconds) {
+    const bool is_worth_it = has_started || milliseconds >= k_starting_ms;
+    if (threads == 0) threads = is_worth_it ? available_threads() : 1;
+    const Alone alone(threads == 1);
+    if (threads == 1) return work();
+    has_started = true;
+    tbb::task_arena& arena = arena_of(threads);
     hand_over([&](auto in_worker) { arena.execute([&] { in_worker([&] { work(); }); }); });
 }
 
 void parallel_for(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> body) {
     if (count == 0) return;
-    if (count <= grain || tbb::this_task_arena::max_concurrency() == 1) return body(0, count);
+    if (is_alone || count <= grain || tbb::this_task_arena::max_concurrency() == 1) return body(0, count);
     hand_over([&](auto in_worker) {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, count, grain),

@@ -4,6 +4,7 @@ module;
 #include "candela/api.h"
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <type_traits>
@@ -35,9 +36,11 @@ class FunctionRef {
     void (*call_)(void*, Arguments...);
 };
 
-/// Runs `work` with `threads` threads at the disposal of every parallel_for() within; 0: all that are
-/// available.
-CANDELA_API void with_threads(int threads, FunctionRef<> work);
+/// Runs `work` with `threads` threads at the disposal of every parallel_for() within. 0: all that are
+/// available; or this one alone, where the others have not been started yet and `milliseconds`, what one
+/// thread roughly takes for the work, is not worth starting them.
+CANDELA_API void with_threads(int threads, FunctionRef<> work,
+                              double milliseconds = std::numeric_limits<double>::infinity());
 
 /// Calls `body(begin, end)` for ranges that together are [0, count), each of at least `grain` unless it is
 /// the last. Exceptions end the work and come out here. Work of one grain, or with one thread, starts no

@@ -143,8 +143,9 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
         }
     }
     const auto refuse_abi = [&](std::string_view abi) {
-        return refuse(fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
-                                  fingerprint_text(abi), host_abi()));
+        return refuse(
+            fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                        fingerprint_text(abi), host_abi()));
     };
     auto file = std::make_unique<PluginFile>();
     try {
@@ -214,7 +215,8 @@ std::vector<const PluginFile*> Registry::list(PluginKind kind) {
     for (const auto& [id, file] : found_) {
         if (file != nullptr && file->manifest.kind == kind) all.push_back(file.get());
     }
-    std::ranges::sort(all, {}, [](const PluginFile* file) -> const std::string& { return file->manifest.name; });
+    std::ranges::sort(all, {},
+                      [](const PluginFile* file) -> const std::string& { return file->manifest.name; });
     return all;
 }
 

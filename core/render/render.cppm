@@ -56,7 +56,7 @@ CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& r
                                                  Diagnostics& diagnostics);
 
 struct RenderOptions {
-    int threads = 0;  // 0: all
+    int threads = 0;  // 0: all, but one for a first picture that is done before others would start
     int tile_size =
         0;  // pixels, a power of two from 16 on; 0: chosen. The picture is the same whatever it is.
     std::function<void(std::size_t done, std::size_t all)>
