@@ -12,6 +12,30 @@ module candela.fragments;
 
 namespace candela {
 
+void FragmentList::begin(std::uint32_t of_object) {
+    object = of_object;
+    room_ = k_batch_size;
+    runs.clear();
+}
+
+FragmentRun FragmentList::add_what_has_room(FragmentRun run) {
+    FragmentRun first = run;
+    first.count = room_;
+    runs.push_back(first);
+    run.pixel += room_;
+    run.x += static_cast<float>(room_);
+    run.count -= room_;
+    room_ = k_batch_size;
+    return run;
+}
+
+bool FragmentList::prolong() {
+    if (room_ == k_batch_size) return false;
+    ++runs.back().count;
+    if (--room_ == 0) room_ = k_batch_size;
+    return true;
+}
+
 FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t triangle) {
     const auto& first = scene.first_triangle;
     const auto holds = [&](std::size_t object) {
@@ -23,8 +47,7 @@ FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t 
     }
     if (used_ == lists_.size()) lists_.emplace_back();
     FragmentList& list = lists_[used_++];
-    list.runs.clear();
-    list.object = static_cast<std::uint32_t>(std::ranges::upper_bound(first, triangle) - first.begin() - 1);
+    list.begin(static_cast<std::uint32_t>(std::ranges::upper_bound(first, triangle) - first.begin() - 1));
     return list;
 }
 
@@ -49,6 +72,7 @@ int end_of_run(const std::uint32_t* seen, int begin, int width) {
     constexpr int k_block = 16;
     const std::uint32_t triangle = seen[begin];
     int end = begin + 1;
+    if (end < width && seen[end] != triangle) return end;
     for (; end + k_block <= width; end += k_block) {
         std::uint32_t differing = 0;
         for (int i = 0; i < k_block; ++i) differing |= seen[end + i] ^ triangle;
@@ -76,12 +100,12 @@ void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibi
             } else {
                 pixels_seen_ += count;
                 FragmentList& list = list_of(scene, triangle);
-                list.runs.push_back({.triangle = triangle - scene.first_triangle[list.object],
-                                     .pixel = first,
-                                     .count = count,
-                                     .x = static_cast<float>(visibility.x0 + begin) + 0.5f,
-                                     .y = y,
-                                     .weight = 1});
+                list.add({.triangle = triangle - scene.first_triangle[list.object],
+                          .pixel = first,
+                          .count = count,
+                          .x = static_cast<float>(visibility.x0 + begin) + 0.5f,
+                          .y = y,
+                          .weight = 1});
             }
             begin = end;
         }
@@ -144,12 +168,10 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
     const auto add_fragment = [&](FragmentRun fragment, int column) {
         FragmentList& list = list_of(scene, fragment.triangle);
         fragment.triangle -= scene.first_triangle[list.object];
-        if (fragment.weight == 1 && continues(list.runs, fragment.pixel, column) &&
-            list.runs.back().triangle == fragment.triangle && list.runs.back().weight == 1) {
-            ++list.runs.back().count;
-        } else {
-            list.runs.push_back(fragment);
-        }
+        const bool continues_run = fragment.weight == 1 && continues(list.runs, fragment.pixel, column) &&
+                                   list.runs.back().triangle == fragment.triangle &&
+                                   list.runs.back().weight == 1;
+        if (!continues_run || !list.prolong()) list.add(fragment);
     };
     for (int row = 0; row < visibility.height; ++row) {
         const auto top = static_cast<float>(visibility.y0 + row);
@@ -181,27 +203,6 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
             if (background > 0 || !seen.is_one()) add_background(pixel, column, background);
         }
     }
-}
-
-std::span<const FragmentRun> FragmentBatches::next() {
-    batch_.clear();
-    std::size_t room = k_batch_size;
-    while (room > 0 && !rest_.empty()) {
-        FragmentRun run = rest_.front();
-        run.pixel += done_;
-        run.x += static_cast<float>(done_);
-        run.count -= done_;
-        if (run.count > room) {
-            run.count = static_cast<std::uint32_t>(room);
-            done_ += run.count;
-        } else {
-            done_ = 0;
-            rest_ = rest_.subspan(1);
-        }
-        room -= run.count;
-        batch_.push_back(run);
-    }
-    return batch_;
 }
 
 }  // namespace candela

@@ -56,7 +56,24 @@ struct FragmentRun {
 /// contributes to one pixel.
 struct FragmentList {
     std::uint32_t object = 0;
-    std::vector<FragmentRun> runs;
+    std::vector<FragmentRun> runs;  // cut where a batch of k_batch_size ends
+
+    void begin(std::uint32_t of_object);
+    /// Of at most k_batch_size pixels.
+    inline void add(FragmentRun run) {
+        if (run.count > room_) run = add_what_has_room(run);
+        room_ -= run.count;
+        if (room_ == 0) room_ = k_batch_size;
+        runs.push_back(run);
+    }
+    /// Makes the last run longer by a pixel, unless a batch ends with it.
+    bool prolong();
+
+  private:
+    /// Returns the rest of the run.
+    FragmentRun add_what_has_room(FragmentRun run);
+
+    std::uint32_t room_ = k_batch_size;  // in the last batch
 };
 
 /// Pixels of a row, side by side, that do not see one triangle alone: `weight` of each sees the background.
@@ -92,18 +109,22 @@ class CANDELA_API TileFragments {
     std::size_t last_ = 0;
 };
 
-/// Cuts a list of runs into batches of at most k_batch_size fragments.
-class CANDELA_API FragmentBatches {
+/// The batches of k_batch_size fragments, or fewer in the last, that a list is made of.
+class FragmentBatches {
   public:
-    explicit FragmentBatches(std::span<const FragmentRun> runs) : rest_(runs) {}
+    explicit FragmentBatches(const FragmentList& list) : rest_(list.runs) {}
 
-    /// The runs of the next batch, until the call after; empty at the end.
-    std::span<const FragmentRun> next();
+    /// The runs of the next batch; empty at the end.
+    inline std::span<const FragmentRun> next() {
+        std::size_t runs = 0, fragments = 0;
+        for (; runs < rest_.size() && fragments < k_batch_size; ++runs) fragments += rest_[runs].count;
+        const std::span<const FragmentRun> batch = rest_.first(runs);
+        rest_ = rest_.subspan(runs);
+        return batch;
+    }
 
   private:
     std::span<const FragmentRun> rest_;
-    std::uint32_t done_ = 0;  // pixels of the first of the rest that were in a batch
-    std::vector<FragmentRun> batch_;
 };
 
 /// One mesh of a projected scene.

@@ -1,11 +1,14 @@
 // Attributes of faces, vertices and fragments.
 module;
 
+#include "candela/multiversion.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
@@ -158,21 +161,42 @@ IndexedMesh indexed(const ProjectedMesh& source) {
             .face_normal = mesh.face_normal.span()};
 }
 
+/// Most runs of a fine mesh are of one or two pixels: to write a whole vector, and the next run over what is
+/// too much of it, takes less time than to count.
+constexpr std::size_t k_overrun = 16;
+
+struct PlacesLoop {
+    using Floats [[gnu::vector_size(sizeof(float) * k_overrun)]] = float;
+    using Ints [[gnu::vector_size(sizeof(std::int32_t) * k_overrun)]] = std::int32_t;
+    static constexpr Floats k_steps{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+    CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y,
+                                       std::int32_t* triangle) {
+        for (const FragmentRun* run = runs; run != runs + count; ++run) {
+            for (std::size_t first = 0; first < run->count; first += k_overrun) {
+                const Floats columns = run->x + static_cast<float>(first) + k_steps;
+                const Floats rows = run->y - Floats{};
+                const Ints triangles = static_cast<std::int32_t>(run->triangle) - Ints{};
+                std::memcpy(x + first, &columns, sizeof columns);
+                std::memcpy(y + first, &rows, sizeof rows);
+                std::memcpy(triangle + first, &triangles, sizeof triangles);
+            }
+            x += run->count;
+            y += run->count;
+            triangle += run->count;
+        }
+    }
+};
+
 /// The fragments of a batch: where they are, and on which triangle.
 struct Places {
-    alignas(64) std::array<float, k_batch_size> x, y;
-    alignas(64) std::array<std::int32_t, k_batch_size> triangle;
+    alignas(64) std::array<float, k_batch_size + k_overrun> x, y;
+    alignas(64) std::array<std::int32_t, k_batch_size + k_overrun> triangle;
     std::size_t count = 0;
 
     explicit Places(std::span<const FragmentRun> runs) {
-        for (const FragmentRun& run : runs) {
-            for (std::uint32_t i = 0; i < run.count; ++i) {
-                x[count + i] = run.x + static_cast<float>(i);
-                y[count + i] = run.y;
-                triangle[count + i] = static_cast<std::int32_t>(run.triangle);
-            }
-            count += run.count;
-        }
+        multiversion<PlacesLoop>(runs.data(), runs.size(), x.data(), y.data(), triangle.data());
+        for (const FragmentRun& run : runs) count += run.count;
     }
 };
 

@@ -149,7 +149,7 @@ void TileShader::add(std::span<const FragmentRun> runs, const ConstVec3Span& int
 /// Light at every fragment.
 void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const PointNeeds needs = scene_->objects[fragments.object].surface.needs();
-    FragmentBatches batches(fragments.runs);
+    FragmentBatches batches(fragments);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
         gather_fragments(mesh, runs, needs, points_);
         light(fragments.object, batch_.span());
@@ -169,7 +169,7 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
         gather_faces(mesh, triangles.subspan(first, count), surface.needs(), points_);
         light(fragments.object, places_.span().from(first));
     }
-    FragmentBatches batches(fragments.runs);
+    FragmentBatches batches(fragments);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
         std::size_t first = 0;
         for (const FragmentRun& run : runs) {
@@ -203,7 +203,7 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
         light(fragments.object, places_.span().from(first));
     }
     const ConstVec3Span intensity = std::as_const(places_).span();
-    FragmentBatches batches(fragments.runs);
+    FragmentBatches batches(fragments);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
         gather_fragments(mesh, runs, {}, points_);
         std::size_t i = 0;
