@@ -8,12 +8,14 @@ import json
 import os
 import pathlib
 import platform
+import re
 import statistics
 import subprocess
 import sys
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+MOST_DIFFERENCE = 0.2  # levels; an observer 0.01 aside makes 0.4 on A, 1 on C
 
 
 def run(words, **more):
@@ -60,15 +62,22 @@ class Bench:
             sys.exit(f"{words[0]} ended with {process.returncode}")
         return milliseconds, usage.ru_maxrss / 1024
 
+    def render_to(self, scene, width, height, file):
+        return [self.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o", file]
+
+    def difference(self, scene, width, height, theirs):
+        """Mean difference of Candela's picture from theirs, in levels; far more than rounding is an error."""
+        ours = self.out / f"{scene}-candela.png"
+        run(self.render_to(scene, width, height, ours), env=self.env)
+        mean = json.loads(run([self.candela, "diff", ours, theirs, "--json"], env=self.env))["interior"]["mean"]
+        if mean > MOST_DIFFERENCE:
+            sys.exit(f"{theirs.name}: not the picture of {ours.name} (mean difference {mean:.3f} levels)")
+        return mean
+
     def same_picture(self, scene, dump, width, height):
-        """How the pictures differ; far more than rounding is an error."""
-        ours, theirs = self.out / f"{scene}-candela.png", self.out / f"{scene}-opengl.png"
-        run([self.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o", ours], env=self.env)
+        theirs = self.out / f"{scene}-opengl.png"
         run([self.rival, dump, width, height, "--png", theirs], env=self.env)
-        figures = json.loads(run([self.candela, "diff", ours, theirs, "--json"], env=self.env))["interior"]
-        if figures["mean"] > 0.5:
-            sys.exit(f"scene {scene}: the rivals do not render the same picture (mean difference {figures['mean']:.3f} levels)")
-        return figures["mean"]
+        return self.difference(scene, width, height, theirs)
 
 
 def spread(values):
@@ -83,10 +92,9 @@ def measure(bench, build, scene, width, height, rounds):
     for _ in range(rounds):
         ours, relit = bench.ours(scene, width, height, frames)
         theirs = bench.theirs(dump, width, height, frames)
-        ours_to = [bench.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o"]
-        png, memory = bench.whole([*ours_to, bench.out / "candela.png"])
+        png, memory = bench.whole(bench.render_to(scene, width, height, bench.out / "candela.png"))
         their_png, their_memory = bench.whole([bench.rival, dump, width, height, "--png", bench.out / "opengl.png"])
-        ppm, _ = bench.whole([*ours_to, bench.out / "candela.ppm"])
+        ppm, _ = bench.whole(bench.render_to(scene, width, height, bench.out / "candela.ppm"))
         nothing, _ = bench.whole(["true"])
         rows.append((ours, relit, theirs, png, their_png, memory, their_memory, ppm, nothing))
     ours, relit, theirs, png, their_png, memory, their_memory, ppm, nothing = zip(*rows)
@@ -101,10 +109,11 @@ def measure(bench, build, scene, width, height, rounds):
     return result
 
 
-def table(results, machine):
-    def ratio(r):
-        return f"{r['median']:.3f} ({r['least']:.3f} to {r['most']:.3f})"
+def ratio(r):
+    return f"{r['median']:.3f} ({r['least']:.3f} to {r['most']:.3f})"
 
+
+def table(results, machine):
     lines = [f"Machine: {machine['processor']}, {machine['threads']} threads; OpenGL: {machine['opengl']}.", "",
              "| scene | size | Candela frame | OpenGL frame | ratio | relit / frame |", "|---|---|---|---|---|---|"]
     for r in results:
@@ -122,29 +131,48 @@ def table(results, machine):
     return "\n".join(lines) + "\n"
 
 
-def main():
+def asked_for(sizes):
     parser = argparse.ArgumentParser()
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--scenes", default="A,AR,B,C")
-    parser.add_argument("--sizes", default="512x512,1920x1080,3840x2160")
+    parser.add_argument("--sizes", default=sizes)
     parser.add_argument("--rounds", type=int, default=7)
     arguments = parser.parse_args()
-    build, out = arguments.build.resolve(), arguments.out.resolve()
-    out.mkdir(parents=True, exist_ok=True)
+    for scene in arguments.scenes.split(","):
+        if not (HERE / f"scenes/{scene}.toml").exists():
+            parser.error(f"no scene '{scene}' (A, AR, B, C)")
+    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*(,[1-9]\d*x[1-9]\d*)*", arguments.sizes):
+        parser.error(f"sizes are like 512x512,1920x1080, not '{arguments.sizes}'")
+    if arguments.rounds < 1:
+        parser.error("at least one round")
+    arguments.build, arguments.out = arguments.build.resolve(), arguments.out.resolve()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    return arguments
+
+
+def cells(arguments):
+    """Scene, width, height of each row, with a word when it is done."""
+    for scene in arguments.scenes.split(","):
+        for size in arguments.sizes.split(","):
+            yield scene, *(int(x) for x in size.split("x"))
+            print(f"bench: {scene} {size} done", file=sys.stderr)
+
+
+def write(out, name, machine, results, text):
+    (out / f"{name}.json").write_text(json.dumps({"machine": machine, "results": results}, indent=2) + "\n")
+    (out / f"{name}.md").write_text(text)
+    print(text, end="")
+
+
+def main():
+    arguments = asked_for("512x512,1920x1080,3840x2160")
+    build, out = arguments.build, arguments.out
     bench = Bench(build, out)
     machine = {"processor": processor(), "threads": os.cpu_count(),
                "opengl": run([bench.rival, "--version"], env=bench.env).strip()}
-    results = []
-    for scene in arguments.scenes.split(","):
-        for size in arguments.sizes.split(","):
-            width, height = (int(x) for x in size.split("x"))
-            results.append(measure(bench, build, scene, width, height, arguments.rounds))
-            print(f"bench: {scene} {size} done", file=sys.stderr)
-    (out / "results.json").write_text(json.dumps({"machine": machine, "results": results}, indent=2) + "\n")
-    text = table(results, machine)
-    (out / "results.md").write_text(text)
-    print(text, end="")
+    results = [measure(bench, build, *cell, arguments.rounds) for cell in cells(arguments)]
+    write(out, "results", machine, results, table(results, machine))
 
 
 if __name__ == "__main__":
