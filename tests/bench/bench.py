@@ -4,6 +4,7 @@ The rivals take turns within one run; each figure is the median of its rounds, e
 same round. Writes OUT/results.json and OUT/results.md."""
 
 import argparse
+import ctypes
 import json
 import os
 import pathlib
@@ -15,6 +16,7 @@ import sys
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 MOST_DIFFERENCE = 0.2  # levels; an observer 0.01 aside makes 0.4 on A, 1 on C
 
 
@@ -52,15 +54,20 @@ class Bench:
         return statistics.median(float(x) for x in lines[5:])
 
     def whole(self, words):
-        """Milliseconds from start to end, and the most memory held, in MiB."""
+        """Milliseconds from start to end."""
         begin = time.perf_counter()
-        process = subprocess.Popen([str(w) for w in words], env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        _, status, usage = os.wait4(process.pid, 0)
+        process = subprocess.run([str(w) for w in words], env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         milliseconds = 1e3 * (time.perf_counter() - begin)
-        process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
             sys.exit(f"{words[0]} ended with {process.returncode}")
-        return milliseconds, usage.ru_maxrss / 1024
+        return milliseconds
+
+    def memory(self, words):
+        """The most memory held, in MiB. A process inherits the peak of the one that starts it, so a small shell does that."""
+        ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)
+        pid = run(["sh", "-c", '"$@" >/dev/null 2>&1 & echo $!', "sh", *words], env=self.env)
+        _, _, usage = os.wait4(int(pid), 0)
+        return usage.ru_maxrss / 1024
 
     def render_to(self, scene, width, height, file):
         return [self.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o", file]
@@ -87,30 +94,31 @@ def spread(values):
 def measure(bench, build, scene, width, height, rounds):
     dump = bench.dump(build, scene)
     result = {"scene": scene, "width": width, "height": height, "mean_difference": bench.same_picture(scene, dump, width, height)}
+    to_png = bench.render_to(scene, width, height, bench.out / "candela.png")
+    their_to_png = [bench.rival, dump, width, height, "--png", bench.out / "opengl.png"]
     frames = 30
     rows = []
     for _ in range(rounds):
         ours, relit = bench.ours(scene, width, height, frames)
         theirs = bench.theirs(dump, width, height, frames)
-        png, memory = bench.whole(bench.render_to(scene, width, height, bench.out / "candela.png"))
-        their_png, their_memory = bench.whole([bench.rival, dump, width, height, "--png", bench.out / "opengl.png"])
-        ppm, _ = bench.whole(bench.render_to(scene, width, height, bench.out / "candela.ppm"))
-        nothing, _ = bench.whole(["true"])
-        rows.append((ours, relit, theirs, png, their_png, memory, their_memory, ppm, nothing))
-    ours, relit, theirs, png, their_png, memory, their_memory, ppm, nothing = zip(*rows)
+        png = bench.whole(to_png)
+        their_png = bench.whole(their_to_png)
+        ppm = bench.whole(bench.render_to(scene, width, height, bench.out / "candela.ppm"))
+        nothing = bench.whole(["true"])
+        rows.append((ours, relit, theirs, png, their_png, ppm, nothing))
+    ours, relit, theirs, png, their_png, ppm, nothing = zip(*rows)
     result["frame"] = {"candela_ms": spread(ours), "opengl_ms": spread(theirs), "ratio": spread([a / b for a, b in zip(ours, theirs)])}
     result["relit"] = {"candela_ms": spread(relit), "ratio_to_frame": spread([a / b for a, b in zip(relit, ours)])}
     result["whole_process_png"] = {"candela_ms": spread(png), "opengl_ms": spread(their_png),
                                    "ratio": spread([a / b for a, b in zip(png, their_png)])}
     result["whole_process_ppm"] = {"candela_ms": spread(ppm), "ratio_to_true": spread([a / b for a, b in zip(ppm, nothing)])}
-    result["peak_memory"] = {"candela_mib": spread(memory), "opengl_mib": spread(their_memory),
-                             "ratio": spread([a / b for a, b in zip(memory, their_memory)])}
+    result["peak_memory"] = {"candela_mib": bench.memory(to_png), "opengl_mib": bench.memory(their_to_png)}
     result["png_size_ratio"] = (bench.out / "candela.png").stat().st_size / (bench.out / "opengl.png").stat().st_size
     return result
 
 
-def ratio(r):
-    return f"{r['median']:.3f} ({r['least']:.3f} to {r['most']:.3f})"
+def ratio(r, digits=3):
+    return f"{r['median']:.{digits}f} ({r['least']:.{digits}f} to {r['most']:.{digits}f})"
 
 
 def table(results, machine):
@@ -126,7 +134,7 @@ def table(results, machine):
         whole, memory = r["whole_process_png"], r["peak_memory"]
         lines.append(f"| {r['scene']} | {r['width']} x {r['height']} | {whole['candela_ms']['median']:.1f} ms | "
                      f"{whole['opengl_ms']['median']:.1f} ms | {ratio(whole['ratio'])} | {r['png_size_ratio']:.2f} | "
-                     f"{memory['candela_mib']['median']:.0f} MiB | {memory['opengl_mib']['median']:.0f} MiB | "
+                     f"{memory['candela_mib']:.0f} MiB | {memory['opengl_mib']:.0f} MiB | "
                      f"{r['whole_process_ppm']['ratio_to_true']['median']:.1f} |")
     return "\n".join(lines) + "\n"
 

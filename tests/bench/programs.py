@@ -57,10 +57,10 @@ def measure(programs, scene, width, height, rounds):
         result[f"{name}_mean_difference"] = programs.difference(scene, width, height, pictures[name])
     rows = [{name: programs.whole(words) for name, words in commands.items()} for _ in range(rounds)]
     for name in commands:
-        result[f"{name}_ms"] = spread([row[name][0] for row in rows])
-        result[f"{name}_mib"] = spread([row[name][1] for row in rows])
+        result[f"{name}_ms"] = spread([row[name] for row in rows])
+        result[f"{name}_mib"] = programs.memory(commands[name])
         if name != "candela":
-            result[f"{name}_ratio"] = spread([row["candela"][0] / row[name][0] for row in rows])
+            result[f"{name}_ratio"] = spread([row["candela"] / row[name] for row in rows])
     return result
 
 
@@ -72,8 +72,8 @@ def table(results, machine):
     for r in results:
         scene = "start-up" if (r["scene"], r["width"], r["height"]) == START_UP else r["scene"]
         lines.append(f"| {scene} | {r['width']} x {r['height']} | {r['candela_ms']['median']:.1f} ms | "
-                     f"{r['pov_ray_ms']['median']:.0f} ms | {ratio(r['pov_ray_ratio'])} | {r['vtk_ms']['median']:.1f} ms | "
-                     f"{ratio(r['vtk_ratio'])} | " + " | ".join(f"{r[f'{n}_mib']['median']:.0f} MiB" for n in ("candela", "pov_ray", "vtk"))
+                     f"{r['pov_ray_ms']['median']:.0f} ms | {ratio(r['pov_ray_ratio'], 4)} | {r['vtk_ms']['median']:.1f} ms | "
+                     f"{ratio(r['vtk_ratio'])} | " + " | ".join(f"{r[f'{n}_mib']:.0f} MiB" for n in ("candela", "pov_ray", "vtk"))
                      + f" | {r['pov_ray_mean_difference']:.4f} | {r['vtk_mean_difference']:.4f} |")
     return "\n".join(lines) + "\n"
 
