@@ -8,14 +8,16 @@ out=$1
 here=$(cd "$(dirname "$0")" && pwd)
 say() { printf 'vtk: %s\n' "$*" >&2; }
 
-package=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 'libvtk9.*' 2>/dev/null | sed -nE 's/^installed (libvtk9\.[0-9]+(t64)?)$/\1/p' | tail -n 1)
+package=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 'libvtk9.*' 2>/dev/null |
+    sed -nE 's/^installed (libvtk9\.[0-9]+(t64)?)$/\1/p' | tail -n 1)
 [ -n "$package" ] || { say "VTK's library is missing (apt-get update, then scripts/setup.sh --programs)"; exit 1; }
 version=$(dpkg-query -W -f '${Version}' "$package")
 headers=$out/vtk-$version
 if [ ! -d "$headers" ]; then
     rm -rf "$out/vtk-new"
     mkdir -p "$out/vtk-new"
-    (cd "$out/vtk-new" && apt-get -qq -o APT::Sandbox::User=root download "libvtk9-dev=$version") || { say "no headers of VTK $version to download"; exit 1; }
+    (cd "$out/vtk-new" && apt-get -qq -o APT::Sandbox::User=root download "libvtk9-dev=$version") ||
+        { say "no headers of VTK $version to download"; exit 1; }
     dpkg-deb -x "$out/vtk-new"/libvtk9-dev_*.deb "$out/vtk-new"
     mv "$out/vtk-new" "$headers"
 fi
