@@ -4,11 +4,11 @@
 # libvtk9-dev cannot be installed beside the Boost that Candela is built with: it needs libgdal-dev, that libkml-dev, and that
 # another Boost's headers. So its headers are unpacked in OUT, and the library comes from its own package.
 set -euo pipefail
-out=$1
+out=${1:?vtk.sh OUT}
 here=$(cd "$(dirname "$0")" && pwd)
 say() { printf 'vtk: %s\n' "$*" >&2; }
 
-package=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 'libvtk9.*' 2>/dev/null |
+package=$({ dpkg-query -W -f '${db:Status-Status} ${Package}\n' 'libvtk9.*' 2>/dev/null || true; } |
     sed -nE 's/^installed (libvtk9\.[0-9]+(t64)?)$/\1/p' | tail -n 1)
 [ -n "$package" ] || { say "VTK's library is missing (apt-get update, then scripts/setup.sh --programs)"; exit 1; }
 version=$(dpkg-query -W -f '${Version}' "$package")
