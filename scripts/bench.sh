@@ -3,13 +3,18 @@
 #   scripts/bench.sh                              all scenes, 512 x 512 to 3840 x 2160, seven rounds (some twenty minutes)
 #   scripts/bench.sh --scenes A --sizes 512x512   less
 #   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
+#   scripts/bench.sh --programs                   against POV-Ray and VTK, whole processes; build/bench/programs.{md,json} (five minutes)
 #   scripts/bench.sh --instructions               records how many instructions the default scene takes, which a test compares
 # On a machine that does nothing else.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 
-"$root/scripts/setup.sh"
+if [ "${1-}" = --programs ]; then
+    "$root/scripts/setup.sh" --programs
+else
+    "$root/scripts/setup.sh"
+fi
 cmake --preset release -DCANDELA_TESTS=ON >/dev/null
 if [ "${1-}" = --instructions ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
@@ -20,4 +25,9 @@ if [ "${1-}" = --sweep ]; then
     exec python3 -B "$root/tests/bench/sweep.py" "$root/build/release" "$root/build/bench" "${@:2}"
 fi
 cmake --build --preset release --target candela_runtime candela_diff candela_dump_scene candela_opengl_rival >/dev/null
+if [ "${1-}" = --programs ]; then
+    mkdir -p "$root/build/bench"
+    "$root/tests/bench/vtk.sh" "$root/build/bench"
+    exec python3 -B "$root/tests/bench/programs.py" "$root/build/release" "$root/build/bench" "${@:2}"
+fi
 python3 -B "$root/tests/bench/bench.py" "$root/build/release" "$root/build/bench" "$@"

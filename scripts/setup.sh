@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs every Debian or Ubuntu package that building, testing and running Candela needs.
 #
-#   scripts/setup.sh           everything, for developers and CI
-#   scripts/setup.sh --build   only what building and rendering need
+#   scripts/setup.sh              everything, for developers and CI
+#   scripts/setup.sh --build      only what building and rendering need
+#   scripts/setup.sh --programs   everything, and the programs that scripts/bench.sh --programs compares with
 #
 # Works as root or through sudo. Does nothing where nothing is missing. On a release whose own CMake or Catch2 is too
 # old, the release's backports are added from the mirror that apt already uses.
@@ -15,11 +16,13 @@ say() { printf 'setup: %s\n' "$*" >&2; }
 fail() { say "$*"; exit 1; }
 
 everything=yes
+programs=no
 case "${1-}" in
   '') ;;
   --build) everything=no ;;
-  -h|--help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) say "unknown argument '$1' (allowed: --build)"; exit 2 ;;
+  --programs) programs=yes ;;
+  -h|--help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) say "unknown argument '$1' (allowed: --build, --programs)"; exit 2 ;;
 esac
 
 command -v apt-get >/dev/null || fail "this script knows apt only; CONTRIBUTING.md lists what to install elsewhere"
@@ -55,11 +58,18 @@ else
   boost=(libboost-dev libboost-program-options-dev)
 fi
 
+# POV-Ray and VTK's library, whose package has VTK's version in its name.
+programs() {
+  [ "$programs" = yes ] || return 0
+  echo povray
+  { LC_ALL=C apt-cache depends libvtk9-dev 2>/dev/null || true; } | sed -nE 's/^ *Depends: (libvtk9\.[0-9]+(t64)?)$/\1/p'
+}
+
 missing=()
 find_missing() {
   local package
   missing=()
-  for package in "${packages[@]}" "${boost[@]}"; do
+  for package in "${packages[@]}" "${boost[@]}" $(programs); do
     installed "$package" || missing+=("$package")
   done
   at_least "$(installed_version cmake)" "$k_cmake_at_least" || missing+=(cmake cmake-data)

@@ -4,16 +4,20 @@ The rivals take turns within one run; each figure is the median of its rounds, e
 same round. Writes OUT/results.json and OUT/results.md."""
 
 import argparse
+import ctypes
 import json
 import os
 import pathlib
 import platform
+import re
 import statistics
 import subprocess
 import sys
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
+MOST_DIFFERENCE = 0.2  # levels; an observer 0.01 aside makes 0.4 on A, 1 on C
 
 
 def run(words, **more):
@@ -50,25 +54,37 @@ class Bench:
         return statistics.median(float(x) for x in lines[5:])
 
     def whole(self, words):
-        """Milliseconds from start to end, and the most memory held, in MiB."""
+        """Milliseconds from start to end."""
         begin = time.perf_counter()
-        process = subprocess.Popen([str(w) for w in words], env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        _, status, usage = os.wait4(process.pid, 0)
+        process = subprocess.run([str(w) for w in words], env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         milliseconds = 1e3 * (time.perf_counter() - begin)
-        process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
             sys.exit(f"{words[0]} ended with {process.returncode}")
-        return milliseconds, usage.ru_maxrss / 1024
+        return milliseconds
+
+    def memory(self, words):
+        """The most memory held, in MiB. A process inherits the peak of the one that starts it, so a small shell does that."""
+        ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)
+        pid = run(["sh", "-c", '"$@" >/dev/null 2>&1 & echo $!', "sh", *words], env=self.env)
+        _, _, usage = os.wait4(int(pid), 0)
+        return usage.ru_maxrss / 1024
+
+    def render_to(self, scene, width, height, file):
+        return [self.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o", file]
+
+    def difference(self, scene, width, height, theirs):
+        """Mean difference of Candela's picture from theirs, in levels; far more than rounding is an error."""
+        ours = self.out / f"{scene}-candela.png"
+        run(self.render_to(scene, width, height, ours), env=self.env)
+        mean = json.loads(run([self.candela, "diff", ours, theirs, "--json"], env=self.env))["interior"]["mean"]
+        if mean > MOST_DIFFERENCE:
+            sys.exit(f"{theirs.name}: not the picture of {ours.name} (mean difference {mean:.3f} levels)")
+        return mean
 
     def same_picture(self, scene, dump, width, height):
-        """How the pictures differ; far more than rounding is an error."""
-        ours, theirs = self.out / f"{scene}-candela.png", self.out / f"{scene}-opengl.png"
-        run([self.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o", ours], env=self.env)
+        theirs = self.out / f"{scene}-opengl.png"
         run([self.rival, dump, width, height, "--png", theirs], env=self.env)
-        figures = json.loads(run([self.candela, "diff", ours, theirs, "--json"], env=self.env))["interior"]
-        if figures["mean"] > 0.5:
-            sys.exit(f"scene {scene}: the rivals do not render the same picture (mean difference {figures['mean']:.3f} levels)")
-        return figures["mean"]
+        return self.difference(scene, width, height, theirs)
 
 
 def spread(values):
@@ -78,33 +94,34 @@ def spread(values):
 def measure(bench, build, scene, width, height, rounds):
     dump = bench.dump(build, scene)
     result = {"scene": scene, "width": width, "height": height, "mean_difference": bench.same_picture(scene, dump, width, height)}
+    to_png = bench.render_to(scene, width, height, bench.out / "candela.png")
+    their_to_png = [bench.rival, dump, width, height, "--png", bench.out / "opengl.png"]
     frames = 30
     rows = []
     for _ in range(rounds):
         ours, relit = bench.ours(scene, width, height, frames)
         theirs = bench.theirs(dump, width, height, frames)
-        ours_to = [bench.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o"]
-        png, memory = bench.whole([*ours_to, bench.out / "candela.png"])
-        their_png, their_memory = bench.whole([bench.rival, dump, width, height, "--png", bench.out / "opengl.png"])
-        ppm, _ = bench.whole([*ours_to, bench.out / "candela.ppm"])
-        nothing, _ = bench.whole(["true"])
-        rows.append((ours, relit, theirs, png, their_png, memory, their_memory, ppm, nothing))
-    ours, relit, theirs, png, their_png, memory, their_memory, ppm, nothing = zip(*rows)
+        png = bench.whole(to_png)
+        their_png = bench.whole(their_to_png)
+        ppm = bench.whole(bench.render_to(scene, width, height, bench.out / "candela.ppm"))
+        nothing = bench.whole(["true"])
+        rows.append((ours, relit, theirs, png, their_png, ppm, nothing))
+    ours, relit, theirs, png, their_png, ppm, nothing = zip(*rows)
     result["frame"] = {"candela_ms": spread(ours), "opengl_ms": spread(theirs), "ratio": spread([a / b for a, b in zip(ours, theirs)])}
     result["relit"] = {"candela_ms": spread(relit), "ratio_to_frame": spread([a / b for a, b in zip(relit, ours)])}
     result["whole_process_png"] = {"candela_ms": spread(png), "opengl_ms": spread(their_png),
                                    "ratio": spread([a / b for a, b in zip(png, their_png)])}
     result["whole_process_ppm"] = {"candela_ms": spread(ppm), "ratio_to_true": spread([a / b for a, b in zip(ppm, nothing)])}
-    result["peak_memory"] = {"candela_mib": spread(memory), "opengl_mib": spread(their_memory),
-                             "ratio": spread([a / b for a, b in zip(memory, their_memory)])}
+    result["peak_memory"] = {"candela_mib": bench.memory(to_png), "opengl_mib": bench.memory(their_to_png)}
     result["png_size_ratio"] = (bench.out / "candela.png").stat().st_size / (bench.out / "opengl.png").stat().st_size
     return result
 
 
-def table(results, machine):
-    def ratio(r):
-        return f"{r['median']:.3f} ({r['least']:.3f} to {r['most']:.3f})"
+def ratio(r, digits=3):
+    return f"{r['median']:.{digits}f} ({r['least']:.{digits}f} to {r['most']:.{digits}f})"
 
+
+def table(results, machine):
     lines = [f"Machine: {machine['processor']}, {machine['threads']} threads; OpenGL: {machine['opengl']}.", "",
              "| scene | size | Candela frame | OpenGL frame | ratio | relit / frame |", "|---|---|---|---|---|---|"]
     for r in results:
@@ -117,34 +134,53 @@ def table(results, machine):
         whole, memory = r["whole_process_png"], r["peak_memory"]
         lines.append(f"| {r['scene']} | {r['width']} x {r['height']} | {whole['candela_ms']['median']:.1f} ms | "
                      f"{whole['opengl_ms']['median']:.1f} ms | {ratio(whole['ratio'])} | {r['png_size_ratio']:.2f} | "
-                     f"{memory['candela_mib']['median']:.0f} MiB | {memory['opengl_mib']['median']:.0f} MiB | "
+                     f"{memory['candela_mib']:.0f} MiB | {memory['opengl_mib']:.0f} MiB | "
                      f"{r['whole_process_ppm']['ratio_to_true']['median']:.1f} |")
     return "\n".join(lines) + "\n"
 
 
-def main():
+def asked_for(sizes):
     parser = argparse.ArgumentParser()
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--scenes", default="A,AR,B,C")
-    parser.add_argument("--sizes", default="512x512,1920x1080,3840x2160")
+    parser.add_argument("--sizes", default=sizes)
     parser.add_argument("--rounds", type=int, default=7)
     arguments = parser.parse_args()
-    build, out = arguments.build.resolve(), arguments.out.resolve()
-    out.mkdir(parents=True, exist_ok=True)
+    for scene in arguments.scenes.split(","):
+        if not (HERE / f"scenes/{scene}.toml").exists():
+            parser.error(f"no scene '{scene}' (A, AR, B, C)")
+    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*(,[1-9]\d*x[1-9]\d*)*", arguments.sizes):
+        parser.error(f"sizes are like 512x512,1920x1080, not '{arguments.sizes}'")
+    if arguments.rounds < 1:
+        parser.error("at least one round")
+    arguments.build, arguments.out = arguments.build.resolve(), arguments.out.resolve()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    return arguments
+
+
+def cells(arguments):
+    """Scene, width, height of each row, with a word when it is done."""
+    for scene in arguments.scenes.split(","):
+        for size in arguments.sizes.split(","):
+            yield scene, *(int(x) for x in size.split("x"))
+            print(f"bench: {scene} {size} done", file=sys.stderr)
+
+
+def write(out, name, machine, results, text):
+    (out / f"{name}.json").write_text(json.dumps({"machine": machine, "results": results}, indent=2) + "\n")
+    (out / f"{name}.md").write_text(text)
+    print(text, end="")
+
+
+def main():
+    arguments = asked_for("512x512,1920x1080,3840x2160")
+    build, out = arguments.build, arguments.out
     bench = Bench(build, out)
     machine = {"processor": processor(), "threads": os.cpu_count(),
                "opengl": run([bench.rival, "--version"], env=bench.env).strip()}
-    results = []
-    for scene in arguments.scenes.split(","):
-        for size in arguments.sizes.split(","):
-            width, height = (int(x) for x in size.split("x"))
-            results.append(measure(bench, build, scene, width, height, arguments.rounds))
-            print(f"bench: {scene} {size} done", file=sys.stderr)
-    (out / "results.json").write_text(json.dumps({"machine": machine, "results": results}, indent=2) + "\n")
-    text = table(results, machine)
-    (out / "results.md").write_text(text)
-    print(text, end="")
+    results = [measure(bench, build, *cell, arguments.rounds) for cell in cells(arguments)]
+    write(out, "results", machine, results, table(results, machine))
 
 
 if __name__ == "__main__":

@@ -23,13 +23,12 @@
 #include <string>
 #include <vector>
 
-#include "scene_dump.h"
+#include "scene_read.h"
 
 namespace {
 
-using bench::DumpHeader;
 using bench::DumpLight;
-using bench::DumpObject;
+using bench::Scene;
 
 constexpr const char* k_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
@@ -70,42 +69,6 @@ void main() {
     color = vec4(sum, 1.0);
 }
 )";
-
-struct Scene {
-    DumpHeader header;
-    std::vector<DumpLight> lights;
-    struct Object {
-        DumpObject head;
-        std::vector<float> position, normal;
-        std::vector<std::uint32_t> corners;
-    };
-    std::vector<Object> objects;
-};
-
-template <class T>
-void get(std::ifstream& in, T* values, std::size_t count) {
-    in.read(reinterpret_cast<char*>(values), static_cast<std::streamsize>(count * sizeof(T)));
-    if (!in) throw std::runtime_error("the scene's file ends too early");
-}
-
-Scene read_scene(const char* path) {
-    std::ifstream in(path, std::ios::binary);
-    Scene scene;
-    get(in, &scene.header, 1);
-    scene.lights.resize(scene.header.lights);
-    get(in, scene.lights.data(), scene.lights.size());
-    scene.objects.resize(scene.header.objects);
-    for (Scene::Object& o : scene.objects) {
-        get(in, &o.head, 1);
-        o.position.resize(3 * std::size_t{o.head.vertices});
-        o.normal.resize(3 * std::size_t{o.head.vertices});
-        o.corners.resize(3 * std::size_t{o.head.triangles});
-        get(in, o.position.data(), o.position.size());
-        get(in, o.normal.data(), o.normal.size());
-        get(in, o.corners.data(), o.corners.size());
-    }
-    return scene;
-}
 
 void make_context() {
     const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
@@ -319,7 +282,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const Scene scene = read_scene(argv[1]);
+        const Scene scene = bench::read_scene(argv[1]);
         const int width = std::atoi(argv[2]), height = std::atoi(argv[3]);
         Rival rival(scene, width, height);
         std::vector<unsigned char> pixels(4 * static_cast<std::size_t>(width) *
