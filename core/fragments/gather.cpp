@@ -8,7 +8,6 @@ module;
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
@@ -166,20 +165,21 @@ IndexedMesh indexed(const ProjectedMesh& source) {
 constexpr std::size_t k_overrun = 16;
 
 struct PlacesLoop {
-    using Floats [[gnu::vector_size(sizeof(float) * k_overrun)]] = float;
-    using Ints [[gnu::vector_size(sizeof(std::int32_t) * k_overrun)]] = std::int32_t;
-    static constexpr Floats k_steps{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y,
                                        std::int32_t* triangle) {
         for (const FragmentRun* run = runs; run != runs + count; ++run) {
             for (std::size_t first = 0; first < run->count; first += k_overrun) {
-                const Floats columns = run->x + static_cast<float>(first) + k_steps;
-                const Floats rows = run->y - Floats{};
-                const Ints triangles = static_cast<std::int32_t>(run->triangle) - Ints{};
-                std::memcpy(x + first, &columns, sizeof columns);
-                std::memcpy(y + first, &rows, sizeof rows);
-                std::memcpy(triangle + first, &triangles, sizeof triangles);
+                const float left = run->x + static_cast<float>(first);
+                const float top = run->y;
+                const auto of = static_cast<std::int32_t>(run->triangle);
+                CANDELA_VECTORIZE
+// Else it is unrolled before it can be vectorised.
+#pragma clang loop unroll(disable)
+                for (std::size_t i = 0; i < k_overrun; ++i) {
+                    x[first + i] = left + static_cast<float>(i);
+                    y[first + i] = top;
+                    triangle[first + i] = of;
+                }
             }
             x += run->count;
             y += run->count;

@@ -13,6 +13,7 @@ import re
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -36,6 +37,9 @@ class Bench:
         self.candela = build / "bin/candela"
         self.rival = build / "tests/bench/candela_opengl_rival"
         self.out = out
+        # In memory where the system has such a folder: what is measured is the programs, not the disk.
+        self.scratch = tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
+        self.pictures = pathlib.Path(self.scratch.name)
         threads = str(os.cpu_count())
         self.env = {**os.environ, "LP_NUM_THREADS": threads, "CANDELA_PLUGIN_PATH": str(build / "lib/candela/plugins")}
 
@@ -44,9 +48,12 @@ class Bench:
         run([build / "tests/bench/candela_dump_scene", HERE / f"scenes/{scene}.toml", file], env=self.env)
         return file
 
+    def figures(self, scene, width, height, frames):
+        return json.loads(run([self.candela, "bench", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height,
+                               "--frames", frames, "--json"], env=self.env))
+
     def ours(self, scene, width, height, frames):
-        figures = json.loads(run([self.candela, "bench", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height,
-                                  "--frames", frames, "--json"], env=self.env))
+        figures = self.figures(scene, width, height, frames)
         return figures["frame_ms"], figures["relit_frame_ms"]
 
     def theirs(self, dump, width, height, frames):
@@ -94,8 +101,8 @@ def spread(values):
 def measure(bench, build, scene, width, height, rounds):
     dump = bench.dump(build, scene)
     result = {"scene": scene, "width": width, "height": height, "mean_difference": bench.same_picture(scene, dump, width, height)}
-    to_png = bench.render_to(scene, width, height, bench.out / "candela.png")
-    their_to_png = [bench.rival, dump, width, height, "--png", bench.out / "opengl.png"]
+    to_png = bench.render_to(scene, width, height, bench.pictures / "candela.png")
+    their_to_png = [bench.rival, dump, width, height, "--png", bench.pictures / "opengl.png"]
     frames = 30
     rows = []
     for _ in range(rounds):
@@ -103,7 +110,7 @@ def measure(bench, build, scene, width, height, rounds):
         theirs = bench.theirs(dump, width, height, frames)
         png = bench.whole(to_png)
         their_png = bench.whole(their_to_png)
-        ppm = bench.whole(bench.render_to(scene, width, height, bench.out / "candela.ppm"))
+        ppm = bench.whole(bench.render_to(scene, width, height, bench.pictures / "candela.ppm"))
         nothing = bench.whole(["true"])
         rows.append((ours, relit, theirs, png, their_png, ppm, nothing))
     ours, relit, theirs, png, their_png, ppm, nothing = zip(*rows)
@@ -113,7 +120,7 @@ def measure(bench, build, scene, width, height, rounds):
                                    "ratio": spread([a / b for a, b in zip(png, their_png)])}
     result["whole_process_ppm"] = {"candela_ms": spread(ppm), "ratio_to_true": spread([a / b for a, b in zip(ppm, nothing)])}
     result["peak_memory"] = {"candela_mib": bench.memory(to_png), "opengl_mib": bench.memory(their_to_png)}
-    result["png_size_ratio"] = (bench.out / "candela.png").stat().st_size / (bench.out / "opengl.png").stat().st_size
+    result["png_size_ratio"] = (bench.pictures / "candela.png").stat().st_size / (bench.pictures / "opengl.png").stat().st_size
     return result
 
 
@@ -122,7 +129,8 @@ def ratio(r, digits=3):
 
 
 def table(results, machine):
-    lines = [f"Machine: {machine['processor']}, {machine['threads']} threads; OpenGL: {machine['opengl']}.", "",
+    lines = [f"Machine: {machine['processor']}, {machine['threads']} threads; Candela: {machine['instruction_set']}; OpenGL: "
+             f"{machine['opengl']}.", "",
              "| scene | size | Candela frame | OpenGL frame | ratio | relit / frame |", "|---|---|---|---|---|---|"]
     for r in results:
         frame = r["frame"]
@@ -178,6 +186,7 @@ def main():
     build, out = arguments.build, arguments.out
     bench = Bench(build, out)
     machine = {"processor": processor(), "threads": os.cpu_count(),
+               "instruction_set": bench.figures("A", 16, 16, 1)["instruction_set"],
                "opengl": run([bench.rival, "--version"], env=bench.env).strip()}
     results = [measure(bench, build, *cell, arguments.rounds) for cell in cells(arguments)]
     write(out, "results", machine, results, table(results, machine))

@@ -6,6 +6,7 @@ where the figure is more than 3 % above the record. --update writes the record a
 """
 
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -27,11 +28,13 @@ def built_with(command):
             "valgrind": first_line("valgrind", "--version")}
 
 
-def instructions(command):
+def instructions(command, *arguments, **environment):
+    """Of `candela render` with these arguments, by one thread."""
     with tempfile.TemporaryDirectory() as folder:
         counts = pathlib.Path(folder) / "counts"
         subprocess.run(["setarch", "-R", "valgrind", "--tool=callgrind", f"--callgrind-out-file={counts}", command, "render",
-                        "--threads", "1", "-o", f"{folder}/picture.png"], check=True, capture_output=True)
+                        "--threads", "1", "-o", f"{folder}/picture.png", *arguments], check=True, capture_output=True,
+                       env={**os.environ, **environment})
         return int(re.search(r"^(?:totals|summary): (\d+)", counts.read_text(), re.MULTILINE).group(1))
 
 
