@@ -194,9 +194,16 @@ struct Places {
     alignas(64) std::array<std::int32_t, k_batch_size + k_overrun> triangle;
     std::size_t count = 0;
 
-    explicit Places(std::span<const FragmentRun> runs) {
+    Places(const Mesh& mesh, std::span<const FragmentRun> runs) {
+        for (const FragmentRun& run : runs) {
+            count += run.count;
+            // All at once, as they come from far away where the mesh is large.
+            __builtin_prefetch(&mesh.corners[3 * std::size_t{run.triangle}]);
+            __builtin_prefetch(&mesh.face_normal.x[run.triangle]);
+            __builtin_prefetch(&mesh.face_normal.y[run.triangle]);
+            __builtin_prefetch(&mesh.face_normal.z[run.triangle]);
+        }
         multiversion<PlacesLoop>(runs.data(), runs.size(), x.data(), y.data(), triangle.data());
-        for (const FragmentRun& run : runs) count += run.count;
     }
 };
 
@@ -220,7 +227,7 @@ constexpr std::size_t k_worth_a_loop = 16;
 
 void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> runs, PointNeeds needs,
                       SurfacePoints& points) {
-    const Places places(runs);
+    const Places places(source.mesh, runs);
     points.count = places.count;
     const auto spans_from = [&](std::size_t first) -> InterpolatedSpans {
         return {points.barycentric.span().from(first), points.position.span().from(first),
