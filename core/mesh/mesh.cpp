@@ -1,5 +1,7 @@
 module;
 
+#include "candela/multiversion.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -79,19 +81,26 @@ class Collector final : public MeshSink {
     bool allocated_ = false;
 };
 
+/// As many numbers as stay in the cache.
+constexpr Eigen::Index k_stretch = 1024;
+using Stretch = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, k_stretch, 1>;
 using Rows = Eigen::Map<Eigen::ArrayXf>;
 
 /// Applies `linear` and then `offset` to every vector of the arrays.
 void transform(Vec3Arrays& arrays, const Eigen::Matrix3f& linear, const Eigen::Vector3f& offset) {
     if (arrays.empty()) return;
     const auto count = static_cast<Eigen::Index>(arrays.size());
-    Rows x(arrays.x.data(), count), y(arrays.y.data(), count), z(arrays.z.data(), count);
-    const Eigen::ArrayXf a = linear(0, 0) * x + linear(0, 1) * y + linear(0, 2) * z + offset[0];
-    const Eigen::ArrayXf b = linear(1, 0) * x + linear(1, 1) * y + linear(1, 2) * z + offset[1];
-    const Eigen::ArrayXf c = linear(2, 0) * x + linear(2, 1) * y + linear(2, 2) * z + offset[2];
-    x = a;
-    y = b;
-    z = c;
+    for (Eigen::Index first = 0; first < count; first += k_stretch) {
+        const Eigen::Index some = std::min(k_stretch, count - first);
+        Rows x(arrays.x.data() + first, some), y(arrays.y.data() + first, some),
+            z(arrays.z.data() + first, some);
+        const Stretch a = linear(0, 0) * x + linear(0, 1) * y + linear(0, 2) * z + offset[0];
+        const Stretch b = linear(1, 0) * x + linear(1, 1) * y + linear(1, 2) * z + offset[1];
+        const Stretch c = linear(2, 0) * x + linear(2, 1) * y + linear(2, 2) * z + offset[2];
+        x = a;
+        y = b;
+        z = c;
+    }
 }
 
 void normalize(Vec3Arrays& arrays) {
@@ -110,7 +119,14 @@ Eigen::Matrix3f linear_part(const Placement& placement) {
     return rotation * Eigen::Vector3f(placement.scale.x, placement.scale.y, placement.scale.z).asDiagonal();
 }
 
+bool are_near(const AlignedVector<float>& coordinates) {
+    bool are = true;
+    for (const float x : coordinates) are &= std::abs(x) <= k_farthest;  // a NaN is not
+    return are;
+}
+
 void check_finite(const Mesh& mesh) {
+    if (are_near(mesh.position.x) && are_near(mesh.position.y) && are_near(mesh.position.z)) return;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const Vec3 p = mesh.position.span()[i];
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
@@ -142,21 +158,33 @@ void check(const Collector& collected) {
     }
 }
 
-void make_face_normals(Mesh& mesh) {
-    mesh.face_normal.resize(mesh.triangle_count());
-    const ConstVec3Span position = std::as_const(mesh.position).span();
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        const Vec3 a = position[mesh.corners[3 * t]];
-        const Vec3 p = position[mesh.corners[3 * t + 1]] - a;
-        const Vec3 q = position[mesh.corners[3 * t + 2]] - a;
-        // CA DD8, in double: the product of two short edges must not vanish.
-        const Eigen::Vector3d n = Eigen::Vector3d(p.x, p.y, p.z).cross(Eigen::Vector3d(q.x, q.y, q.z));
-        const double size = n.norm();
-        if (size > 0) {
-            const Eigen::Vector3f unit = (n / size).cast<float>();
-            mesh.face_normal.span().set(t, {unit.x(), unit.y(), unit.z()});
+/// CA DD8, in double: the product of two short edges must not vanish.
+struct FaceNormalLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span position, const std::uint32_t* corners,
+                                       std::size_t count, Vec3Span normal) {
+        CANDELA_VECTORIZE
+// Wider than doubles ask for, as most of it is fetching floats.
+#pragma clang loop vectorize_width(16)
+        for (std::size_t t = 0; t < count; ++t) {
+            const Vec3 a = position[corners[3 * t]];
+            const Vec3 p = position[corners[3 * t + 1]] - a;
+            const Vec3 q = position[corners[3 * t + 2]] - a;
+            const double px = p.x, py = p.y, pz = p.z, qx = q.x, qy = q.y, qz = q.z;
+            const double x = py * qz - pz * qy, y = pz * qx - px * qz, z = px * qy - py * qx;
+            const double size = std::sqrt(x * x + y * y + z * z);
+            const double scale = size > 0 ? 1 / size : 0;
+            normal.x[t] = static_cast<float>(scale * x);
+            normal.y[t] = static_cast<float>(scale * y);
+            normal.z[t] = static_cast<float>(scale * z);
         }
     }
+};
+
+void make_face_normals(Mesh& mesh) {
+    mesh.face_normal.resize(mesh.triangle_count());
+    const std::uint32_t* const corners = mesh.corners.data();
+    multiversion<FaceNormalLoop>(std::as_const(mesh.position).span(), corners, mesh.triangle_count(),
+                                 mesh.face_normal.span());
 }
 
 /// How many edges do not lie between two triangles that agree on what is outside. Vertices at one place count
@@ -185,38 +213,45 @@ std::size_t count_open_edges(const Mesh& mesh) {
 
 void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
     Mesh& mesh = placed.mesh;
-    std::vector<std::uint32_t>& group = placed.smooth_group;
-    if (group.empty()) {
-        group.resize(mesh.vertex_count());
-        std::iota(group.begin(), group.end(), 0u);
+    const std::size_t count = mesh.vertex_count();
+    const bool has_groups = !placed.smooth_group.empty();
+    std::vector<std::uint32_t> each_its_own;
+    if (!has_groups) {
+        each_its_own.resize(count);
+        std::iota(each_its_own.begin(), each_its_own.end(), 0u);
     }
     Vec3Arrays normal;
     constexpr std::size_t k_guard = 16;
     constexpr float k_mark = -1.2345e30f;
-    normal.resize(mesh.vertex_count() + k_guard);
-    for (std::size_t i = 0; i < k_guard; ++i)
-        normal.span().set(mesh.vertex_count() + i, {k_mark, k_mark, k_mark});
+    normal.resize(count + k_guard);
+    for (std::size_t i = count; i < count + k_guard; ++i) normal.span().set(i, {k_mark, k_mark, k_mark});
     const MeshView view{.position = std::as_const(mesh.position).span(),
                         .corners = mesh.corners,
                         .face_normal = std::as_const(mesh.face_normal).span(),
-                        .smooth_group = group,
-                        .vertex_count = mesh.vertex_count(),
-                        .group_count = mesh.vertex_count(),
+                        .smooth_group = has_groups ? placed.smooth_group : each_its_own,
+                        .vertex_count = count,
+                        .group_count = count,
                         .authored_normal = placed.authored_normal.empty()
                                                ? ConstVec3Span{}
                                                : std::as_const(placed.authored_normal).span()};
     shading.vertex_normals(view, normal.span());
-    for (std::size_t i = 0; i < k_guard; ++i) {
-        if (normal.span()[mesh.vertex_count() + i] != Vec3{k_mark, k_mark, k_mark})
+    for (std::size_t i = count; i < count + k_guard; ++i) {
+        if (normal.span()[i] != Vec3{k_mark, k_mark, k_mark})
             throw std::invalid_argument("it writes more vertex normals than there are vertices");
     }
-    mesh.vertex_normal.resize(mesh.vertex_count());
-    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        const Vec3 n = std::as_const(normal).span()[group[i]];
+    if (has_groups) {
+        mesh.vertex_normal.resize(count);
+        for (std::size_t i = 0; i < count; ++i)
+            mesh.vertex_normal.span().set(i, std::as_const(normal).span()[placed.smooth_group[i]]);
+    } else {
+        normal.resize(count);
+        mesh.vertex_normal = std::move(normal);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 n = std::as_const(mesh.vertex_normal).span()[i];
         if (!std::isfinite(n.x + n.y + n.z))
             throw std::invalid_argument(
                 fmt::format("the normal that it gives vertex {} is no finite number", i));
-        mesh.vertex_normal.span().set(i, n);
     }
 }
 
