@@ -45,7 +45,8 @@ int run_render(const std::vector<std::string>& arguments) {
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("candela.png"),
                    "the picture; - writes a PNG to standard output");
     add_scene_options(line);
-    line.options()("threads", po::value<int>()->value_name("N"), "processors to use; all, unless said")(
+    line.options()("threads", po::value<int>()->value_name("N"),
+                   "processors to use; unless said all, or one for a small picture")(
         "verbose", "say how long each stage took");
     if (!line.parse(arguments)) return 0;
 

@@ -70,7 +70,7 @@ class Sweep:
         for lights in (1, 8, 64):
             scene = self.scene(f"lights-{lights}.toml", *(light(i, lights) for i in range(lights)), sphere(64))
             for shading, reflection in itertools.product(self.names("shading"), self.names("reflection")):
-                figures = self.figures(scene, "--shading", shading, "--reflection", reflection, size=self.small, frames=5)
+                figures = self.figures(scene, "--shading", shading, "--reflection", reflection, size=self.small, frames=11)
                 rows.append({"lights": lights, "shading": shading, "reflection": reflection, "frame_ms": figures["frame_ms"]})
             print(f"sweep: {lights} light(s) done", file=sys.stderr)
         return rows

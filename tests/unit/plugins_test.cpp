@@ -207,6 +207,34 @@ TEST_CASE("a plugin's manifest must be beside it, must be one, and must be its o
     CHECK(registry.refusals().size() == 4);
 }
 
+TEST_CASE("only the manifests of the kind that is asked for are read") {
+    const fs::path directory = scratch_directory();
+    fs::copy_file(k_shipped / "light-point.so", directory / "light-junk.so");
+    write_file(directory / "light-junk.json", "{]");
+    Registry registry({directory, k_shipped});
+    CHECK(registry.list(PluginKind::image).size() == 3);
+    CHECK(registry.find_format("ppm") != nullptr);
+    CHECK(registry.refusals().empty());
+    CHECK(registry.list(PluginKind::light).front()->manifest.name == "ambient");
+    CHECK(registry.refusals().size() == 1);
+}
+
+TEST_CASE("a manifest of more than a mebibyte is refused") {
+    const fs::path directory = scratch_directory();
+    fs::copy_file(k_shipped / "light-point.so", directory / "light-point.so");
+    candela::Manifest manifest = test_registry().require(PluginKind::light, "point").manifest;
+    const auto refused_with_size = [&](std::size_t size) {
+        std::string text = candela::to_json(manifest);
+        text.append(size - text.size(), '\n');
+        write_file(directory / "light-point.json", text);
+        Registry registry({directory});
+        return registry.find(PluginKind::light, "point") == nullptr &&
+               holds(registry.refusals().at(0).reason, "is larger than 1048576 bytes");
+    };
+    CHECK_FALSE(refused_with_size(std::size_t{1} << 20));
+    CHECK(refused_with_size((std::size_t{1} << 20) + 1));
+}
+
 TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
     Registry registry({k_libraries, k_shipped});
     candela::ParamSet values = registry.parameters(PluginKind::reflection, "throwing");
