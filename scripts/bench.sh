@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures Candela against OpenGL on this machine, in turns, and prints a table; build/bench/results.{md,json}.
-#   scripts/bench.sh                              all scenes, 512 x 512 to 3840 x 2160, seven rounds (some twenty minutes)
-#   scripts/bench.sh --scenes A --sizes 512x512   less
+#   scripts/bench.sh                              all scenes, 512 x 512 to 3840 x 2160, seven rounds (six minutes)
+#   scripts/bench.sh --scenes A --sizes 512x512   less; --threads 1: both with that many, not with all
 #   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
 #   scripts/bench.sh --programs                   against POV-Ray and VTK, whole processes; build/bench/programs.{md,json} (five minutes)
 #   scripts/bench.sh --third-party                plugins built against an installation, as by a third party, against the shipped ones

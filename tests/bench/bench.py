@@ -1,4 +1,5 @@
-"""bench.py BUILD OUT [--scenes A,AR,B,C] [--sizes 512x512,1920x1080,3840x2160] [--rounds 7]: Candela against OpenGL.
+"""bench.py BUILD OUT [--scenes A,AR,B,C] [--sizes 512x512,1920x1080,3840x2160] [--rounds 7] [--threads N]: Candela against
+OpenGL.
 
 The rivals take turns within one run; each figure is the median of its rounds, each ratio is Candela's time over OpenGL's of the
 same round. Writes OUT/results.json and OUT/results.md."""
@@ -33,15 +34,15 @@ def processor():
 
 
 class Bench:
-    def __init__(self, build, out):
+    def __init__(self, build, out, threads=None):
         self.candela = build / "bin/candela"
         self.rival = build / "tests/bench/candela_opengl_rival"
         self.out = out
         # In memory where the system has such a folder: what is measured is the programs, not the disk.
         self.scratch = tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
         self.pictures = pathlib.Path(self.scratch.name)
-        threads = str(os.cpu_count())
-        self.env = {**os.environ, "LP_NUM_THREADS": threads, "CANDELA_PLUGIN_PATH": str(build / "lib/candela/plugins")}
+        self.threads = ["--threads", threads] if threads else []
+        self.env = {**os.environ, "LP_NUM_THREADS": str(threads or os.cpu_count()), "CANDELA_PLUGIN_PATH": str(build / "lib/candela/plugins")}
 
     def dump(self, build, scene):
         file = self.out / f"{scene}.dump"
@@ -50,7 +51,7 @@ class Bench:
 
     def figures(self, scene, width, height, frames):
         return json.loads(run([self.candela, "bench", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height,
-                               "--frames", frames, "--json"], env=self.env))
+                               "--frames", frames, "--json", *self.threads], env=self.env))
 
     def ours(self, scene, width, height, frames):
         figures = self.figures(scene, width, height, frames)
@@ -77,7 +78,8 @@ class Bench:
         return usage.ru_maxrss / 1024
 
     def render_to(self, scene, width, height, file):
-        return [self.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o", file]
+        return [self.candela, "render", HERE / f"scenes/{scene}.toml", "--width", width, "--height", height, "-o", file,
+                *self.threads]
 
     def difference(self, scene, width, height, theirs):
         """Mean difference of Candela's picture from theirs, in levels; far more than rounding is an error."""
@@ -154,6 +156,7 @@ def asked_for(sizes):
     parser.add_argument("--scenes", default="A,AR,B,C")
     parser.add_argument("--sizes", default=sizes)
     parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--threads", type=int)
     arguments = parser.parse_args()
     for scene in arguments.scenes.split(","):
         if not (HERE / f"scenes/{scene}.toml").exists():
@@ -162,6 +165,8 @@ def asked_for(sizes):
         parser.error(f"sizes are like 512x512,1920x1080, not '{arguments.sizes}'")
     if arguments.rounds < 1:
         parser.error("at least one round")
+    if arguments.threads is not None and arguments.threads < 1:
+        parser.error("at least one thread")
     arguments.build, arguments.out = arguments.build.resolve(), arguments.out.resolve()
     arguments.out.mkdir(parents=True, exist_ok=True)
     return arguments
@@ -184,8 +189,8 @@ def write(out, name, machine, results, text):
 def main():
     arguments = asked_for("512x512,1920x1080,3840x2160")
     build, out = arguments.build, arguments.out
-    bench = Bench(build, out)
-    machine = {"processor": processor(), "threads": os.cpu_count(),
+    bench = Bench(build, out, arguments.threads)
+    machine = {"processor": processor(), "threads": arguments.threads or os.cpu_count(),
                "instruction_set": bench.figures("A", 16, 16, 1)["instruction_set"],
                "opengl": run([bench.rival, "--version"], env=bench.env).strip()}
     results = [measure(bench, build, *cell, arguments.rounds) for cell in cells(arguments)]

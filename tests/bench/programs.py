@@ -1,4 +1,5 @@
-"""programs.py BUILD OUT [--scenes A,AR,B,C] [--sizes 512x512,1920x1080] [--rounds 7]: Candela against POV-Ray and VTK.
+"""programs.py BUILD OUT [--scenes A,AR,B,C] [--sizes 512x512,1920x1080] [--rounds 7] [--threads N]: Candela against
+POV-Ray and VTK.
 
 Whole processes from scene to PNG, in turns; each ratio is Candela's time over the other's of the same round. OUT/vtk_rival is
 what vtk.sh built. Writes OUT/programs.json and OUT/programs.md."""
@@ -16,8 +17,9 @@ START_UP = ("A", 16, 16)  # too few pixels to matter
 
 
 class Programs(Bench):
-    def __init__(self, build, out):
-        super().__init__(build, out)
+    def __init__(self, build, out, threads):
+        super().__init__(build, out, threads)
+        self.thread_count = threads or os.cpu_count()
         self.build = build
         self.vtk = out / "vtk_rival"
         if not shutil.which("povray") or not self.vtk.exists():
@@ -44,7 +46,7 @@ class Programs(Bench):
         pictures = {name: self.out / f"{scene}-{name}.png" for name in ("candela", "pov_ray", "vtk")}
         # +Q3: no shadows, as in Candela's picture; no anti-aliasing, no window.
         pov_ray = ["povray", f"+I{file.name}", f"+O{pictures['pov_ray'].name}", f"+W{width}", f"+H{height}",
-                   f"+WT{os.cpu_count()}", "+Q3", "-A", "-D"]
+                   f"+WT{self.thread_count}", "+Q3", "-A", "-D"]
         return {"candela": self.render_to(scene, width, height, pictures["candela"]), "pov_ray": pov_ray,
                 "vtk": [self.vtk, dump, width, height, pictures["vtk"]]}, pictures
 
@@ -81,8 +83,8 @@ def table(results, machine):
 def main():
     arguments = asked_for("512x512,1920x1080")
     os.chdir(arguments.out)  # POV-Ray as Debian has set it up writes here, in /tmp and nowhere else
-    programs = Programs(arguments.build, arguments.out)
-    machine = {"processor": processor(), "threads": os.cpu_count(), **programs.versions()}
+    programs = Programs(arguments.build, arguments.out, arguments.threads)
+    machine = {"processor": processor(), "threads": programs.thread_count, **programs.versions()}
     results = [measure(programs, *START_UP, arguments.rounds)]
     results += [measure(programs, *cell, arguments.rounds) for cell in cells(arguments)]
     write(arguments.out, "programs", machine, results, table(results, machine))
