@@ -31,21 +31,29 @@ namespace {
 struct AddLoop {
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, ConstVec3Span intensity,
                                        Vec3Span pixels) {
-        for (const FragmentRun* run = runs; run != runs + count; ++run) {
-            const std::size_t length = run->count;
-            const Vec3Span to{pixels.x + run->pixel, pixels.y + run->pixel, pixels.z + run->pixel};
-            if (run->weight == 1) {
-                // Nothing else is seen there, and nothing stands there.
-                CANDELA_VECTORIZE
-                for (std::size_t i = 0; i < length; ++i) {
-                    to.x[i] = intensity.x[i];
-                    to.y[i] = intensity.y[i];
-                    to.z[i] = intensity.z[i];
-                }
-            } else {
+        for (const FragmentRun *run = runs, *const end = runs + count; run != end;) {
+            const std::uint32_t first = run->pixel;
+            const Vec3Span to{pixels.x + first, pixels.y + first, pixels.z + first};
+            if (run->weight != 1) {
                 to.x[0] += run->weight * intensity.x[0];
                 to.y[0] += run->weight * intensity.y[0];
                 to.z[0] += run->weight * intensity.z[0];
+                intensity = intensity.from(1);
+                ++run;
+                continue;
+            }
+            // Nothing else is seen there, and nothing stands there. The small triangles of a fine mesh are
+            // neighbours: their runs make one long one.
+            std::uint32_t length = 0;
+            do {
+                length += run->count;
+                ++run;
+            } while (run != end && run->weight == 1 && run->pixel == first + length);
+            CANDELA_VECTORIZE
+            for (std::uint32_t i = 0; i < length; ++i) {
+                to.x[i] = intensity.x[i];
+                to.y[i] = intensity.y[i];
+                to.z[i] = intensity.z[i];
             }
             intensity = intensity.from(length);
         }
