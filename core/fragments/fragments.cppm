@@ -59,9 +59,8 @@ struct FragmentList {
     std::vector<FragmentRun> runs;  // cut where a batch of k_batch_size ends
 
     void begin(std::uint32_t of_object);
-    /// Of at most k_batch_size pixels.
     inline void add(FragmentRun run) {
-        if (run.count > room_) run = add_what_has_room(run);
+        while (run.count > room_) run = add_what_has_room(run);
         room_ -= run.count;
         if (room_ == 0) room_ = k_batch_size;
         runs.push_back(run);

@@ -89,6 +89,38 @@ TEST_CASE("a picture does not depend on the number of threads or the size of the
     }
 }
 
+TEST_CASE("a face that fills rows longer than several batches is the same in tiles of any size") {
+    const candela::CompiledScene scene = compiled(R"(version = 1
+shading = { model = "phong" }
+reflection = { model = "phong" }
+[image]
+width = 1000
+height = 6
+[observer]
+position = [0, 0, 1]
+look_at = [0, 0, 0]
+fov = 1
+[[light]]
+type = "point"
+position = [0.2, 0.1, 0.9]
+[[object]]
+type = "cube"
+scale = [9, 9, 0.1]
+)")
+                                             .scene;
+    const auto picture = [&](int tile_size) {
+        candela::Film film(1000, 6, candela::PixelType::real, candela::ColorEncoding::srgb);
+        CHECK(candela::render(scene, film, {.threads = 1, .tile_size = tile_size}).pixels_shaded == 6000);
+        const auto pixels = film.view().reals;
+        return std::vector<float>(pixels.begin(), pixels.end());
+    };
+    const std::vector<float> expected = picture(64);
+    for (const int tile_size : {256, 512, 1024}) {
+        INFO("tiles of " << tile_size);
+        CHECK((picture(tile_size) == expected));
+    }
+}
+
 TEST_CASE("the command writes the same file with one thread and with eight") {
     const auto directory = scratch_directory();
     const auto scene = write_file(directory / "scene.toml", k_scene).string();
