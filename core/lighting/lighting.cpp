@@ -72,43 +72,32 @@ struct TangentLoop {
     }
 };
 
-/// The largest magnitude, as bits: without their sign, the bits of floats are integers in the same order, and
-/// integers have a maximum that is vectorised. What is no finite number counts as larger than all that are.
-[[gnu::always_inline]] inline std::int32_t largest_bits(float x, float y, float z) {
-    constexpr std::int32_t k_magnitude = 0x7fff'ffff;
-    const std::int32_t a = std::bit_cast<std::int32_t>(x) & k_magnitude;
-    const std::int32_t b = std::bit_cast<std::int32_t>(y) & k_magnitude;
-    const std::int32_t c = std::bit_cast<std::int32_t>(z) & k_magnitude;
-    const std::int32_t ab = a > b ? a : b;
-    return ab > c ? ab : c;
-}
-
-struct LargestLoop {
-    CANDELA_BATCH_LOOP static void run(ConstVec3Span v, std::size_t count, std::int32_t* bits) {
-        std::int32_t largest = 0;
+struct SumLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span d, ConstVec3Span s, std::size_t count,
+                                       Vec3Span sum) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const std::int32_t xyz = largest_bits(v.x[i], v.y[i], v.z[i]);
-            largest = largest > xyz ? largest : xyz;
+            sum.x[i] = a.x[i] + d.x[i] + s.x[i];
+            sum.y[i] = a.y[i] + d.y[i] + s.y[i];
+            sum.z[i] = a.z[i] + d.z[i] + s.z[i];
         }
-        *bits = largest;
     }
 };
 
-/// What three kinds of light add up to, and the largest magnitude of it.
-struct SumLoop {
-    CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span d, ConstVec3Span s, std::size_t count,
-                                       Vec3Span sum, std::int32_t* bits) {
-        std::int32_t largest = 0;
+/// The largest magnitude among many numbers; what is no finite number counts as larger than all that are.
+/// Without their sign, the bits of floats are integers in the same order, and integers have a maximum that is
+/// vectorised.
+struct LargestLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span v, std::size_t count, std::int32_t* bits) {
+        constexpr std::int32_t k_magnitude = 0x7fff'ffff;
+        std::int32_t largest = *bits;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const float x = a.x[i] + d.x[i] + s.x[i];
-            const float y = a.y[i] + d.y[i] + s.y[i];
-            const float z = a.z[i] + d.z[i] + s.z[i];
-            sum.x[i] = x;
-            sum.y[i] = y;
-            sum.z[i] = z;
-            const std::int32_t xyz = largest_bits(x, y, z);
+            const std::int32_t x = std::bit_cast<std::int32_t>(v.x[i]) & k_magnitude;
+            const std::int32_t y = std::bit_cast<std::int32_t>(v.y[i]) & k_magnitude;
+            const std::int32_t z = std::bit_cast<std::int32_t>(v.z[i]) & k_magnitude;
+            const std::int32_t xy = x > y ? x : y;
+            const std::int32_t xyz = xy > z ? xy : z;
             largest = largest > xyz ? largest : xyz;
         }
         *bits = largest;
@@ -222,11 +211,9 @@ void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& p
 float Lighting::light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                       const Vec3Span& intensity) {
     add_up(surface, interior, points, Scrutiny::none);
-    std::int32_t bits = 0;
-    std::int32_t* const largest_bits = &bits;
     multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
-                          std::as_const(specular_).span(), points.count, intensity, largest_bits);
-    const auto largest = std::bit_cast<float>(bits);
+                          std::as_const(specular_).span(), points.count, intensity);
+    const float largest = largest_of(ConstVec3Span(intensity), points.count);
     if (!std::isfinite(largest) || !are_ends_intact()) add_up(surface, interior, points, Scrutiny::each_step);
     return largest;
 }
