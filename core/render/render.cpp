@@ -115,9 +115,9 @@ struct Renderer::Kept {
     Keep what;
     ProjectedScene projected;
     Pool<TileWorker> workers;
-    std::vector<SeenTile> tiles;  // where visibility is kept
-    std::size_t pictures = 0;
+    std::vector<SeenTile> tiles;    // where visibility is kept
     std::optional<SeenScene> seen;  // what the tiles are of, once they are whole
+    bool is_first = true;           // picture
 
     /// The stages from projection on, or from light on.
     RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options,
@@ -174,7 +174,7 @@ RenderStatistics Renderer::render(const CompiledScene& scene, Film& film, const 
     RenderStatistics statistics;
     with_threads(
         options.threads, [&] { statistics = kept_->render(scene, film, options, is_seen); },
-        kept_->pictures++ == 0 ? rough_milliseconds(scene, film) : k_again_and_again);
+        std::exchange(kept_->is_first, false) ? rough_milliseconds(scene, film) : k_again_and_again);
     if (!is_seen) kept_->seen = std::move(to_see);
     return statistics;
 }
