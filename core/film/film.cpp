@@ -19,35 +19,39 @@ namespace candela {
 
 namespace {
 
-/// IEC 61966-2-1:1999, the curve of linear_to_srgb(), of 0 to 1, times 255: to 0.002, which is enough for a
-/// byte and half the work of kernel::pow. x^(1/2.4) = 2^(log2(x) / 2.4), both by Remez exchange.
-[[gnu::always_inline]] inline float srgb_255(float x) {
-    const auto bits = std::bit_cast<std::int32_t>(x);
-    const std::int32_t exponent = (bits - 0x3f3504f3) >> 23;  // mantissa in [sqrt(1/2), sqrt(2))
-    const float f = std::bit_cast<float>(bits - (exponent << 23)) - 1.0f;
-    float log2 = 0.252697393f;
-    log2 = log2 * f - 0.394567142f;
-    log2 = log2 * f + 0.486675952f;
-    log2 = log2 * f - 0.720242572f;
-    log2 = log2 * f + 1.4425785f;
-    const float y = (static_cast<float>(exponent) + log2 * f) * (1 / 2.4f);
-    const float shifted = y + 12582912.0f;  // 1.5 * 2^23: the last bits are y to the nearest integer
-    const float g = y - (shifted - 12582912.0f);
-    float exp2 = 0.00957010201f;
-    exp2 = exp2 * g + 0.0559178603f;
-    exp2 = exp2 * g + 0.240247448f;
-    exp2 = exp2 * g + 0.693121815f;
-    exp2 = exp2 * g + 0.999999261f;
-    const auto power =
-        std::bit_cast<float>(std::bit_cast<std::int32_t>(exp2) +
-                             static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(shifted) << 23));
-    return x <= 0.0031308f ? (255 * 12.92f) * x : (255 * 1.055f) * power - 255 * 0.055f;
+/// How an intensity x of 0 to 1 becomes a byte: a straight line up to `limit`, then the power of sRGB's
+/// curve.
+struct ByteCurve {
+    float limit, slope;
+};
+/// IEC 61966-2-1:1999, the curve of linear_to_srgb(), or no curve at all.
+constexpr ByteCurve curve_of(bool srgb) {
+    return srgb ? ByteCurve{0.0031308f, 255 * 12.92f} : ByteCurve{2, 255};
+}
+
+/// 255 * 1.055 * 2^(e / 2.4) for e = -15 to 0.
+alignas(64) constexpr float k_power_of_exponent[16] = {
+    3.53472122f, 4.71828676f, 6.29815721f, 8.40703125f, 11.2220404f, 14.9796267f, 19.9954028f, 26.6906605f,
+    35.6277574f, 47.5573505f, 63.4814467f, 84.7375651f, 113.111079f, 150.985176f, 201.541031f, 269.025f};
+
+/// sRGB's power, times 255: to 0.0025, which is enough for a byte and a third of the work of kernel::pow.
+/// x^(1/2.4) is that of x's power of two, from a table, times that of its mantissa, a polynomial (Remez
+/// exchange).
+[[gnu::always_inline]] inline float srgb_power_255(float x) {
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    const float m = std::bit_cast<float>((bits & 0x007f'ffffu) | 0x3f80'0000u);  // in [1, 2)
+    float p = -0.0110241992f;
+    p = p * m + 0.0901999225f;
+    p = p * m - 0.320840814f;
+    p = p * m + 0.831304656f;
+    p = p * m + 0.410369503f;
+    return k_power_of_exponent[(bits >> 23) & 15] * p - 255 * 0.055f;
 }
 
 /// A channel to 8 bits: clamped, encoded, rounded. NaN counts as black.
-[[gnu::always_inline]] inline std::uint8_t byte_of(float intensity, bool srgb) {
+[[gnu::always_inline]] inline std::uint8_t byte_of(float intensity, ByteCurve curve) {
     const float x = intensity > 0.0f ? (intensity < 1.0f ? intensity : 1.0f) : 0.0f;
-    const float encoded = srgb ? srgb_255(x) : 255 * x;
+    const float encoded = x <= curve.limit ? curve.slope * x : srgb_power_255(x);
     return static_cast<std::uint8_t>(static_cast<std::int32_t>(encoded + 0.5f));
 }
 
@@ -61,14 +65,15 @@ struct StoredRows {
 
 struct EncodeLoop {
     CANDELA_BATCH_LOOP static void run(StoredRows rows, bool srgb) {
+        const ByteCurve curve = curve_of(srgb);
         for (std::size_t row = 0; row < rows.height; ++row) {
             const ConstVec3Span from = rows.intensity.from(row * rows.stride);
             std::uint8_t* const to = rows.bytes + row * rows.pitch;
             CANDELA_VECTORIZE
             for (std::size_t i = 0; i < rows.width; ++i) {
-                to[3 * i] = byte_of(from.x[i], srgb);
-                to[3 * i + 1] = byte_of(from.y[i], srgb);
-                to[3 * i + 2] = byte_of(from.z[i], srgb);
+                to[3 * i] = byte_of(from.x[i], curve);
+                to[3 * i + 1] = byte_of(from.y[i], curve);
+                to[3 * i + 2] = byte_of(from.z[i], curve);
             }
         }
     }

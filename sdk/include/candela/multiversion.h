@@ -33,7 +33,7 @@ template <class Loop, class... Arguments>
 struct Multiversion {
     [[gnu::noinline]] static void baseline(const Arguments&... arguments) { Loop::run(arguments...); }
 #if defined(__x86_64__)
-    [[gnu::noinline, gnu::target("arch=x86-64-v3")]] static void avx2(const Arguments&... arguments) {
+    [[gnu::noinline, gnu::target("arch=x86-64-v3,tune=skylake")]] static void avx2(const Arguments&... arguments) {
         Loop::run(arguments...);
     }
     [[gnu::noinline, gnu::target("arch=x86-64-v4")]] static void avx512(const Arguments&... arguments) {
