@@ -18,8 +18,10 @@
 
 #if defined(__clang__)
 #define CANDELA_VECTORIZE _Pragma("clang loop vectorize(assume_safety)")
+#define CANDELA_VECTORIZE_CHAIN _Pragma("clang loop vectorize(assume_safety) interleave_count(2)")
 #else
 #define CANDELA_VECTORIZE _Pragma("GCC ivdep")
+#define CANDELA_VECTORIZE_CHAIN CANDELA_VECTORIZE
 #endif
 
 namespace candela {

@@ -54,7 +54,7 @@ struct ReflectLoop {
                                        ReflectedBatch reflected) {
         const vec3 color = kernel_vector(surface.color);
         const std::size_t count = surface.count;
-        CANDELA_VECTORIZE
+        CANDELA_VECTORIZE_CHAIN
         for (std::size_t i = 0; i < count; ++i) {
             const kernel::Surface s = surface_at<tangent>(surface, color, i);
             const kernel::Reflected r = call<reflect>(material, s, kernel_vector(light.to_light[i]));
