@@ -173,8 +173,8 @@ struct PlacesLoop {
                 const float top = run->y;
                 const auto of = static_cast<std::int32_t>(run->triangle);
                 CANDELA_VECTORIZE
-// Else it is unrolled before it can be vectorised.
-#pragma clang loop unroll(disable)
+// Else it is unrolled before it can be vectorised; and narrower vectors would go round a loop of a few turns.
+#pragma clang loop unroll(disable) vectorize_width(16)
                 for (std::size_t i = 0; i < k_overrun; ++i) {
                     x[first + i] = left + static_cast<float>(i);
                     y[first + i] = top;
