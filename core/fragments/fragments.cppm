@@ -20,12 +20,20 @@ export namespace candela {
 /// cache.
 inline constexpr std::size_t k_batch_size = 256;
 
+/// How many floats the widest vectors hold. Loops over so many points, or a multiple, have no remainder that
+/// they take one by one.
+inline constexpr std::size_t k_lanes = 16;
+
+/// `count` rounded up to whole vectors.
+constexpr std::size_t whole_vectors(std::size_t count) { return (count + k_lanes - 1) / k_lanes * k_lanes; }
+
 /// Points of one object's surface, structure of arrays with room for k_batch_size. Reused from batch to
 /// batch.
 struct CANDELA_API SurfacePoints {
     SurfacePoints();
 
     std::size_t count = 0;
+    std::size_t filled = 0;  // whole_vectors(count) or count: from `count` on, the last point again
     Vec3Arrays position;
     Vec3Arrays face_normal;    // unit
     Vec3Arrays vertex_normal;  // interpolated; not unit
@@ -176,7 +184,8 @@ struct InterpolatedSpans {
     Vec3Span barycentric, position, vertex_normal, face_normal;
 };
 
-/// Interpolates over `count` fragments of one triangle, at (x, y).
+/// Interpolates over `count` fragments of one triangle, at (x, y), and over what lies beyond them up to whole
+/// vectors.
 void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
                  const InterpolatedSpans& points);
 
@@ -188,7 +197,8 @@ struct IndexedMesh {
     ConstVec3Span position, vertex_normal, face_normal;
 };
 
-/// Interpolates over `count` fragments of a triangle each, at (x, y). The same numbers as interpolate().
+/// Interpolates over `count` fragments of a triangle each, at (x, y), and over what lies beyond them up to
+/// whole vectors. The same numbers as interpolate().
 void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::int32_t* triangle,
                       const float* x, const float* y, const InterpolatedSpans& points);
 

@@ -104,10 +104,11 @@ void put_place(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds
 }  // namespace
 
 SurfacePoints::SurfacePoints() {
+    // Whole vectors of a batch's last triangle may begin anywhere.
     for (Vec3Arrays* const arrays : {&position, &face_normal, &vertex_normal, &barycentric, &dpdu, &dpdv}) {
-        arrays->resize(k_batch_size);
+        arrays->resize(k_batch_size + k_lanes);
     }
-    for (AlignedVector<float>* const array : {&facing, &u, &v}) array->resize(k_batch_size);
+    for (AlignedVector<float>* const array : {&facing, &u, &v}) array->resize(k_batch_size + k_lanes);
 }
 
 bool ProjectedMesh::is_back(std::uint32_t triangle) const {
@@ -162,20 +163,18 @@ IndexedMesh indexed(const ProjectedMesh& source) {
 
 /// Most runs of a fine mesh are of one or two pixels: to write a whole vector, and the next run over what is
 /// too much of it, takes less time than to count.
-constexpr std::size_t k_overrun = 16;
-
 struct PlacesLoop {
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y,
                                        std::int32_t* triangle) {
         for (const FragmentRun* run = runs; run != runs + count; ++run) {
-            for (std::size_t first = 0; first < run->count; first += k_overrun) {
+            for (std::size_t first = 0; first < run->count; first += k_lanes) {
                 const float left = run->x + static_cast<float>(first);
                 const float top = run->y;
                 const auto of = static_cast<std::int32_t>(run->triangle);
                 CANDELA_VECTORIZE
 // Else it is unrolled before it can be vectorised; and narrower vectors would go round a loop of a few turns.
 #pragma clang loop unroll(disable) vectorize_width(16)
-                for (std::size_t i = 0; i < k_overrun; ++i) {
+                for (std::size_t i = 0; i < k_lanes; ++i) {
                     x[first + i] = left + static_cast<float>(i);
                     y[first + i] = top;
                     triangle[first + i] = of;
@@ -188,10 +187,13 @@ struct PlacesLoop {
     }
 };
 
-/// The fragments of a batch: where they are, and on which triangle.
+/// The fragments of a batch: where they are, and on which triangle. Behind them comes the last one again and
+/// again: a batch is filled up with it, and whole vectors of what began anywhere reach beyond that.
 struct Places {
-    alignas(64) std::array<float, k_batch_size + k_overrun> x, y;
-    alignas(64) std::array<std::int32_t, k_batch_size + k_overrun> triangle;
+    static constexpr std::size_t k_behind = 2 * k_lanes;
+
+    alignas(64) std::array<float, k_batch_size + k_behind> x, y;
+    alignas(64) std::array<std::int32_t, k_batch_size + k_behind> triangle;
     std::size_t count = 0;
 
     Places(const Mesh& mesh, std::span<const FragmentRun> runs) {
@@ -204,19 +206,44 @@ struct Places {
             __builtin_prefetch(&mesh.face_normal.z[run.triangle]);
         }
         multiversion<PlacesLoop>(runs.data(), runs.size(), x.data(), y.data(), triangle.data());
+        std::fill_n(&x[count], k_behind, x[count - 1]);
+        std::fill_n(&y[count], k_behind, y[count - 1]);
+        std::fill_n(&triangle[count], k_behind, triangle[count - 1]);
     }
 };
 
-/// Calls `visit(triangle, first, end)` for each triangle's fragments, side by side in a batch.
+/// Calls `visit(triangle, first, end)` for each triangle's fragments, side by side in a batch; the last
+/// triangle's end where the batch is filled to.
 template <class Visit>
-void each_triangle(std::span<const FragmentRun> runs, Visit visit) {
+void each_triangle(std::span<const FragmentRun> runs, std::size_t filled, Visit visit) {
     std::size_t first = 0;
     for (std::size_t run = 0; run < runs.size();) {
         const std::uint32_t triangle = runs[run].triangle;
         std::size_t end = first;
         for (; run < runs.size() && runs[run].triangle == triangle; ++run) end += runs[run].count;
-        visit(triangle, first, end);
+        visit(triangle, first, run == runs.size() ? filled : end);
         first = end;
+    }
+}
+
+/// Fills a batch that was put together point by point with its last one.
+void fill_up(PointNeeds needs, SurfacePoints& points) {
+    points.filled = whole_vectors(points.count);
+    const auto fill = [&](AlignedVector<float>& array) {
+        std::fill(&array[points.count], &array[points.filled], array[points.count - 1]);
+    };
+    for (Vec3Arrays* const arrays :
+         {&points.position, &points.face_normal, &points.vertex_normal, &points.barycentric}) {
+        for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) fill(*array);
+    }
+    fill(points.facing);
+    if (needs.uv) {
+        fill(points.u);
+        fill(points.v);
+    }
+    if (!needs.derivatives) return;
+    for (Vec3Arrays* const arrays : {&points.dpdu, &points.dpdv}) {
+        for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) fill(*array);
     }
 }
 
@@ -229,6 +256,7 @@ void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> 
                       SurfacePoints& points) {
     const Places places(source.mesh, runs);
     points.count = places.count;
+    points.filled = whole_vectors(places.count);
     const auto spans_from = [&](std::size_t first) -> InterpolatedSpans {
         return {points.barycentric.span().from(first), points.position.span().from(first),
                 points.vertex_normal.span().from(first), points.face_normal.span().from(first)};
@@ -242,19 +270,19 @@ void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> 
                          &places.x[interpolated], &places.y[interpolated], spans_from(interpolated));
         interpolated = end;
     };
-    each_triangle(runs, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+    each_triangle(runs, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
         if (may_fetch && end - first < k_worth_a_loop) return;
         fetch_up_to(first);
         interpolate(attributes_of(source, triangle), end - first, &places.x[first], &places.y[first],
                     spans_from(first));
         interpolated = end;
     });
-    fetch_up_to(places.count);
+    fetch_up_to(points.filled);
 
     points.any_from_behind = false;
-    std::fill_n(points.facing.begin(), places.count, 1.0f);
+    std::fill_n(points.facing.begin(), points.filled, 1.0f);
     if (source.mesh.closed && !needs.uv && !needs.derivatives) return;
-    each_triangle(runs, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+    each_triangle(runs, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
         if (source.is_back(triangle)) {
             points.any_from_behind = true;
             std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
@@ -277,11 +305,12 @@ void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> tr
         points.facing[i] = is_back ? -1.0f : 1.0f;
         points.any_from_behind = points.any_from_behind || is_back;
     }
+    fill_up(needs, points);
 }
 
 void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, ConstVec3Span barycentric,
                    PointNeeds needs, SurfacePoints& points) {
-    points.count = triangles.size();
+    points.count = points.filled = triangles.size();
     points.any_from_behind = false;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         put_place(mesh, triangles[i], barycentric[i], needs, i, points);
@@ -312,6 +341,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
             points.dpdv.span().set(i, mesh.dpdv.empty() ? Vec3{} : mesh.dpdv.span()[v]);
         }
     }
+    fill_up(needs, points);
 }
 
 }  // namespace candela

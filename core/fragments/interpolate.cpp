@@ -102,12 +102,12 @@ struct FetchLoop {
 
 void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
                  const InterpolatedSpans& points) {
-    multiversion<RunLoop>(triangle, count, x, y, points);
+    multiversion<RunLoop>(triangle, whole_vectors(count), x, y, points);
 }
 
 void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::int32_t* triangle,
                       const float* x, const float* y, const InterpolatedSpans& points) {
-    multiversion<FetchLoop>(mesh, count, triangle, x, y, points);
+    multiversion<FetchLoop>(mesh, whole_vectors(count), triangle, x, y, points);
 }
 
 }  // namespace candela

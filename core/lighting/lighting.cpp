@@ -119,6 +119,11 @@ void clear(const Vec3Span& span, std::size_t count) {
     for (float* const channel : {span.x, span.y, span.z}) std::fill_n(channel, count, 0.0f);
 }
 
+/// How many points of a batch are lit: whole vectors, unless rays are followed from each of them.
+std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
+    return surface.reflection->shows_surroundings() ? points.count : points.filled;
+}
+
 /// What a plugin throws, as an error that names it.
 template <class Call>
 void guarded(PluginKind kind, const std::string& plugin, Call call) {
@@ -139,7 +144,7 @@ PointNeeds SurfaceModels::needs() const {
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {
     const ShadingNeeds needs = surface.shading->needs();
     const ShadingPointBatch batch{
-        .count = points.count,
+        .count = points.filled,
         .face_normal = points.face_normal.span(),
         .vertex_normal = points.vertex_normal.span(),
         .barycentric = points.barycentric.span(),
@@ -205,22 +210,23 @@ void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::si
 void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
     guarded(PluginKind::shading, surface.shading_plugin,
             [&] { shading_normals(surface, points, normal_.span()); });
-    if (points.any_from_behind) multiversion<FlipLoop>(points.facing.data(), points.count, normal_.span());
+    if (points.any_from_behind) multiversion<FlipLoop>(points.facing.data(), points.filled, normal_.span());
 }
 
 float Lighting::light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                       const Vec3Span& intensity) {
     add_up(surface, interior, points, Scrutiny::none);
+    const std::size_t count = lit_of(surface, points);
     multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
-                          std::as_const(specular_).span(), points.count, intensity);
-    const float largest = largest_of(ConstVec3Span(intensity), points.count);
+                          std::as_const(specular_).span(), count, intensity);
+    const float largest = largest_of(ConstVec3Span(intensity), count);
     if (!std::isfinite(largest) || !are_ends_intact()) add_up(surface, interior, points, Scrutiny::each_step);
     return largest;
 }
 
 void Lighting::add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                       Scrutiny scrutiny) {
-    const std::size_t count = points.count;
+    const std::size_t count = lit_of(surface, points);
     const auto look_at = [&](PluginKind kind, const std::string& plugin,
                              std::initializer_list<const Vec3Arrays*> results) {
         if (scrutiny == Scrutiny::each_step) require_sound(kind, plugin, count, results);

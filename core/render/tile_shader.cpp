@@ -171,7 +171,7 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
     numbering_.begin(mesh.mesh.triangle_count());
     for (const FragmentRun& run : fragments.runs) numbering_.add(run.triangle);
     const std::span<const std::uint32_t> triangles = numbering_.indices();
-    places_.resize(triangles.size());
+    places_.resize(whole_vectors(triangles.size()));
     for (std::size_t first = 0; first < triangles.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, triangles.size() - first);
         gather_faces(mesh, triangles.subspan(first, count), surface.needs(), points_);
@@ -204,7 +204,7 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
     }
     vertices_.clear();
     for (const std::uint32_t index : numbering_.indices()) vertices_.push_back({index / 2, index % 2 == 1});
-    places_.resize(vertices_.size());
+    places_.resize(whole_vectors(vertices_.size()));
     for (std::size_t first = 0; first < vertices_.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, vertices_.size() - first);
         gather_vertices(mesh, std::span(vertices_).subspan(first, count), surface.needs(), points_);
