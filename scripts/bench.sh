@@ -29,7 +29,8 @@ if [ "${1-}" = --third-party ]; then
     cmake --build --preset release >/dev/null
     exec python3 -B "$root/tests/bench/third_party.py" "$root/build/release" "$root/build/bench/third-party" "${@:2}"
 fi
-cmake --build --preset release --target candela_runtime candela_diff candela_dump_scene candela_opengl_rival >/dev/null
+cmake --build --preset release --target candela_runtime candela_diff candela_dump_scene candela_empty_program \
+    candela_opengl_rival >/dev/null
 if [ "${1-}" = --programs ]; then
     mkdir -p "$root/build/bench"
     "$root/tests/bench/vtk.sh" "$root/build/bench"

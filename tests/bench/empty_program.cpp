@@ -1,0 +1,2 @@
+// Nothing: what start-up is compared with.
+int main() {}
