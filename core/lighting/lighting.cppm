@@ -70,8 +70,8 @@ class CANDELA_API Lighting {
     void begin(const LitScene& scene);
 
     /// Writes the intensity that `points` send to the observer: I_a + sum of I_d + I_s over the lights (CA
-    /// DD6), into arrays with room for `points.filled`. Returns the largest of them. Throws Error, naming the plugin, where one throws, gives what is no
-    /// finite number, or writes beyond its batch.
+    /// DD6), into arrays with room for `points.filled`. Returns the largest of them. Throws Error, naming the
+    /// plugin, where one throws, gives what is no finite number, or writes beyond its batch.
     float light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 const Vec3Span& intensity);
 
