@@ -10,6 +10,10 @@
 //
 // Everything the loop calls must be inlined into it, or it is neither vectorised nor compiled for the wider
 // set; clang warns where a CANDELA_VECTORIZE loop stayed scalar.
+//
+// CANDELA_VECTORIZE_CHAIN is for a loop whose body is one long chain of operations, such as a pow: two
+// vectors side by side keep the processor busy where one only waits for itself. Where there is enough to do
+// side by side, it costs registers.
 #pragma once
 
 #include "candela/api.h"
@@ -35,7 +39,10 @@ template <class Loop, class... Arguments>
 struct Multiversion {
     [[gnu::noinline]] static void baseline(const Arguments&... arguments) { Loop::run(arguments...); }
 #if defined(__x86_64__)
-    [[gnu::noinline, gnu::target("arch=x86-64-v3,tune=skylake")]] static void avx2(const Arguments&... arguments) {
+    // Tuned for processors that gather quickly: without it clang takes what a table or an index names one by
+    // one.
+    [[gnu::noinline, gnu::target("arch=x86-64-v3,tune=skylake")]] static void avx2(
+        const Arguments&... arguments) {
         Loop::run(arguments...);
     }
     [[gnu::noinline, gnu::target("arch=x86-64-v4")]] static void avx512(const Arguments&... arguments) {
