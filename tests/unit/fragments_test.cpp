@@ -1,0 +1,112 @@
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "support/samples.h"
+
+using candela::FragmentRun;
+using candela::Vec3;
+
+namespace {
+
+/// A square of two triangles before an observer of 256 x 256 pixels, with corners of its own colours, so to
+/// say.
+candela::Mesh square() {
+    candela::Mesh mesh;
+    mesh.position.resize(4);
+    mesh.vertex_normal.resize(4);
+    mesh.face_normal.resize(2);
+    const std::array<Vec3, 4> corners = {Vec3{-1, -1, 0}, Vec3{1, -1, -1}, Vec3{1, 1, 0.5f}, Vec3{-1, 1, 0}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        mesh.position.span().set(i, corners[i]);
+        mesh.vertex_normal.span().set(i, {0.1f * static_cast<float>(i), 0.2f, 1});
+    }
+    mesh.corners = {0, 1, 2, 0, 2, 3};
+    mesh.face_normal.span().set(0, {0, 0, 1});
+    mesh.face_normal.span().set(1, {0, 1, 0});
+    return mesh;
+}
+
+struct SquareSeen {
+    candela::Mesh mesh = square();
+    std::array<const candela::Mesh*, 1> meshes{&mesh};
+    candela::ProjectedScene scene =
+        candela::project(meshes,
+                         candela::Camera::looking({0, 0, 3}, {0, 0, 0}, {0, 1, 0},
+                                                  candela::Projection::perspective, 40, 256, 256),
+                         64, 1);
+    candela::ProjectedMesh projected{scene, mesh, 0};
+};
+
+/// All that is known of a point.
+using Point = std::array<Vec3, 4>;
+Point point(const candela::SurfacePoints& points, std::size_t i) {
+    return {points.position.span()[i], points.vertex_normal.span()[i], points.face_normal.span()[i],
+            points.barycentric.span()[i]};
+}
+
+/// Runs of `lengths` pixels, of the two triangles in turns.
+std::vector<FragmentRun> runs_of(const std::vector<std::uint32_t>& lengths) {
+    std::vector<FragmentRun> runs;
+    float x = 3.5f;
+    std::uint32_t triangle = 0;
+    for (const std::uint32_t length : lengths) {
+        runs.push_back({.triangle = triangle, .pixel = 0, .count = length, .x = x, .y = 100.5f, .weight = 1});
+        x += 0.25f;
+        triangle = 1 - triangle;
+    }
+    return runs;
+}
+
+void require_filled(const candela::SurfacePoints& points, std::size_t count) {
+    REQUIRE(points.count == count);
+    REQUIRE(points.filled == (count + 15) / 16 * 16);
+    for (std::size_t i = count; i < points.filled; ++i) {
+        CHECK(point(points, i) == point(points, count - 1));
+        CHECK(points.facing[i] == points.facing[count - 1]);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a batch of fragments is filled up to whole vectors with its last one, whatever its runs") {
+    const SquareSeen seen;
+    candela::SurfacePoints points;
+    // Short runs and long ones, alone and after each other: each way of interpolating, begun anywhere.
+    const std::vector<std::vector<std::uint32_t>> all = {
+        {1},      {5},          {16},         {17},        {1, 16},    {16, 1},
+        {3, 40},  {40, 3},      {7, 7, 7},    {20, 1, 20}, {1, 20, 1}, {15, 15, 15, 15},
+        {10, 11}, {1, 1, 1, 1}, {200, 1, 55}, {5, 250, 1}};
+    for (const std::vector<std::uint32_t>& lengths : all) {
+        const std::vector<FragmentRun> runs = runs_of(lengths);
+        std::vector<Point> one_by_one;
+        for (FragmentRun run : runs) {
+            const std::uint32_t length = run.count;
+            run.count = 1;
+            for (std::uint32_t i = 0; i < length; ++i, run.x += 1) {
+                candela::gather_fragments(seen.projected, {&run, 1}, {}, points);
+                one_by_one.push_back(point(points, 0));
+            }
+        }
+        candela::gather_fragments(seen.projected, runs, {}, points);
+        require_filled(points, one_by_one.size());
+        for (std::size_t i = 0; i < one_by_one.size(); ++i) CHECK(point(points, i) == one_by_one[i]);
+    }
+}
+
+TEST_CASE("batches of faces and of vertices are filled up likewise") {
+    const SquareSeen seen;
+    candela::SurfacePoints points;
+    const std::array<std::uint32_t, 2> faces = {1, 0};
+    candela::gather_faces(seen.projected, faces, {}, points);
+    require_filled(points, 2);
+    const std::array<candela::VertexSide, 3> vertices = {candela::VertexSide{.vertex = 2, .is_back = false},
+                                                         {.vertex = 0, .is_back = false},
+                                                         {.vertex = 3, .is_back = true}};
+    candela::gather_vertices(seen.projected, vertices, {}, points);
+    require_filled(points, 3);
+    CHECK(points.facing[15] == -1);
+}
