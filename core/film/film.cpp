@@ -39,7 +39,7 @@ alignas(64) constexpr float k_power_of_exponent[16] = {
 /// exchange).
 [[gnu::always_inline]] inline float srgb_power_255(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
-    const float m = std::bit_cast<float>((bits & 0x007f'ffffu) | 0x3f80'0000u);  // in [1, 2)
+    const auto m = std::bit_cast<float>((bits & 0x007f'ffffu) | 0x3f80'0000u);  // in [1, 2)
     float p = -0.0110241992f;
     p = p * m + 0.0901999225f;
     p = p * m - 0.320840814f;
