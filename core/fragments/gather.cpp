@@ -232,18 +232,23 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
     const auto fill = [&](AlignedVector<float>& array) {
         std::fill(&array[points.count], &array[points.filled], array[points.count - 1]);
     };
-    for (Vec3Arrays* const arrays :
-         {&points.position, &points.face_normal, &points.vertex_normal, &points.barycentric}) {
-        for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) fill(*array);
-    }
+    const auto fill_all = [&](Vec3Arrays& arrays) {
+        fill(arrays.x);
+        fill(arrays.y);
+        fill(arrays.z);
+    };
+    fill_all(points.position);
+    fill_all(points.face_normal);
+    fill_all(points.vertex_normal);
+    fill_all(points.barycentric);
     fill(points.facing);
     if (needs.uv) {
         fill(points.u);
         fill(points.v);
     }
-    if (!needs.derivatives) return;
-    for (Vec3Arrays* const arrays : {&points.dpdu, &points.dpdv}) {
-        for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) fill(*array);
+    if (needs.derivatives) {
+        fill_all(points.dpdu);
+        fill_all(points.dpdv);
     }
 }
 

@@ -12,8 +12,7 @@ using candela::Vec3;
 
 namespace {
 
-/// A square of two triangles before an observer of 256 x 256 pixels, with corners of its own colours, so to
-/// say.
+/// A square of two triangles; no two corners have the same place or normal.
 candela::Mesh square() {
     candela::Mesh mesh;
     mesh.position.resize(4);
