@@ -113,7 +113,7 @@ int run_bench(const std::vector<std::string>& arguments) {
     const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
     const double read_ms = reading.milliseconds();
     const Stopwatch compiling;
-    const auto scene = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
+    const auto scene = draft ? candela::compile(*draft, registry, diagnostics, plan.threads) : std::nullopt;
     const double compile_ms = compiling.milliseconds();
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!scene) return static_cast<int>(diagnostics.exit_code());

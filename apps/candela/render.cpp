@@ -63,7 +63,7 @@ int run_render(const std::vector<std::string>& arguments) {
     const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
     const double read_ms = total.milliseconds();
     const Stopwatch compiling;
-    const auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
+    const auto compiled = draft ? candela::compile(*draft, registry, diagnostics, threads) : std::nullopt;
     const double compile_ms = compiling.milliseconds();
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!compiled) return static_cast<int>(diagnostics.exit_code());

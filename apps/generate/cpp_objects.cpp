@@ -173,9 +173,8 @@ void CppObjects::require_plain_normals(const ExportedObject& object) {
             registry_.create<candela::ShadingModel>(model.name(), object.shadings[i], encoding_);
         const auto expected = candela::build_mesh(*object.tessellator, {}, object.placement, Plain());
         const auto actual = candela::build_mesh(*object.tessellator, {}, object.placement, *shading);
-        const bool is_plain = expected.vertex_normal.x == actual.vertex_normal.x &&
-                              expected.vertex_normal.y == actual.vertex_normal.y &&
-                              expected.vertex_normal.z == actual.vertex_normal.z;
+        const bool is_plain = std::ranges::equal(expected.vertices, actual.vertices, {},
+                                                 &candela::MeshVertex::normal, &candela::MeshVertex::normal);
         if (!is_plain) {
             throw candela::Error(
                 candela::ExitCode::failure,

@@ -279,10 +279,11 @@ WorldMesh world_mesh(const ExportedScene& scene, const ExportedObject& object, c
         const auto shading = registry.create<candela::ShadingModel>(
             scene.shadings[i].name(), object.shadings[i], scene.image.color_management);
         candela::Mesh mesh = candela::build_mesh(*object.tessellator, request, object.placement, *shading);
+        candela::Vec3Arrays normals = mesh.vertex_normals();
         const auto same = std::ranges::find_if(
-            result.normals, [&](const candela::Vec3Arrays& n) { return are_equal(n, mesh.vertex_normal); });
+            result.normals, [&](const candela::Vec3Arrays& n) { return are_equal(n, normals); });
         result.normals_of.push_back(static_cast<std::size_t>(same - result.normals.begin()));
-        if (same == result.normals.end()) result.normals.push_back(mesh.vertex_normal);
+        if (same == result.normals.end()) result.normals.push_back(std::move(normals));
         if (i == 0) result.mesh = std::move(mesh);
     }
     return result;

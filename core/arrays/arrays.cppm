@@ -1,8 +1,11 @@
 // Arrays for batch loops.
 module;
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <utility>
 #include <vector>
@@ -35,6 +38,24 @@ struct CacheLineAllocator {
 
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+
+/// Memory that begins at a cache line and holds no values until they are written, by whichever thread: only
+/// for what is written as a whole.
+template <class T>
+struct UnwrittenAllocator : CacheLineAllocator<T> {
+    UnwrittenAllocator() = default;
+    template <class Other>
+    // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
+    UnwrittenAllocator(const UnwrittenAllocator<Other>&) noexcept {}
+
+    template <class U, class... Arguments>
+    void construct(U* place, Arguments&&... arguments) {
+        if constexpr (sizeof...(Arguments) > 0) ::new (place) U(std::forward<Arguments>(arguments)...);
+    }
+};
+
+template <class T>
+using UnwrittenVector = std::vector<T, UnwrittenAllocator<T>>;
 
 /// Memory that the system zeroes page by page, for whichever thread writes to a page first. What is
 /// constructed without a value keeps the zeros, so a vector must not shrink and then grow in place.
@@ -80,6 +101,56 @@ struct Vec3Arrays {
     inline bool empty() const { return x.empty(); }
     inline Vec3Span span() { return {x.data(), y.data(), z.data()}; }
     inline ConstVec3Span span() const { return {x.data(), y.data(), z.data()}; }
+};
+
+/// Sixteen records of four floats or integers, column by column, inside a batch loop. To fetch each record as
+/// a whole, from wherever, and to transpose them takes far fewer operations and lines of the cache than to
+/// fetch every number by itself.
+struct Columns {
+    static constexpr std::size_t k_records = 16;
+
+    alignas(64) float real[4][k_records];
+
+    [[gnu::always_inline]] inline std::int32_t integer(std::size_t column, std::size_t record) const {
+        return std::bit_cast<std::int32_t>(real[column][record]);
+    }
+
+    /// `record(i)` is where record i begins: 16 bytes.
+    template <class Record>
+    [[gnu::always_inline]] inline void gather(Record record) {
+        using Four = float __attribute__((vector_size(16)));
+        using Eight = float __attribute__((vector_size(32)));
+        using Sixteen = float __attribute__((vector_size(64)));
+        // Row r is records r, r + 4, r + 8 and r + 12: transposed quarter by quarter, all come out in order.
+        Sixteen row[4];
+        for (std::size_t r = 0; r < 4; ++r) {
+            Four a, b, c, d;
+            std::memcpy(&a, record(r), sizeof a);
+            std::memcpy(&b, record(r + 4), sizeof b);
+            std::memcpy(&c, record(r + 8), sizeof c);
+            std::memcpy(&d, record(r + 12), sizeof d);
+            const Eight ab = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+            const Eight cd = __builtin_shufflevector(c, d, 0, 1, 2, 3, 4, 5, 6, 7);
+            row[r] = __builtin_shufflevector(ab, cd, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        }
+        const Sixteen low_01 =
+            __builtin_shufflevector(row[0], row[1], 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+        const Sixteen high_01 = __builtin_shufflevector(row[0], row[1], 2, 18, 3, 19, 6, 22, 7, 23, 10, 26,
+                                                        11, 27, 14, 30, 15, 31);
+        const Sixteen low_23 =
+            __builtin_shufflevector(row[2], row[3], 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+        const Sixteen high_23 = __builtin_shufflevector(row[2], row[3], 2, 18, 3, 19, 6, 22, 7, 23, 10, 26,
+                                                        11, 27, 14, 30, 15, 31);
+        const Sixteen columns[4] = {
+            __builtin_shufflevector(low_01, low_23, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29),
+            __builtin_shufflevector(low_01, low_23, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30,
+                                    31),
+            __builtin_shufflevector(high_01, high_23, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28,
+                                    29),
+            __builtin_shufflevector(high_01, high_23, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30,
+                                    31)};
+        std::memcpy(real, columns, sizeof real);
+    }
 };
 
 }  // namespace candela

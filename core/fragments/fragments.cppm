@@ -171,11 +171,10 @@ CANDELA_API void gather_places(const Mesh& mesh, std::span<const std::uint32_t> 
 
 namespace candela {
 
-/// A triangle in homogeneous pixels, and its corners' attributes.
+/// A triangle's corners, as they are projected and as they are, and its normal.
 struct TriangleAttributes {
-    float x[3], y[3], w[3];
-    Vec3 position[3];
-    Vec3 normal[3];
+    ProjectedVertex projected[3];
+    MeshVertex corner[3];
     Vec3 face_normal;
 };
 
@@ -189,17 +188,17 @@ struct InterpolatedSpans {
 void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
                  const InterpolatedSpans& points);
 
-/// A mesh whose vertices and triangles have numbers below 2^31.
+/// A mesh and its vertices as they are projected.
 struct IndexedMesh {
-    const std::int32_t* corners;
-    const float *x, *y, *w;  // homogeneous pixels
-    bool perspective;        // else w is 1 instead
-    ConstVec3Span position, vertex_normal, face_normal;
+    const std::uint32_t* corners;
+    const ProjectedVertex* projected;
+    const MeshVertex* vertices;
+    ConstVec3Span face_normal;
 };
 
 /// Interpolates over `count` fragments of a triangle each, at (x, y), and over what lies beyond them up to
 /// whole vectors. The same numbers as interpolate().
-void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::int32_t* triangle,
+void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::uint32_t* triangle,
                       const float* x, const float* y, const InterpolatedSpans& points);
 
 }  // namespace candela

@@ -24,14 +24,12 @@ void keep_in_range(TriangleAttributes& t) {
     constexpr float k_largest_picture = 65536;
     constexpr float k_large = 0x1p40f;
     float largest = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        largest =
-            std::max({largest, std::abs(t.x[k]), std::abs(t.y[k]), k_largest_picture * std::abs(t.w[k])});
+    for (const ProjectedVertex& v : t.projected)
+        largest = std::max({largest, std::abs(v.x), std::abs(v.y), k_largest_picture * std::abs(v.w)});
     if (largest == 0 || (largest < k_large && largest > 1 / k_large)) return;
     const int exponent = -std::ilogb(largest);
-    for (std::size_t k = 0; k < 3; ++k) {
-        for (float* const coordinate : {&t.x[k], &t.y[k], &t.w[k]})
-            *coordinate = std::ldexp(*coordinate, exponent);
+    for (ProjectedVertex& v : t.projected) {
+        for (float* const coordinate : {&v.x, &v.y, &v.w}) *coordinate = std::ldexp(*coordinate, exponent);
     }
 }
 
@@ -93,10 +91,11 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
 void put_place(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
                SurfacePoints& points) {
     const Indices vertices = corners_of(mesh, triangle);
-    const auto blended = [&](const Vec3Arrays& arrays) { return blend(corners(arrays, vertices), weight); };
-    points.position.span().set(i, blended(mesh.position));
+    const MeshVertex &a = mesh.vertices[vertices[0]], &b = mesh.vertices[vertices[1]],
+                     &c = mesh.vertices[vertices[2]];
+    points.position.span().set(i, blend({a.position, b.position, c.position}, weight));
     points.face_normal.span().set(i, mesh.face_normal.span()[triangle]);
-    points.vertex_normal.span().set(i, blended(mesh.vertex_normal));
+    points.vertex_normal.span().set(i, blend({a.normal, b.normal, c.normal}, weight));
     points.barycentric.span().set(i, weight);
     if (needs.uv || needs.derivatives) blend_attributes(mesh, vertices, needs, i, 1, points);
 }
@@ -114,13 +113,12 @@ SurfacePoints::SurfacePoints() {
 bool ProjectedMesh::is_back(std::uint32_t triangle) const {
     if (mesh.closed) return false;
     const Indices vertices = corners_of(mesh, triangle);
-    const bool perspective = scene.camera.projection == Projection::perspective;
     double x[3], y[3], w[3];
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t v = first_vertex + vertices[k];
-        x[k] = scene.x[v];
-        y[k] = scene.y[v];
-        w[k] = perspective ? scene.distance[v] : 1.0f;
+        const ProjectedVertex& v = scene.vertices[first_vertex + vertices[k]];
+        x[k] = v.x;
+        y[k] = v.y;
+        w[k] = v.w;
     }
     // Twice the signed area, y down: the front is counter-clockwise with y up.
     return x[0] * (y[1] * w[2] - y[2] * w[1]) - y[0] * (x[1] * w[2] - x[2] * w[1]) +
@@ -132,16 +130,10 @@ namespace {
 
 TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t triangle) {
     const Indices vertices = corners_of(source.mesh, triangle);
-    const bool perspective = source.scene.camera.projection == Projection::perspective;
-    const ConstVec3Span position = source.mesh.position.span(), normal = source.mesh.vertex_normal.span();
     TriangleAttributes t;
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t v = source.first_vertex + vertices[k];
-        t.x[k] = source.scene.x[v];
-        t.y[k] = source.scene.y[v];
-        t.w[k] = perspective ? source.scene.distance[v] : 1.0f;
-        t.position[k] = position[vertices[k]];
-        t.normal[k] = normal[vertices[k]];
+        t.projected[k] = source.scene.vertices[source.first_vertex + vertices[k]];
+        t.corner[k] = source.mesh.vertices[vertices[k]];
     }
     t.face_normal = source.mesh.face_normal.span()[triangle];
     if (!source.scene.is_moderate) keep_in_range(t);
@@ -149,28 +141,22 @@ TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t tria
 }
 
 IndexedMesh indexed(const ProjectedMesh& source) {
-    const ProjectedScene& scene = source.scene;
-    const Mesh& mesh = source.mesh;
-    return {.corners = reinterpret_cast<const std::int32_t*>(mesh.corners.data()),
-            .x = scene.x.data() + source.first_vertex,
-            .y = scene.y.data() + source.first_vertex,
-            .w = scene.distance.data() + source.first_vertex,
-            .perspective = scene.camera.projection == Projection::perspective,
-            .position = mesh.position.span(),
-            .vertex_normal = mesh.vertex_normal.span(),
-            .face_normal = mesh.face_normal.span()};
+    return {.corners = source.mesh.corners.data(),
+            .projected = source.scene.vertices.data() + source.first_vertex,
+            .vertices = source.mesh.vertices.data(),
+            .face_normal = source.mesh.face_normal.span()};
 }
 
 /// Most runs of a fine mesh are of one or two pixels: to write a whole vector, and the next run over what is
 /// too much of it, takes less time than to count.
 struct PlacesLoop {
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y,
-                                       std::int32_t* triangle) {
+                                       std::uint32_t* triangle) {
         for (const FragmentRun* run = runs; run != runs + count; ++run) {
             for (std::size_t first = 0; first < run->count; first += k_lanes) {
                 const float left = run->x + static_cast<float>(first);
                 const float top = run->y;
-                const auto of = static_cast<std::int32_t>(run->triangle);
+                const std::uint32_t of = run->triangle;
                 CANDELA_VECTORIZE
 // Else it is unrolled before it can be vectorised; and narrower vectors would go round a loop of a few turns.
 #pragma clang loop unroll(disable) vectorize_width(16)
@@ -193,7 +179,7 @@ struct Places {
     static constexpr std::size_t k_behind = 2 * k_lanes;
 
     alignas(64) std::array<float, k_batch_size + k_behind> x, y;
-    alignas(64) std::array<std::int32_t, k_batch_size + k_behind> triangle;
+    alignas(64) std::array<std::uint32_t, k_batch_size + k_behind> triangle;
     std::size_t count = 0;
 
     Places(const Mesh& mesh, std::span<const FragmentRun> runs) {
@@ -266,8 +252,6 @@ void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> 
         return {points.barycentric.span().from(first), points.position.span().from(first),
                 points.vertex_normal.span().from(first), points.face_normal.span().from(first)};
     };
-    constexpr std::size_t k_limit = std::size_t{1} << 31;
-    const bool may_fetch = source.scene.is_moderate && source.mesh.corners.size() < k_limit;
     std::size_t interpolated = 0;
     const auto fetch_up_to = [&](std::size_t end) {
         if (end == interpolated) return;
@@ -276,7 +260,7 @@ void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> 
         interpolated = end;
     };
     each_triangle(runs, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
-        if (may_fetch && end - first < k_worth_a_loop) return;
+        if (source.scene.is_moderate && end - first < k_worth_a_loop) return;
         fetch_up_to(first);
         interpolate(attributes_of(source, triangle), end - first, &places.x[first], &places.y[first],
                     spans_from(first));
@@ -330,7 +314,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
     points.any_from_behind = false;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const std::uint32_t v = vertices[i].vertex;
-        const Vec3 normal = mesh.vertex_normal.span()[v];
+        const Vec3 normal = mesh.vertices[v].normal;
         points.position.span().set(i, mesh.position.span()[v]);
         points.face_normal.span().set(i, normal);
         points.vertex_normal.span().set(i, normal);

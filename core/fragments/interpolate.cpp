@@ -46,19 +46,21 @@ struct Fragment {
 struct RunLoop {
     CANDELA_BATCH_LOOP static void run(TriangleAttributes t, std::size_t count, const float* px,
                                        const float* py, InterpolatedSpans out) {
+        const ProjectedVertex s0 = t.projected[0], s1 = t.projected[1], s2 = t.projected[2];
+        const Vec3 p0 = t.corner[0].position, p1 = t.corner[1].position, p2 = t.corner[2].position;
+        const Vec3 n0 = t.corner[0].normal, n1 = t.corner[1].normal, n2 = t.corner[2].normal;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const Fragment f(px[i], py[i], t.x[0], t.y[0], t.w[0], t.x[1], t.y[1], t.w[1], t.x[2], t.y[2],
-                             t.w[2]);
+            const Fragment f(px[i], py[i], s0.x, s0.y, s0.w, s1.x, s1.y, s1.w, s2.x, s2.y, s2.w);
             out.barycentric.x[i] = f.b0;
             out.barycentric.y[i] = f.b1;
             out.barycentric.z[i] = f.b2;
-            out.position.x[i] = f.blend(t.position[0].x, t.position[1].x, t.position[2].x);
-            out.position.y[i] = f.blend(t.position[0].y, t.position[1].y, t.position[2].y);
-            out.position.z[i] = f.blend(t.position[0].z, t.position[1].z, t.position[2].z);
-            out.vertex_normal.x[i] = f.blend(t.normal[0].x, t.normal[1].x, t.normal[2].x);
-            out.vertex_normal.y[i] = f.blend(t.normal[0].y, t.normal[1].y, t.normal[2].y);
-            out.vertex_normal.z[i] = f.blend(t.normal[0].z, t.normal[1].z, t.normal[2].z);
+            out.position.x[i] = f.blend(p0.x, p1.x, p2.x);
+            out.position.y[i] = f.blend(p0.y, p1.y, p2.y);
+            out.position.z[i] = f.blend(p0.z, p1.z, p2.z);
+            out.vertex_normal.x[i] = f.blend(n0.x, n1.x, n2.x);
+            out.vertex_normal.y[i] = f.blend(n0.y, n1.y, n2.y);
+            out.vertex_normal.z[i] = f.blend(n0.z, n1.z, n2.z);
             out.face_normal.x[i] = t.face_normal.x;
             out.face_normal.y[i] = t.face_normal.y;
             out.face_normal.z[i] = t.face_normal.z;
@@ -66,34 +68,65 @@ struct RunLoop {
     }
 };
 
+/// What a vector of fragments reads of one corner each.
+struct CornerColumns {
+    Columns projected, position, normal;
+
+    [[gnu::always_inline]] void fetch(const IndexedMesh& mesh, const std::uint32_t (&vertex)[k_lanes]) {
+        projected.gather([&](std::size_t i) { return &mesh.projected[vertex[i]].x; });
+        position.gather([&](std::size_t i) { return &mesh.vertices[vertex[i]].position.x; });
+        normal.gather([&](std::size_t i) { return &mesh.vertices[vertex[i]].normal.x; });
+    }
+};
+
 /// Each fragment fetches the corners of its triangle.
 struct FetchLoop {
-    CANDELA_BATCH_LOOP static void run(IndexedMesh m, std::size_t count, const std::int32_t* triangle,
+    CANDELA_BATCH_LOOP static void run(IndexedMesh m, std::size_t count, const std::uint32_t* triangle,
                                        const float* px, const float* py, InterpolatedSpans out) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::int32_t t = triangle[i];
-            const std::int32_t corner = 3 * t;
-            const std::int32_t v0 = m.corners[corner], v1 = m.corners[corner + 1], v2 = m.corners[corner + 2];
-            const float w0 = m.perspective ? m.w[v0] : 1.0f;
-            const float w1 = m.perspective ? m.w[v1] : 1.0f;
-            const float w2 = m.perspective ? m.w[v2] : 1.0f;
-            const Fragment f(px[i], py[i], m.x[v0], m.y[v0], w0, m.x[v1], m.y[v1], w1, m.x[v2], m.y[v2], w2);
-            out.barycentric.x[i] = f.b0;
-            out.barycentric.y[i] = f.b1;
-            out.barycentric.z[i] = f.b2;
-            out.position.x[i] = f.blend(m.position.x[v0], m.position.x[v1], m.position.x[v2]);
-            out.position.y[i] = f.blend(m.position.y[v0], m.position.y[v1], m.position.y[v2]);
-            out.position.z[i] = f.blend(m.position.z[v0], m.position.z[v1], m.position.z[v2]);
-            out.vertex_normal.x[i] =
-                f.blend(m.vertex_normal.x[v0], m.vertex_normal.x[v1], m.vertex_normal.x[v2]);
-            out.vertex_normal.y[i] =
-                f.blend(m.vertex_normal.y[v0], m.vertex_normal.y[v1], m.vertex_normal.y[v2]);
-            out.vertex_normal.z[i] =
-                f.blend(m.vertex_normal.z[v0], m.vertex_normal.z[v1], m.vertex_normal.z[v2]);
-            out.face_normal.x[i] = m.face_normal.x[t];
-            out.face_normal.y[i] = m.face_normal.y[t];
-            out.face_normal.z[i] = m.face_normal.z[t];
+        CornerColumns c0, c1, c2;
+        for (std::size_t first = 0; first < count; first += k_lanes) {
+            std::uint32_t vertex[3][k_lanes];
+// As numbers, one by one: they are addresses next, not vectors.
+#pragma clang loop unroll(disable) vectorize(disable)
+            for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+                const std::uint32_t* const corners = m.corners + 3 * std::size_t{triangle[first + lane]};
+                vertex[0][lane] = corners[0];
+                vertex[1][lane] = corners[1];
+                vertex[2][lane] = corners[2];
+            }
+            c0.fetch(m, vertex[0]);
+            c1.fetch(m, vertex[1]);
+            c2.fetch(m, vertex[2]);
+            CANDELA_VECTORIZE
+// Else it is unrolled before it can be vectorised; and narrower vectors would go round a loop of a few turns.
+#pragma clang loop unroll(disable) vectorize_width(16)
+            for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+                const std::size_t i = first + lane;
+                const std::uint32_t t = triangle[i];
+                const Fragment f(px[i], py[i], c0.projected.real[0][lane], c0.projected.real[1][lane],
+                                 c0.projected.real[2][lane], c1.projected.real[0][lane],
+                                 c1.projected.real[1][lane], c1.projected.real[2][lane],
+                                 c2.projected.real[0][lane], c2.projected.real[1][lane],
+                                 c2.projected.real[2][lane]);
+                out.barycentric.x[i] = f.b0;
+                out.barycentric.y[i] = f.b1;
+                out.barycentric.z[i] = f.b2;
+                out.position.x[i] =
+                    f.blend(c0.position.real[0][lane], c1.position.real[0][lane], c2.position.real[0][lane]);
+                out.position.y[i] =
+                    f.blend(c0.position.real[1][lane], c1.position.real[1][lane], c2.position.real[1][lane]);
+                out.position.z[i] =
+                    f.blend(c0.position.real[2][lane], c1.position.real[2][lane], c2.position.real[2][lane]);
+                out.vertex_normal.x[i] =
+                    f.blend(c0.normal.real[0][lane], c1.normal.real[0][lane], c2.normal.real[0][lane]);
+                out.vertex_normal.y[i] =
+                    f.blend(c0.normal.real[1][lane], c1.normal.real[1][lane], c2.normal.real[1][lane]);
+                out.vertex_normal.z[i] =
+                    f.blend(c0.normal.real[2][lane], c1.normal.real[2][lane], c2.normal.real[2][lane]);
+                out.face_normal.x[i] = m.face_normal.x[t];
+                out.face_normal.y[i] = m.face_normal.y[t];
+                out.face_normal.z[i] = m.face_normal.z[t];
+            }
         }
     }
 };
@@ -105,7 +138,7 @@ void interpolate(const TriangleAttributes& triangle, std::size_t count, const fl
     multiversion<RunLoop>(triangle, whole_vectors(count), x, y, points);
 }
 
-void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::int32_t* triangle,
+void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::uint32_t* triangle,
                       const float* x, const float* y, const InterpolatedSpans& points) {
     multiversion<FetchLoop>(mesh, whole_vectors(count), triangle, x, y, points);
 }

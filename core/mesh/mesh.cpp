@@ -19,6 +19,7 @@ module candela.mesh;
 
 import candela.geometry;
 import candela.memory;
+import candela.parallel;
 
 namespace candela {
 
@@ -158,6 +159,9 @@ void check(const Collector& collected) {
     }
 }
 
+/// Triangles or vertices: enough to be worth a thread's while.
+constexpr std::size_t k_per_task = 16384;
+
 /// CA DD8, in double: the product of two short edges must not vanish.
 struct FaceNormalLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span position, const std::uint32_t* corners,
@@ -182,9 +186,11 @@ struct FaceNormalLoop {
 
 void make_face_normals(Mesh& mesh) {
     mesh.face_normal.resize(mesh.triangle_count());
-    const std::uint32_t* const corners = mesh.corners.data();
-    multiversion<FaceNormalLoop>(std::as_const(mesh.position).span(), corners, mesh.triangle_count(),
-                                 mesh.face_normal.span());
+    parallel_for(mesh.triangle_count(), k_per_task, [&](std::size_t begin, std::size_t end) {
+        const std::uint32_t* const corners = &mesh.corners[3 * begin];
+        multiversion<FaceNormalLoop>(std::as_const(mesh.position).span(), corners, end - begin,
+                                     mesh.face_normal.span().from(begin));
+    });
 }
 
 /// How many edges do not lie between two triangles that agree on what is outside. Vertices at one place count
@@ -239,20 +245,16 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
         if (normal.span()[i] != Vec3{k_mark, k_mark, k_mark})
             throw std::invalid_argument("it writes more vertex normals than there are vertices");
     }
-    if (has_groups) {
-        mesh.vertex_normal.resize(count);
-        for (std::size_t i = 0; i < count; ++i)
-            mesh.vertex_normal.span().set(i, std::as_const(normal).span()[placed.smooth_group[i]]);
-    } else {
-        normal.resize(count);
-        mesh.vertex_normal = std::move(normal);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec3 n = std::as_const(mesh.vertex_normal).span()[i];
-        if (!std::isfinite(n.x + n.y + n.z))
-            throw std::invalid_argument(
-                fmt::format("the normal that it gives vertex {} is no finite number", i));
-    }
+    mesh.vertices.resize(count);
+    parallel_for(count, k_per_task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vec3 n = std::as_const(normal).span()[has_groups ? placed.smooth_group[i] : i];
+            if (!std::isfinite(n.x + n.y + n.z))
+                throw std::invalid_argument(
+                    fmt::format("the normal that it gives vertex {} is no finite number", i));
+            mesh.vertices[i] = {.position = std::as_const(mesh.position).span()[i], .normal = n};
+        }
+    });
 }
 
 }  // namespace

@@ -18,20 +18,34 @@ import candela.shape;
 
 export namespace candela {
 
+/// What is read of a vertex wherever a triangle is seen, side by side: one line of the cache instead of six.
+struct alignas(32) MeshVertex {
+    Vec3 position;
+    float nothing = 0;  // four floats are fetched at once
+    Vec3 normal;        // unit
+    float nothing_else = 0;
+};
+
 /// Triangles in world space. Vertices are shared; corners of a triangle run counter-clockwise seen from
 /// outside.
 struct Mesh {
-    Vec3Arrays position;
+    Vec3Arrays position;  // for loops over all vertices
     std::vector<std::uint32_t> corners;
-    Vec3Arrays face_normal;    // a triangle each, unit; zero where it has no area
-    Vec3Arrays vertex_normal;  // a vertex each, unit
-    std::vector<float> u, v;   // a vertex each, or empty
-    Vec3Arrays dpdu, dpdv;     // a vertex each, or empty
-    bool closed = false;       // else it is seen from both sides
+    Vec3Arrays face_normal;  // a triangle each, unit; zero where it has no area
+    UnwrittenVector<MeshVertex> vertices;
+    std::vector<float> u, v;  // a vertex each, or empty
+    Vec3Arrays dpdu, dpdv;    // a vertex each, or empty
+    bool closed = false;      // else it is seen from both sides
     std::size_t open_edges = 0;
 
     inline std::size_t vertex_count() const { return position.size(); }
     inline std::size_t triangle_count() const { return corners.size() / 3; }
+    inline Vec3Arrays vertex_normals() const {
+        Vec3Arrays normals;
+        normals.resize(vertices.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i) normals.span().set(i, vertices[i].normal);
+        return normals;
+    }
 };
 
 /// A mesh before it has normals, and what a shading model makes them from.
@@ -46,7 +60,8 @@ struct PlacedShape {
 /// corner that is no vertex, or with a position that is no finite number.
 CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, const Placement& placement);
 
-/// Gives a mesh its face normals, and the vertex normals of `shading`. Throws what the shading model throws.
+/// Gives a mesh its face normals, and the vertex normals of `shading`, with the threads that with_threads()
+/// allows. Throws what the shading model throws.
 CANDELA_API Mesh with_normals(PlacedShape placed, const ShadingModel& shading);
 
 /// Both in one.

@@ -117,9 +117,9 @@ class Binner {
 
   private:
     ClipVertex vertex(std::size_t i) const {
-        const float distance = scene_.distance[i];
-        if (perspective_) return {scene_.x[i], scene_.y[i], distance, distance - k_near, 1};
-        return {scene_.x[i], scene_.y[i], 1, distance, -distance};
+        const ProjectedVertex& v = scene_.vertices[i];
+        if (perspective_) return {v.x, v.y, v.w, v.distance - k_near, 1};
+        return {v.x, v.y, v.w, v.distance, -v.distance};
     }
 
     // Clipping against the picture itself would be needless work, as the rasteriser looks at the picture's

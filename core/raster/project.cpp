@@ -25,75 +25,62 @@ constexpr std::size_t k_triangles_per_bin = 4096;
 constexpr std::size_t k_vertices_per_task = 16384;
 constexpr float k_moderate = 0x1p40f;
 
+/// The bits of a magnitude, which as integers are in the same order.
+[[gnu::always_inline]] inline std::int32_t magnitude(float x) {
+    return std::bit_cast<std::int32_t>(x) & 0x7fff'ffff;
+}
+
+/// Vertices to homogeneous pixels and to fixed-point ones. `*largest_bits`: the largest magnitude among
+/// homogeneous pixels and, times the largest picture's size, distances.
 struct ProjectLoop {
-    CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count, float* x,
-                                       float* y, float* distance) {
+    CANDELA_BATCH_LOOP static void run(Camera camera, int subpixel_bits, ConstVec3Span position,
+                                       std::size_t count, ProjectedVertex* projected, ScreenVertex* screen,
+                                       std::int32_t* largest_bits) {
         const Vec3 eye = camera.eye;
         const float scale = camera.pixels_per_unit;
-        const float cx = 0.5f * static_cast<float>(camera.width);
-        const float cy = 0.5f * static_cast<float>(camera.height);
+        const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
+        const float cx = 0.5f * width, cy = 0.5f * height;
+        const auto one = static_cast<float>(1 << subpixel_bits);
         const bool perspective = camera.projection == Projection::perspective;
+        constexpr float k_largest_picture = 65536;
+        std::int32_t largest = *largest_bits;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 d = position[i] - eye;
-            const float along = dot(camera.forward, d);
-            const float w = perspective ? along : 1.0f;
-            x[i] = scale * dot(camera.right, d) + cx * w;
-            y[i] = cy * w - scale * dot(camera.up, d);
-            distance[i] = along;
-        }
-    }
-};
+            const float distance = dot(camera.forward, d);
+            const float w = perspective ? distance : 1.0f;
+            const float x = scale * dot(camera.right, d) + cx * w;
+            const float y = cy * w - scale * dot(camera.up, d);
+            projected[i].x = x;
+            projected[i].y = y;
+            projected[i].w = w;
+            projected[i].distance = distance;
 
-/// Vertices in homogeneous pixels to fixed-point ones.
-struct ScreenLoop {
-    CANDELA_BATCH_LOOP static void run(Camera camera, int subpixel_bits, std::size_t count, const float* x,
-                                       const float* y, const float* distance, ScreenVertex* screen) {
-        const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
-        const auto one = static_cast<float>(1 << subpixel_bits);
-        const bool perspective = camera.projection == Projection::perspective;
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const float w = perspective ? distance[i] : 1.0f;
-            const float ahead = perspective ? distance[i] - k_near : distance[i];
-            const float half_x = 0.5f * width * w, half_y = 0.5f * height * w;
-            const std::uint32_t view = (ahead < 0 ? Outside::near : 0u) | (x[i] < 0 ? Outside::left : 0u) |
-                                       (x[i] > width * w ? Outside::right : 0u) |
-                                       (y[i] < 0 ? Outside::top : 0u) |
-                                       (y[i] > height * w ? Outside::bottom : 0u);
+            // No && and ||, which are branches: stores behind one are made one by one.
+            const float ahead = perspective ? distance - k_near : distance;
+            const float half_x = cx * w, half_y = cy * w;
+            const std::uint32_t view = (ahead < 0 ? Outside::near : 0u) | (x < 0 ? Outside::left : 0u) |
+                                       (x > width * w ? Outside::right : 0u) | (y < 0 ? Outside::top : 0u) |
+                                       (y > height * w ? Outside::bottom : 0u);
             const bool is_near =
-                ahead >= 0 && x[i] >= -half_x && x[i] <= 3 * half_x && y[i] >= -half_y && y[i] <= 3 * half_y;
+                (ahead >= 0) & (x >= -half_x) & (x <= 3 * half_x) & (y >= -half_y) & (y <= 3 * half_y);
             const float inverse = 1 / w;
-            const float px = x[i] * inverse, py = y[i] * inverse;
-            const float from_x = kernel::abs(px - 0.5f * width), from_y = kernel::abs(py - 0.5f * height);
-            const bool is_somewhere = from_x <= 1.01f * width && from_y <= 1.01f * height;
+            const float px = x * inverse, py = y * inverse;
+            const float from_x = kernel::abs(px - cx), from_y = kernel::abs(py - cy);
+            const bool is_somewhere = (from_x <= 1.01f * width) & (from_y <= 1.01f * height);
             screen[i].x = static_cast<std::int32_t>(kernel::round_to_even(is_somewhere ? px * one : 0.0f));
             screen[i].y = static_cast<std::int32_t>(kernel::round_to_even(is_somewhere ? py * one : 0.0f));
-            screen[i].closeness = perspective ? inverse : -distance[i];
+            screen[i].closeness = perspective ? inverse : -distance;
             screen[i].outside =
-                view | (is_near ? 0u : Outside::guard) | (is_near && !is_somewhere ? Outside::nowhere : 0u);
-        }
-    }
-};
+                view | (is_near ? 0u : Outside::guard) | ((is_near & !is_somewhere) ? Outside::nowhere : 0u);
 
-/// The largest magnitude among homogeneous pixels and, times the largest picture's size, w. As integers,
-/// which without a sign are in the same order as the floats of their bits.
-struct MagnitudeLoop {
-    CANDELA_BATCH_LOOP static void run(std::size_t count, const float* x, const float* y,
-                                       const float* distance, std::int32_t* bits) {
-        constexpr std::int32_t k_magnitude = 0x7fff'ffff;
-        constexpr float k_largest_picture = 65536;
-        std::int32_t largest = *bits;
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::int32_t at_x = std::bit_cast<std::int32_t>(x[i]) & k_magnitude;
-            const std::int32_t at_y = std::bit_cast<std::int32_t>(y[i]) & k_magnitude;
-            const std::int32_t w = std::bit_cast<std::int32_t>(k_largest_picture * distance[i]) & k_magnitude;
+            const std::int32_t at_x = magnitude(x), at_y = magnitude(y);
+            const std::int32_t far = magnitude(k_largest_picture * distance);
             const std::int32_t xy = at_x > at_y ? at_x : at_y;
-            const std::int32_t xyw = xy > w ? xy : w;
-            largest = largest > xyw ? largest : xyw;
+            const std::int32_t all = xy > far ? xy : far;
+            largest = largest > all ? largest : all;
         }
-        *bits = largest;
+        *largest_bits = largest;
     }
 };
 
@@ -142,24 +129,16 @@ void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile
     }
     scene.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
 
-    scene.x.resize(vertices);
-    scene.y.resize(vertices);
-    scene.distance.resize(vertices);
+    scene.vertices.resize(vertices);
     scene.screen.resize(vertices);
     std::atomic<bool> is_moderate{true};
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         parallel_for(meshes[m]->vertex_count(), k_vertices_per_task, [&](std::size_t begin, std::size_t end) {
             const std::size_t at = scene.first_vertex[m] + begin;
-            float* const x = &scene.x[at];
-            float* const y = &scene.y[at];
-            float* const distance = &scene.distance[at];
-            multiversion<ProjectLoop>(camera, meshes[m]->position.span().from(begin), end - begin, x, y,
-                                      distance);
-            multiversion<ScreenLoop>(camera, scene.subpixel_bits, end - begin, x, y, distance,
-                                     &scene.screen[at]);
             std::int32_t largest = 0;
-            std::int32_t* const bits = &largest;
-            multiversion<MagnitudeLoop>(end - begin, x, y, distance, bits);
+            std::int32_t* const largest_bits = &largest;
+            multiversion<ProjectLoop>(camera, scene.subpixel_bits, meshes[m]->position.span().from(begin),
+                                      end - begin, &scene.vertices[at], &scene.screen[at], largest_bits);
             if (!(std::bit_cast<float>(largest) < k_moderate)) is_moderate = false;
         });
     }

@@ -55,6 +55,13 @@ struct RasterTriangle {
     std::uint32_t id;
 };
 
+/// A vertex in homogeneous pixels: it is seen at (x / w, y / w).
+struct alignas(16) ProjectedVertex {
+    float x, y;
+    float w;         // in perspective the distance, in an orthographic view 1
+    float distance;  // along the view
+};
+
 /// A vertex in fixed-point pixels; what of it lies outside the view, as bits that Outside names.
 struct ScreenVertex {
     std::int32_t x, y;
@@ -78,10 +85,9 @@ struct ProjectedScene {
     int subpixel_bits = 8;
     int tile_columns = 0, tile_rows = 0;
 
-    // Per vertex, all meshes in turn: its pixel position times w, and its distance along the view. In
-    // perspective w is that distance, in an orthographic view it is 1.
-    AlignedVector<float> x, y, distance;
-    std::vector<ScreenVertex> screen;
+    // Per vertex, all meshes in turn.
+    AlignedVector<ProjectedVertex> vertices;
+    AlignedVector<ScreenVertex> screen;
     bool is_moderate = true;                  // products of two homogeneous pixels are within a float's range
     std::vector<std::uint32_t> first_vertex;  // of each mesh
     std::vector<std::uint32_t> first_triangle;  // of each mesh, and the total

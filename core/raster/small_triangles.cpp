@@ -51,15 +51,32 @@ struct Edge {
 struct SmallLoop {
     CANDELA_BATCH_LOOP static void run(const RasterTriangle* all, const std::uint32_t* numbers,
                                        std::size_t count, int bits, SmallTriangles* out) {
-        constexpr std::int32_t k_words = sizeof(RasterTriangle) / sizeof(std::int32_t);
-        const std::int32_t* const words = &all->x[0];
-        const float* const reals = &all->closeness[0];
+        for (std::size_t first = 0; first < count; first += Columns::k_records)
+            run_some(all, numbers + first, count - first, bits, first, out);
+    }
+
+  private:
+    /// Sixteen; where there are fewer, the last again and again.
+    [[gnu::always_inline]] static void run_some(const RasterTriangle* all, const std::uint32_t* numbers,
+                                                std::size_t count, int bits, std::size_t first,
+                                                SmallTriangles* out) {
+        const auto triangle = [&](std::size_t i) -> const RasterTriangle& {
+            return all[numbers[i < count ? i : count - 1]];
+        };
+        Columns begin, middle, end;  // of a triangle: overlapping
+        begin.gather([&](std::size_t i) { return &triangle(i).x[0]; });
+        middle.gather([&](std::size_t i) { return &triangle(i).y[1]; });
+        end.gather([&](std::size_t i) { return &triangle(i).closeness[0]; });
         const std::int32_t one = 1 << bits, half = one / 2;
         CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::int32_t at = static_cast<std::int32_t>(numbers[i]) * k_words;
-            const std::int32_t ax = words[at], bx = words[at + 1], cx = words[at + 2];
-            const std::int32_t ay = words[at + 3], by = words[at + 4], cy = words[at + 5];
+// Else it is unrolled before it can be vectorised; and narrower vectors would go round a loop of a few turns.
+#pragma clang loop unroll(disable) vectorize_width(16)
+        for (std::size_t lane = 0; lane < Columns::k_records; ++lane) {
+            const std::size_t i = first + lane;
+            const std::int32_t ax = begin.integer(0, lane), bx = begin.integer(1, lane),
+                               cx = begin.integer(2, lane);
+            const std::int32_t ay = begin.integer(3, lane), by = middle.integer(0, lane),
+                               cy = middle.integer(1, lane);
             const std::int32_t x0 = (least(ax, bx, cx) + half - 1) >> bits;
             const std::int32_t y0 = (least(ay, by, cy) + half - 1) >> bits;
             const std::int32_t x1 = (most(ax, bx, cx) - half) >> bits;
@@ -78,7 +95,7 @@ struct SmallLoop {
             out->covered[i] = covered_of_row(a, b, c, 0) | covered_of_row(a, b, c, 1) |
                               covered_of_row(a, b, c, 2) | covered_of_row(a, b, c, 3);
 
-            const float z = reals[at], zv = reals[at + 1] - z, zw = reals[at + 2] - z;
+            const float z = end.real[0][lane], zv = end.real[1][lane] - z, zw = end.real[2][lane] - z;
             const auto dvx = static_cast<float>(vx - ux), dvy = static_cast<float>(vy - uy);
             const auto dwx = static_cast<float>(wx - ux), dwy = static_cast<float>(wy - uy);
             const float area = dvx * dwy - dwx * dvy;

@@ -19,6 +19,7 @@ import candela.diagnostics;
 import candela.environment;
 import candela.light;
 import candela.mesh;
+import candela.parallel;
 import candela.params;
 import candela.plugins;
 import candela.reflection;
@@ -42,9 +43,17 @@ class Compiler {
         check(draft);
     }
 
-    std::optional<CompiledScene> take() {
+    std::optional<CompiledScene> take(int threads) {
         if (diagnostics_.has_errors()) return std::nullopt;
-        for (std::size_t i = 0; i < scene_.objects.size(); ++i) finish(i);
+        double triangles = 0;
+        for (const auto& placed : placed_) triangles += static_cast<double>(placed->mesh.triangle_count());
+        constexpr double k_milliseconds = 2e-5;  // a triangle's normals, by one thread
+        with_threads(
+            threads,
+            [&] {
+                for (std::size_t i = 0; i < scene_.objects.size(); ++i) finish(i);
+            },
+            k_milliseconds * triangles);
         if (diagnostics_.has_errors()) return std::nullopt;
         return std::move(compiled_);
     }
@@ -151,12 +160,14 @@ class Compiler {
 
 }  // namespace
 
-std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics) {
-    return Compiler(draft, registry, diagnostics).take();
+std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
+                                     int threads) {
+    return Compiler(draft, registry, diagnostics).take(threads);
 }
 
-std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics) {
-    return compile(SceneDraft{.scene = scene}, registry, diagnostics);
+std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics,
+                                     int threads) {
+    return compile(SceneDraft{.scene = scene}, registry, diagnostics, threads);
 }
 
 }  // namespace candela

@@ -49,11 +49,11 @@ struct CompiledScene {
 
 /// Loads what the scene names, and nothing else, tessellates its objects and checks what only triangles can
 /// tell. Reports what fails, with the light or object that wanted it, and returns nothing then, or where
-/// errors were reported before; reports meshes that are not closed.
+/// errors were reported before; reports meshes that are not closed. `threads`: as in RenderOptions.
 CANDELA_API std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
-                                                 Diagnostics& diagnostics);
+                                                 Diagnostics& diagnostics, int threads = 0);
 CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
-                                                 Diagnostics& diagnostics);
+                                                 Diagnostics& diagnostics, int threads = 0);
 
 struct RenderOptions {
     int threads = 0;  // 0: all, but one for a first picture that is done before others would start

@@ -84,7 +84,7 @@ int run(const std::string& scene_file, const std::string& out_file) {
         dump.shininess = value_of(material, "shininess", encoding).number[0];
         put(out, &dump, 1);
         put_vectors(out, mesh.position);
-        put_vectors(out, mesh.vertex_normal);
+        put_vectors(out, mesh.vertex_normals());
         put(out, mesh.corners.data(), mesh.corners.size());
     }
     return out.flush() ? 0 : 1;

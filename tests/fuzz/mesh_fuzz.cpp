@@ -92,11 +92,11 @@ void check(const candela::Mesh& mesh) {
     require(mesh.triangle_count() > 0, "a mesh without triangles");
     for (const std::uint32_t corner : mesh.corners)
         require(corner < mesh.vertex_count(), "a corner is no vertex");
-    require(mesh.vertex_normal.size() == mesh.vertex_count(), "vertices without normals");
+    require(mesh.vertices.size() == mesh.vertex_count(), "vertices without normals");
     require(mesh.face_normal.size() == mesh.triangle_count(), "triangles without normals");
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         require(is_finite(mesh.position.span()[i]), "a position is not finite");
-        const Vec3 n = mesh.vertex_normal.span()[i];
+        const Vec3 n = mesh.vertices[i].normal;
         require(is_unit_or_zero(n),
                 fmt::format("vertex normal ({}, {}, {}) is neither unit nor zero", n.x, n.y, n.z));
     }

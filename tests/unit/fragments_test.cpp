@@ -16,12 +16,11 @@ namespace {
 candela::Mesh square() {
     candela::Mesh mesh;
     mesh.position.resize(4);
-    mesh.vertex_normal.resize(4);
     mesh.face_normal.resize(2);
     const std::array<Vec3, 4> corners = {Vec3{-1, -1, 0}, Vec3{1, -1, -1}, Vec3{1, 1, 0.5f}, Vec3{-1, 1, 0}};
     for (std::size_t i = 0; i < 4; ++i) {
         mesh.position.span().set(i, corners[i]);
-        mesh.vertex_normal.span().set(i, {0.1f * static_cast<float>(i), 0.2f, 1});
+        mesh.vertices.push_back({.position = corners[i], .normal = {0.1f * static_cast<float>(i), 0.2f, 1}});
     }
     mesh.corners = {0, 1, 2, 0, 2, 3};
     mesh.face_normal.span().set(0, {0, 0, 1});

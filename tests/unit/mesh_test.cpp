@@ -148,8 +148,7 @@ TEST_CASE("vertex normals of a fine sphere converge to the sphere's own, across 
     const Mesh mesh = build(*instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{256}}}));
     double worst = 1;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        worst =
-            std::min(worst, dot(exact(mesh.vertex_normal.span()[i]), unit(exact(mesh.position.span()[i]))));
+        worst = std::min(worst, dot(exact(mesh.vertices[i].normal), unit(exact(mesh.position.span()[i]))));
     }
     CHECK(worst > 0.99999);
 }
@@ -158,7 +157,7 @@ TEST_CASE("a cube keeps its sharp edges: the normals of a corner are those of it
     const Mesh mesh = build(*instance<Shape>("cube"));
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            CHECK(mesh.vertex_normal.span()[mesh.corners[3 * t + k]] == mesh.face_normal.span()[t]);
+            CHECK(mesh.vertices[mesh.corners[3 * t + k]].normal == mesh.face_normal.span()[t]);
         }
     }
 }
@@ -224,5 +223,5 @@ TEST_CASE("a triangle without area has no normal, and does no harm to its neighb
     shape.corners = {0, 1, 2, 0, 1, 3};
     const Mesh mesh = build(shape);
     CHECK(mesh.face_normal.span()[1] == Vec3{});
-    CHECK(mesh.vertex_normal.span()[0] == Vec3{0, 0, 1});
+    CHECK(mesh.vertices[0].normal == Vec3{0, 0, 1});
 }

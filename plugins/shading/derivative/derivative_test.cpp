@@ -75,6 +75,7 @@ Deviation deviation(const Shape& shape, const char* shading, SurfaceNormal exact
     std::vector<Derivatives> points;
     std::vector<Double3> expected;
     std::vector<bool> is_vertex;
+    const Vec3Arrays vertex_normals = mesh.vertex_normals();
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         for (int i = 0; i <= k_steps; ++i) {
             for (int j = 0; i + j <= k_steps; ++j) {
@@ -83,7 +84,7 @@ Deviation deviation(const Shape& shape, const char* shading, SurfaceNormal exact
                                                    static_cast<float>(j)};
                 const double v = blend(mesh, t, mesh.v, weights);
                 if (length(blend(mesh, t, mesh.dpdu, weights)) < 1e-5f) continue;  // a pole
-                points.push_back({mesh.face_normal.span()[t], blend(mesh, t, mesh.vertex_normal, weights),
+                points.push_back({mesh.face_normal.span()[t], blend(mesh, t, vertex_normals, weights),
                                   blend(mesh, t, mesh.dpdu, weights), blend(mesh, t, mesh.dpdv, weights)});
                 expected.push_back(exact_normal(blend(mesh, t, mesh.u, weights), v));
                 is_vertex.push_back(i == k_steps || j == k_steps || i + j == 0);

@@ -118,7 +118,7 @@ TEST_CASE(
         std::vector<Vec3> normals;
         std::vector<Double3> expected;
         for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-            normals.push_back(mesh.vertex_normal.span()[i]);
+            normals.push_back(mesh.vertices[i].normal);
             expected.push_back(unit(exact(mesh.position.span()[i])));
         }
         return largest_angle(normals, expected);

@@ -53,8 +53,7 @@ TEST_CASE("shape/mesh: duplicated vertices without normals come out smooth, and 
     CHECK(mesh.closed);
     double worst = 1;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        worst =
-            std::min(worst, dot(exact(mesh.vertex_normal.span()[i]), unit(exact(mesh.position.span()[i]))));
+        worst = std::min(worst, dot(exact(mesh.vertices[i].normal), unit(exact(mesh.position.span()[i]))));
     }
     // A facet's own normal is off by up to 1 - cos(3.75 degrees * sqrt 2) = 0.004 at its corners.
     CHECK(worst > 0.9995);
@@ -65,9 +64,9 @@ TEST_CASE("shape/mesh: normals from the file go before those of the shading mode
         mesh_of(write_file(scratch_directory() / "n.obj",
                            std::string(k_triangle) + "vn 1 0 0\nvn 0 1 0\nvn 0 0 2\nf 1//1 2//2 3//3\n"));
     CHECK(mesh.triangle_count() == 1);
-    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[0]], Vec3{1, 0, 0}, 1e-6));
-    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[1]], Vec3{0, 1, 0}, 1e-6));
-    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[2]], Vec3{0, 0, 1}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.corners[0]].normal, Vec3{1, 0, 0}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.corners[1]].normal, Vec3{0, 1, 0}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.corners[2]].normal, Vec3{0, 0, 1}, 1e-6));
     CHECK(mesh.face_normal.span()[0] == Vec3{0, 0, 1});
 }
 
@@ -97,8 +96,8 @@ TEST_CASE("shape/mesh reads the formats that it names, by their extension, and n
 TEST_CASE("shape/mesh: where a file's normals are zero, the shading model makes them") {
     const Mesh mesh = mesh_of(write_file(scratch_directory() / "n.obj",
                                          std::string(k_triangle) + "vn 0 0 0\nvn 0 1 0\nf 1//1 2//2 3//1\n"));
-    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[0]], Vec3{0, 0, 1}, 1e-6));
-    CHECK(agree(mesh.vertex_normal.span()[mesh.corners[1]], Vec3{0, 1, 0}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.corners[0]].normal, Vec3{0, 0, 1}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.corners[1]].normal, Vec3{0, 1, 0}, 1e-6));
 }
 
 TEST_CASE("shape/mesh: polygons are cut into triangles") {
@@ -134,7 +133,7 @@ TEST_CASE("shape/mesh reads PLY, STL and glTF") {
     const Mesh facets = mesh_of(stl);
     CHECK(facets.triangle_count() == 2);
     const float half = 1 / std::sqrt(2.0f);
-    CHECK(agree(facets.vertex_normal.span()[facets.corners[0]], Vec3{half, 0, half}, 1e-6));
+    CHECK(agree(facets.vertices[facets.corners[0]].normal, Vec3{half, 0, half}, 1e-6));
 }
 
 TEST_CASE("a teapot that lost its normals and its shared vertices looks like the teapot") {
@@ -142,8 +141,8 @@ TEST_CASE("a teapot that lost its normals and its shared vertices looks like the
     const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", soup_of(original)));
     REQUIRE(read.triangle_count() == original.triangle_count());
     for (std::size_t corner = 0; corner < read.corners.size(); ++corner) {
-        REQUIRE(agree(read.vertex_normal.span()[read.corners[corner]],
-                      original.vertex_normal.span()[original.corners[corner]], 1e-4, 1e-4));
+        REQUIRE(agree(read.vertices[read.corners[corner]].normal,
+                      original.vertices[original.corners[corner]].normal, 1e-4, 1e-4));
     }
 }
 

@@ -51,10 +51,10 @@ TEST_CASE("shape/teapot is smooth across the seams of its patches: one place, on
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const Vec3 p = mesh.position.span()[i];
         const auto [known, is_new] =
-            normal_at.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, mesh.vertex_normal.span()[i]);
+            normal_at.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, mesh.vertices[i].normal);
         if (is_new) continue;
         ++shared;
-        CHECK(known->second == mesh.vertex_normal.span()[i]);
+        CHECK(known->second == mesh.vertices[i].normal);
     }
     CHECK(shared > 300);
     // Nearly all seams are shared: the open edges are those of the lid, the rim, and the ends of handle and
