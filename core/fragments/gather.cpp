@@ -157,9 +157,7 @@ struct PlacesLoop {
                 const float left = run->x + static_cast<float>(first);
                 const float top = run->y;
                 const std::uint32_t of = run->triangle;
-                CANDELA_VECTORIZE
-// Else it is unrolled before it can be vectorised; and narrower vectors would go round a loop of a few turns.
-#pragma clang loop unroll(disable) vectorize_width(16)
+                CANDELA_VECTORIZE_SIXTEEN
                 for (std::size_t i = 0; i < k_lanes; ++i) {
                     x[first + i] = left + static_cast<float>(i);
                     y[first + i] = top;

@@ -97,9 +97,7 @@ struct FetchLoop {
             c0.fetch(m, vertex[0]);
             c1.fetch(m, vertex[1]);
             c2.fetch(m, vertex[2]);
-            CANDELA_VECTORIZE
-// Else it is unrolled before it can be vectorised; and narrower vectors would go round a loop of a few turns.
-#pragma clang loop unroll(disable) vectorize_width(16)
+            CANDELA_VECTORIZE_SIXTEEN
             for (std::size_t lane = 0; lane < k_lanes; ++lane) {
                 const std::size_t i = first + lane;
                 const std::uint32_t t = triangle[i];

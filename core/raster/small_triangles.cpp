@@ -68,9 +68,7 @@ struct SmallLoop {
         middle.gather([&](std::size_t i) { return &triangle(i).y[1]; });
         end.gather([&](std::size_t i) { return &triangle(i).closeness[0]; });
         const std::int32_t one = 1 << bits, half = one / 2;
-        CANDELA_VECTORIZE
-// Else it is unrolled before it can be vectorised; and narrower vectors would go round a loop of a few turns.
-#pragma clang loop unroll(disable) vectorize_width(16)
+        CANDELA_VECTORIZE_SIXTEEN
         for (std::size_t lane = 0; lane < Columns::k_records; ++lane) {
             const std::size_t i = first + lane;
             const std::int32_t ax = begin.integer(0, lane), bx = begin.integer(1, lane),

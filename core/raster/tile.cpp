@@ -48,9 +48,7 @@ struct TriangleLoop {
             float* const closeness = plane.closeness + row;
             std::uint32_t* const triangle = plane.triangle + row;
             for (int block = t.x0; block < t.x1; block += k_block) {
-                CANDELA_VECTORIZE
-// Narrower vectors would go round a loop of a few turns.
-#pragma clang loop vectorize_width(16)
+                CANDELA_VECTORIZE_SIXTEEN
                 for (int x = block; x < block + k_block; ++x) {
                     const std::int32_t outside =
                         (row0 + x * t.ex[0]) | (row1 + x * t.ex[1]) | (row2 + x * t.ex[2]);

@@ -11,6 +11,8 @@
 #include "support/plugins.h"
 #include "support/samples.h"
 
+import candela.parallel;
+
 using candela::Mesh;
 using candela::Placement;
 using candela::Shape;
@@ -151,6 +153,25 @@ TEST_CASE("vertex normals of a fine sphere converge to the sphere's own, across 
         worst = std::min(worst, dot(exact(mesh.vertices[i].normal), unit(exact(mesh.position.span()[i]))));
     }
     CHECK(worst > 0.99999);
+}
+
+TEST_CASE("a large mesh has the same vertices and normals whatever the number of threads") {
+    const auto sphere = instance<Shape>("sphere", {{"segments", std::int64_t{400}}});
+    Mesh by_one, by_four;
+    candela::with_threads(1, [&] { by_one = build(*sphere); });
+    candela::with_threads(4, [&] { by_four = build(*sphere); });
+    REQUIRE(by_one.triangle_count() > 100'000);
+    REQUIRE(by_one.vertices.size() == by_one.vertex_count());
+    REQUIRE(by_four.vertices.size() == by_one.vertices.size());
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < by_one.vertex_count(); ++i) {
+        const candela::MeshVertex &a = by_one.vertices[i], &b = by_four.vertices[i];
+        const Vec3 place = by_one.position.span()[i];
+        if (a.position != place || b.position != place || a.normal != b.normal) ++wrong;
+    }
+    for (std::size_t t = 0; t < by_one.triangle_count(); ++t)
+        if (by_one.face_normal.span()[t] != by_four.face_normal.span()[t]) ++wrong;
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("a cube keeps its sharp edges: the normals of a corner are those of its faces") {

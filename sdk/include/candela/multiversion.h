@@ -14,6 +14,9 @@
 // CANDELA_VECTORIZE_CHAIN is for a loop whose body is one long chain of operations, such as a pow: two
 // vectors side by side keep the processor busy where one only waits for itself. Where there is enough to do
 // side by side, it costs registers.
+//
+// CANDELA_VECTORIZE_SIXTEEN is for a loop of sixteen turns inside another: else it is unrolled before it can
+// be vectorised, or narrower vectors go round a loop of a few turns.
 #pragma once
 
 #include "candela/api.h"
@@ -23,9 +26,12 @@
 #if defined(__clang__)
 #define CANDELA_VECTORIZE _Pragma("clang loop vectorize(assume_safety)")
 #define CANDELA_VECTORIZE_CHAIN _Pragma("clang loop vectorize(assume_safety) interleave_count(2)")
+#define CANDELA_VECTORIZE_SIXTEEN \
+    _Pragma("clang loop vectorize(assume_safety) vectorize_width(16) unroll(disable)")
 #else
 #define CANDELA_VECTORIZE _Pragma("GCC ivdep")
 #define CANDELA_VECTORIZE_CHAIN CANDELA_VECTORIZE
+#define CANDELA_VECTORIZE_SIXTEEN CANDELA_VECTORIZE
 #endif
 
 namespace candela {
