@@ -29,23 +29,22 @@ constexpr ByteCurve curve_of(bool srgb) {
     return srgb ? ByteCurve{0.0031308f, 255 * 12.92f} : ByteCurve{2, 255};
 }
 
-/// 255 * 1.055 * 2^(e / 2.4) for e = -15 to 0.
-alignas(64) constexpr float k_power_of_exponent[16] = {
-    3.53472122f, 4.71828676f, 6.29815721f, 8.40703125f, 11.2220404f, 14.9796267f, 19.9954028f, 26.6906605f,
-    35.6277574f, 47.5573505f, 63.4814467f, 84.7375651f, 113.111079f, 150.985176f, 201.541031f, 269.025f};
-
 /// sRGB's power, times 255: to 0.0025, which is enough for a byte and a third of the work of kernel::pow.
-/// x^(1/2.4) is that of x's power of two, from a table, times that of its mantissa, a polynomial (Remez
-/// exchange).
+/// x^(1/2.4) is that of x's mantissa, a polynomial (Remez exchange), times that of its power of two, bit by
+/// bit of the exponent: for x from 2^-15 to 1.
 [[gnu::always_inline]] inline float srgb_power_255(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     const auto m = std::bit_cast<float>((bits & 0x007f'ffffu) | 0x3f80'0000u);  // in [1, 2)
-    float p = -0.0110241992f;
-    p = p * m + 0.0901999225f;
-    p = p * m - 0.320840814f;
-    p = p * m + 0.831304656f;
-    p = p * m + 0.410369503f;
-    return k_power_of_exponent[(bits >> 23) & 15] * p - 255 * 0.055f;
+    float p = -0.0389674716f;  // m^(1 / 2.4) * 255 * 1.055 * 2^(-15 / 2.4)
+    p = p * m + 0.318831593f;
+    p = p * m - 1.13408279f;
+    p = p * m + 2.93843031f;
+    p = p * m + 1.45054173f;
+    p = (bits & 1u << 23) != 0 ? p * 1.33483985f : p;  // 2^(1 / 2.4)
+    p = (bits & 1u << 24) != 0 ? p * 1.78179744f : p;  // 2^(2 / 2.4)
+    p = (bits & 1u << 25) != 0 ? p * 3.17480210f : p;  // 2^(4 / 2.4)
+    p = (bits & 1u << 26) != 0 ? p * 10.0793684f : p;  // 2^(8 / 2.4)
+    return p - 255 * 0.055f;
 }
 
 /// A channel to 8 bits: clamped, encoded, rounded. NaN counts as black.
