@@ -6,6 +6,7 @@ module;
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -31,7 +32,7 @@ constexpr float k_farthest = 1e9f;
 /// Roughly what a mesh takes while it is made, checked and drawn.
 std::uint64_t memory_for(const MeshLayout& layout) {
     const std::uint64_t vectors =
-        5u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) + (layout.has_derivatives ? 2u : 0u);
+        7u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) + (layout.has_derivatives ? 2u : 0u);
     constexpr std::uint64_t k_vector = 3 * sizeof(float);
     constexpr std::uint64_t k_triangle = 3 * sizeof(std::uint32_t) + k_vector + 40;  // projected
     const std::uint64_t edges = layout.closedness == Closedness::closed ? 0 : 3 * 16;
@@ -246,15 +247,22 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
             throw std::invalid_argument("it writes more vertex normals than there are vertices");
     }
     mesh.vertices.resize(count);
+    const auto is_finite = [](Vec3 n) { return std::isfinite(n.x + n.y + n.z); };
+    std::atomic<bool> are_finite{true};
     parallel_for(count, k_per_task, [&](std::size_t begin, std::size_t end) {
+        bool are = true;
         for (std::size_t i = begin; i < end; ++i) {
             const Vec3 n = std::as_const(normal).span()[has_groups ? placed.smooth_group[i] : i];
-            if (!std::isfinite(n.x + n.y + n.z))
-                throw std::invalid_argument(
-                    fmt::format("the normal that it gives vertex {} is no finite number", i));
             mesh.vertices[i] = {.position = std::as_const(mesh.position).span()[i], .normal = n};
+            are &= is_finite(n);
         }
+        if (!are) are_finite = false;
     });
+    if (are_finite) return;
+    // The first, whichever thread came upon which.
+    const auto first = std::ranges::find_if_not(mesh.vertices, is_finite, &MeshVertex::normal);
+    throw std::invalid_argument(
+        fmt::format("the normal that it gives vertex {} is no finite number", first - mesh.vertices.begin()));
 }
 
 }  // namespace

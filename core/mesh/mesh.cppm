@@ -21,9 +21,9 @@ export namespace candela {
 /// What is read of a vertex wherever a triangle is seen, side by side: one line of the cache instead of six.
 struct alignas(32) MeshVertex {
     Vec3 position;
-    float nothing = 0;  // four floats are fetched at once
+    float padding = 0;  // four floats are fetched at once
     Vec3 normal;        // unit
-    float nothing_else = 0;
+    float more_padding = 0;
 };
 
 /// Triangles in world space. Vertices are shared; corners of a triangle run counter-clockwise seen from

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -172,6 +173,25 @@ TEST_CASE("a large mesh has the same vertices and normals whatever the number of
     for (std::size_t t = 0; t < by_one.triangle_count(); ++t)
         if (by_one.face_normal.span()[t] != by_four.face_normal.span()[t]) ++wrong;
     CHECK(wrong == 0);
+}
+
+TEST_CASE("of the vertex normals that are no numbers the first is named, whatever the number of threads") {
+    struct Broken final : candela::ShadingModel {
+        candela::LightingRate lighting_rate() const noexcept override { return {}; }
+        void normals(const candela::ShadingPointBatch&, const candela::Vec3Span&) const override {}
+        void vertex_normals(const candela::MeshView& mesh, const candela::Vec3Span& normals) const override {
+            ShadingModel::vertex_normals(mesh, normals);
+            for (const std::size_t i : {60'000u, 20'011u, 40'000u})
+                normals.y[i] = std::numeric_limits<float>::quiet_NaN();
+        }
+    };
+    const auto sphere = instance<Shape>("sphere", {{"segments", std::int64_t{400}}});
+    for (const int threads : {1, 4}) {
+        candela::with_threads(threads, [&] {
+            CHECK_THROWS_WITH(candela::build_mesh(*sphere, {}, {}, Broken()),
+                              "the normal that it gives vertex 20011 is no finite number");
+        });
+    }
 }
 
 TEST_CASE("a cube keeps its sharp edges: the normals of a corner are those of its faces") {
