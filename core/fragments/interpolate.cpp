@@ -109,18 +109,16 @@ struct FetchLoop {
                 out.barycentric.x[i] = f.b0;
                 out.barycentric.y[i] = f.b1;
                 out.barycentric.z[i] = f.b2;
-                out.position.x[i] =
-                    f.blend(c0.position.real[0][lane], c1.position.real[0][lane], c2.position.real[0][lane]);
-                out.position.y[i] =
-                    f.blend(c0.position.real[1][lane], c1.position.real[1][lane], c2.position.real[1][lane]);
-                out.position.z[i] =
-                    f.blend(c0.position.real[2][lane], c1.position.real[2][lane], c2.position.real[2][lane]);
-                out.vertex_normal.x[i] =
-                    f.blend(c0.normal.real[0][lane], c1.normal.real[0][lane], c2.normal.real[0][lane]);
-                out.vertex_normal.y[i] =
-                    f.blend(c0.normal.real[1][lane], c1.normal.real[1][lane], c2.normal.real[1][lane]);
-                out.vertex_normal.z[i] =
-                    f.blend(c0.normal.real[2][lane], c1.normal.real[2][lane], c2.normal.real[2][lane]);
+                const auto blended = [&](Columns CornerColumns::* record, std::size_t column) {
+                    return f.blend((c0.*record).real[column][lane], (c1.*record).real[column][lane],
+                                   (c2.*record).real[column][lane]);
+                };
+                out.position.x[i] = blended(&CornerColumns::position, 0);
+                out.position.y[i] = blended(&CornerColumns::position, 1);
+                out.position.z[i] = blended(&CornerColumns::position, 2);
+                out.vertex_normal.x[i] = blended(&CornerColumns::normal, 0);
+                out.vertex_normal.y[i] = blended(&CornerColumns::normal, 1);
+                out.vertex_normal.z[i] = blended(&CornerColumns::normal, 2);
                 out.face_normal.x[i] = m.face_normal.x[t];
                 out.face_normal.y[i] = m.face_normal.y[t];
                 out.face_normal.z[i] = m.face_normal.z[t];
