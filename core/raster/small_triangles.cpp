@@ -52,16 +52,16 @@ struct SmallLoop {
     CANDELA_BATCH_LOOP static void run(const RasterTriangle* all, const std::uint32_t* numbers,
                                        std::size_t count, int bits, SmallTriangles* out) {
         for (std::size_t first = 0; first < count; first += Columns::k_records)
-            run_some(all, numbers + first, count - first, bits, first, out);
+            run_some(all, numbers, first, count, bits, out);
     }
 
   private:
-    /// Sixteen; where there are fewer, the last again and again.
+    /// Sixteen from `first` on; where there are fewer, the last again and again.
     [[gnu::always_inline]] static void run_some(const RasterTriangle* all, const std::uint32_t* numbers,
-                                                std::size_t count, int bits, std::size_t first,
+                                                std::size_t first, std::size_t count, int bits,
                                                 SmallTriangles* out) {
-        const auto triangle = [&](std::size_t i) -> const RasterTriangle& {
-            return all[numbers[i < count ? i : count - 1]];
+        const auto triangle = [&](std::size_t lane) -> const RasterTriangle& {
+            return all[numbers[first + lane < count ? first + lane : count - 1]];
         };
         Columns begin, middle, end;  // of a triangle: overlapping
         begin.gather([&](std::size_t i) { return &triangle(i).x[0]; });
