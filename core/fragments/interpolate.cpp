@@ -41,6 +41,10 @@ struct Fragment {
     [[gnu::always_inline]] float blend(float at_0, float at_1, float at_2) const {
         return b0 * at_0 + b1 * at_1 + b2 * at_2;
     }
+    [[gnu::always_inline]] float blend(const Columns& at_0, const Columns& at_1, const Columns& at_2,
+                                       std::size_t column, std::size_t lane) const {
+        return blend(at_0.real[column][lane], at_1.real[column][lane], at_2.real[column][lane]);
+    }
 };
 
 struct RunLoop {
@@ -110,16 +114,12 @@ struct FetchLoop {
                 out.barycentric.x[i] = f.b0;
                 out.barycentric.y[i] = f.b1;
                 out.barycentric.z[i] = f.b2;
-                const auto blended = [&](Columns CornerColumns::* record, std::size_t column) {
-                    return f.blend((c0.*record).real[column][lane], (c1.*record).real[column][lane],
-                                   (c2.*record).real[column][lane]);
-                };
-                out.position.x[i] = blended(&CornerColumns::position, 0);
-                out.position.y[i] = blended(&CornerColumns::position, 1);
-                out.position.z[i] = blended(&CornerColumns::position, 2);
-                out.vertex_normal.x[i] = blended(&CornerColumns::normal, 0);
-                out.vertex_normal.y[i] = blended(&CornerColumns::normal, 1);
-                out.vertex_normal.z[i] = blended(&CornerColumns::normal, 2);
+                out.position.x[i] = f.blend(c0.position, c1.position, c2.position, 0, lane);
+                out.position.y[i] = f.blend(c0.position, c1.position, c2.position, 1, lane);
+                out.position.z[i] = f.blend(c0.position, c1.position, c2.position, 2, lane);
+                out.vertex_normal.x[i] = f.blend(c0.normal, c1.normal, c2.normal, 0, lane);
+                out.vertex_normal.y[i] = f.blend(c0.normal, c1.normal, c2.normal, 1, lane);
+                out.vertex_normal.z[i] = f.blend(c0.normal, c1.normal, c2.normal, 2, lane);
                 out.face_normal.x[i] = m.face_normal.x[t];
                 out.face_normal.y[i] = m.face_normal.y[t];
                 out.face_normal.z[i] = m.face_normal.z[t];
