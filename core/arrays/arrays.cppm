@@ -16,6 +16,13 @@ import candela.math;
 
 export namespace candela {
 
+/// How many floats the widest vectors hold. Loops over so many points, or a multiple, have no remainder that
+/// they take one by one.
+inline constexpr std::size_t k_lanes = 16;
+
+/// `count` rounded up to whole vectors.
+constexpr std::size_t whole_vectors(std::size_t count) { return (count + k_lanes - 1) / k_lanes * k_lanes; }
+
 /// Memory that begins at a cache line: a vector of 64 bytes that lies across two lines takes twice as long.
 template <class T>
 struct CacheLineAllocator {
@@ -39,19 +46,22 @@ struct CacheLineAllocator {
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
-/// Memory that begins at a cache line and holds no values until they are written, by whichever thread: only
-/// for what is written as a whole.
-template <class T>
-struct UnwrittenAllocator : CacheLineAllocator<T> {
-    UnwrittenAllocator() = default;
-    template <class Other>
-    // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
-    UnwrittenAllocator(const UnwrittenAllocator<Other>&) noexcept {}
-
+/// For allocators: what is constructed without a value keeps what its memory holds.
+struct KeepsMemory {
     template <class U, class... Arguments>
     void construct(U* place, Arguments&&... arguments) {
         if constexpr (sizeof...(Arguments) > 0) ::new (place) U(std::forward<Arguments>(arguments)...);
     }
+};
+
+/// Memory that begins at a cache line and holds no values until they are written, by whichever thread: only
+/// for what is written as a whole.
+template <class T>
+struct UnwrittenAllocator : CacheLineAllocator<T>, KeepsMemory {
+    UnwrittenAllocator() = default;
+    template <class Other>
+    // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
+    UnwrittenAllocator(const UnwrittenAllocator<Other>&) noexcept {}
 };
 
 template <class T>
@@ -60,7 +70,7 @@ using UnwrittenVector = std::vector<T, UnwrittenAllocator<T>>;
 /// Memory that the system zeroes page by page, for whichever thread writes to a page first. What is
 /// constructed without a value keeps the zeros, so a vector must not shrink and then grow in place.
 template <class T>
-struct ZeroedAllocator {
+struct ZeroedAllocator : KeepsMemory {
     using value_type = T;
 
     ZeroedAllocator() = default;
@@ -76,11 +86,6 @@ struct ZeroedAllocator {
     }
     // NOLINTNEXTLINE(cppcoreguidelines-no-malloc)
     void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
-
-    template <class U, class... Arguments>
-    void construct(U* place, Arguments&&... arguments) {
-        if constexpr (sizeof...(Arguments) > 0) ::new (place) U(std::forward<Arguments>(arguments)...);
-    }
 
     friend bool operator==(const ZeroedAllocator&, const ZeroedAllocator&) { return true; }
 };
@@ -107,9 +112,7 @@ struct Vec3Arrays {
 /// a whole, from wherever, and to transpose them takes far fewer operations and lines of the cache than to
 /// fetch every number by itself.
 struct Columns {
-    static constexpr std::size_t k_records = 16;
-
-    alignas(64) float real[4][k_records];
+    alignas(64) float real[4][k_lanes];
 
     [[gnu::always_inline]] inline std::int32_t integer(std::size_t column, std::size_t record) const {
         return std::bit_cast<std::int32_t>(real[column][record]);

@@ -20,13 +20,6 @@ export namespace candela {
 /// cache.
 inline constexpr std::size_t k_batch_size = 256;
 
-/// How many floats the widest vectors hold. Loops over so many points, or a multiple, have no remainder that
-/// they take one by one.
-inline constexpr std::size_t k_lanes = 16;
-
-/// `count` rounded up to whole vectors.
-constexpr std::size_t whole_vectors(std::size_t count) { return (count + k_lanes - 1) / k_lanes * k_lanes; }
-
 /// Points of one object's surface, structure of arrays with room for k_batch_size. Reused from batch to
 /// batch.
 struct CANDELA_API SurfacePoints {

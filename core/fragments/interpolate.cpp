@@ -75,7 +75,6 @@ struct RunLoop {
 /// What a vector of fragments reads of one corner each.
 struct CornerColumns {
     Columns projected, position, normal;
-    static_assert(Columns::k_records == k_lanes);
 
     [[gnu::always_inline]] void fetch(const IndexedMesh& mesh, const std::uint32_t (&vertex)[k_lanes]) {
         projected.gather([&](std::size_t i) { return &mesh.projected[vertex[i]].x; });

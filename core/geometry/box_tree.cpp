@@ -2,7 +2,6 @@ module;
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -100,18 +99,6 @@ Box box_around(ConstVec3Span position, std::size_t count) {
         box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
     }
     return box;
-}
-
-std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count) {
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t i) { return std::array{position.x[i], position.y[i], position.z[i]}; };
-    std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    std::vector<std::uint32_t> place(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
-    }
-    return place;
 }
 
 }  // namespace candela

@@ -35,7 +35,7 @@ std::uint64_t memory_for(const MeshLayout& layout) {
         7u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) + (layout.has_derivatives ? 2u : 0u);
     constexpr std::uint64_t k_vector = 3 * sizeof(float);
     constexpr std::uint64_t k_triangle = 3 * sizeof(std::uint32_t) + k_vector + 40;  // projected
-    const std::uint64_t edges = layout.closedness == Closedness::closed ? 0 : 3 * 16;
+    const std::uint64_t edges = layout.closedness == Closedness::closed ? 0 : 3 * 8;
     return layout.vertices * vectors * k_vector + layout.triangles * (k_triangle + edges);
 }
 
@@ -198,22 +198,33 @@ void make_face_normals(Mesh& mesh) {
 /// as one.
 std::size_t count_open_edges(const Mesh& mesh) {
     const std::vector<std::uint32_t> place = welded(mesh.position.span(), mesh.vertex_count());
-    // Each edge once a triangle, with +1 or -1 for its direction: the sum over a closed surface is zero.
-    std::vector<std::pair<std::uint64_t, int>> edges;
-    edges.reserve(mesh.corners.size());
-    for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
-        const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
-        const std::uint64_t a = place[mesh.corners[corner]];
-        const std::uint64_t b = place[mesh.corners[next]];
-        if (a != b) edges.emplace_back(std::min(a, b) << 32 | std::max(a, b), a < b ? 1 : -1);
-    }
-    std::ranges::sort(edges);
-    std::size_t open = 0;
-    for (std::size_t i = 0; i < edges.size();) {
-        int balance = 0;
-        const std::uint64_t edge = edges[i].first;
-        for (; i < edges.size() && edges[i].first == edge; ++i) balance += edges[i].second;
-        if (balance != 0) ++open;
+    struct Edge {
+        std::uint32_t end;  // the higher place
+        std::int32_t direction;
+    };
+    const auto each_edge = [&](auto visit) {
+        for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+            const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+            const std::uint32_t a = place[mesh.corners[corner]], b = place[mesh.corners[next]];
+            if (a != b) visit(std::min(a, b), Edge{std::max(a, b), a < b ? 1 : -1});
+        }
+    };
+    // By their lower place; `begin` moves to where the next one goes, and so to where its successor's begin.
+    std::vector<std::uint32_t> begin(mesh.vertex_count() + 1);
+    each_edge([&](std::uint32_t low, Edge) { ++begin[low + 1]; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<Edge> edges(begin.back());
+    each_edge([&](std::uint32_t low, Edge edge) { edges[begin[low]++] = edge; });
+    // Over a closed surface the directions of an edge add up to zero.
+    std::size_t open = 0, first = 0;
+    for (const std::size_t end : begin) {
+        std::ranges::sort(edges.begin() + first, edges.begin() + end, {}, &Edge::end);
+        while (first < end) {
+            const std::uint32_t to = edges[first].end;
+            std::int64_t balance = 0;
+            for (; first < end && edges[first].end == to; ++first) balance += edges[first].direction;
+            if (balance != 0) ++open;
+        }
     }
     return open;
 }

@@ -51,7 +51,7 @@ struct Edge {
 struct SmallLoop {
     CANDELA_BATCH_LOOP static void run(const RasterTriangle* all, const std::uint32_t* numbers,
                                        std::size_t count, int bits, SmallTriangles* out) {
-        for (std::size_t first = 0; first < count; first += Columns::k_records)
+        for (std::size_t first = 0; first < count; first += k_lanes)
             run_some(all, numbers, first, count, bits, out);
     }
 
@@ -69,7 +69,7 @@ struct SmallLoop {
         end.gather([&](std::size_t i) { return &triangle(i).closeness[0]; });
         const std::int32_t one = 1 << bits, half = one / 2;
         CANDELA_VECTORIZE_SIXTEEN
-        for (std::size_t lane = 0; lane < Columns::k_records; ++lane) {
+        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
             const std::size_t i = first + lane;
             const std::int32_t ax = begin.integer(0, lane), bx = begin.integer(1, lane),
                                cx = begin.integer(2, lane);

@@ -14,7 +14,7 @@ class Cube final : public candela::Shape {
   public:
     explicit Cube(const CubeShape& shape) : shape_(shape) {}
 
-    void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
+    void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         struct Face {
             candela::Vec3 outwards, right, up;  // right x up = outwards
         };
@@ -23,8 +23,8 @@ class Cube final : public candela::Shape {
                                      {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}}};
         const candela::MeshSpans mesh = sink.allocate({.vertices = 24,
                                                        .triangles = 12,
-                                                       .has_uv = true,
-                                                       .has_derivatives = true,
+                                                       .has_uv = request.uv,
+                                                       .has_derivatives = request.derivatives,
                                                        .closedness = candela::Closedness::closed});
         std::uint32_t vertex = 0;
         std::size_t corner = 0;
@@ -34,10 +34,14 @@ class Cube final : public candela::Shape {
                 const float half = 0.5f * shape_.size;
                 mesh.position.set(vertex,
                                   half * (face.outwards + (2 * u - 1) * face.right + (2 * v - 1) * face.up));
-                mesh.uv.x[vertex] = u;
-                mesh.uv.y[vertex] = v;
-                mesh.dpdu.set(vertex, shape_.size * face.right);
-                mesh.dpdv.set(vertex, shape_.size * face.up);
+                if (request.uv) {
+                    mesh.uv.x[vertex] = u;
+                    mesh.uv.y[vertex] = v;
+                }
+                if (request.derivatives) {
+                    mesh.dpdu.set(vertex, shape_.size * face.right);
+                    mesh.dpdv.set(vertex, shape_.size * face.up);
+                }
                 ++vertex;
             }
         }

@@ -86,7 +86,7 @@ class FileMesh final : public candela::Shape {
         if (scene == nullptr) throw std::runtime_error("'" + file_ + "': " + importer.GetErrorString());
         const std::span<aiMesh* const> parts(scene->mMeshes, scene->mNumMeshes);
 
-        candela::MeshLayout layout{.has_normals = true, .has_uv = true};
+        candela::MeshLayout layout{.has_normals = true, .has_uv = request.uv || request.derivatives};
         for (const aiMesh* part : parts) {
             layout.vertices += part->mNumVertices;
             layout.triangles += part->mNumFaces;

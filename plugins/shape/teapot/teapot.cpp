@@ -59,7 +59,7 @@ class Teapot final : public candela::Shape {
   public:
     explicit Teapot(const TeapotShape& shape) : shape_(shape) {}
 
-    void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
+    void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         const std::vector<teapot::Patch> patches = teapot::patches();
         const auto n = static_cast<std::size_t>(shape_.segments);
         const std::size_t width = n + 1;
@@ -68,6 +68,7 @@ class Teapot final : public candela::Shape {
         // Where a patch ends in a point, one of two triangles has no area; which, is known once the vertices
         // are.
         std::vector<Vec3> position;
+        position.reserve(patches.size() * width * width);
         for (const teapot::Patch& patch : patches) {
             for (std::size_t i = 0; i < width * width; ++i) {
                 const auto [u, v] = parameters(i);
@@ -93,8 +94,8 @@ class Teapot final : public candela::Shape {
 
         const candela::MeshSpans mesh = sink.allocate({.vertices = position.size(),
                                                        .triangles = corners.size() / 3,
-                                                       .has_uv = true,
-                                                       .has_derivatives = true,
+                                                       .has_uv = request.uv,
+                                                       .has_derivatives = request.derivatives,
                                                        .has_smooth_groups = true,
                                                        .closedness = candela::Closedness::open});
         std::ranges::copy(corners, mesh.corners.begin());
@@ -103,10 +104,14 @@ class Teapot final : public candela::Shape {
             for (std::size_t vertex = 0; vertex < width * width; ++vertex, ++i) {
                 const auto [u, v] = parameters(vertex);
                 mesh.position.set(i, position[i]);
-                mesh.uv.x[i] = u;
-                mesh.uv.y[i] = v;
-                mesh.dpdu.set(i, scale * blend(patch, bernstein_derivative(u), bernstein(v)));
-                mesh.dpdv.set(i, scale * blend(patch, bernstein(u), bernstein_derivative(v)));
+                if (request.uv) {
+                    mesh.uv.x[i] = u;
+                    mesh.uv.y[i] = v;
+                }
+                if (request.derivatives) {
+                    mesh.dpdu.set(i, scale * blend(patch, bernstein_derivative(u), bernstein(v)));
+                    mesh.dpdv.set(i, scale * blend(patch, bernstein(u), bernstein_derivative(v)));
+                }
             }
         }
         // One normal a place: smooth across the seams of the patches.

@@ -9,7 +9,8 @@
 //     candela::multiversion<AddLoop>(count, a, sum);
 //
 // Everything the loop calls must be inlined into it, or it is neither vectorised nor compiled for the wider
-// set; clang warns where a CANDELA_VECTORIZE loop stayed scalar.
+// set; clang warns where a CANDELA_VECTORIZE loop stayed scalar. Mark it [[gnu::always_inline]]. A lambda
+// cannot be marked before C++23: where a build does not optimise, what it computes may round otherwise.
 //
 // CANDELA_VECTORIZE_CHAIN is for a loop whose body is one long chain of operations, such as a pow: two
 // vectors side by side keep the processor busy where one only waits for itself. Where there is enough to do

@@ -15,13 +15,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <unordered_map>
 
 #include "candela/multiversion.h"
 #include "candela/plugin.h"
 
+import candela.geometry;
 import candela.shape;
 
 namespace candela::sdk {
@@ -39,21 +38,29 @@ struct Topology {
     bool v_ends_in_poles = false;  // v = 0 and v = 1 are one point each
 };
 
-template <class Params, auto position, auto dpdu, auto dpdv>
+template <class Params, auto position>
 struct SurfaceRowLoop {
-    CANDELA_BATCH_LOOP static void run(Params params, float v, float u_step, std::size_t count, Vec3Span p,
-                                       Vec2Span uv, Vec3Span pu, Vec3Span pv) {
+    CANDELA_BATCH_LOOP static void run(Params params, float v, float u_step, std::size_t count, Vec3Span p) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const float u = static_cast<float>(static_cast<std::int32_t>(i)) * u_step;
             const vec3 point = call<position>(params, u, v);
-            const vec3 along_u = call<dpdu>(params, u, v);
-            const vec3 along_v = call<dpdv>(params, u, v);
             p.x[i] = point.x;
             p.y[i] = point.y;
             p.z[i] = point.z;
-            uv.x[i] = u;
-            uv.y[i] = v;
+        }
+    }
+};
+
+template <class Params, auto dpdu, auto dpdv>
+struct SurfaceDerivativesRowLoop {
+    CANDELA_BATCH_LOOP static void run(Params params, float v, float u_step, std::size_t count, Vec3Span pu,
+                                       Vec3Span pv) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const float u = static_cast<float>(static_cast<std::int32_t>(i)) * u_step;
+            const vec3 along_u = call<dpdu>(params, u, v);
+            const vec3 along_v = call<dpdv>(params, u, v);
             pu.x[i] = along_u.x;
             pu.y[i] = along_u.y;
             pu.z[i] = along_u.z;
@@ -67,23 +74,32 @@ struct SurfaceRowLoop {
 /// The triangles of a grid of `columns` x `rows` quadrilaterals over the parameter square.
 template <class Params, auto position, auto dpdu, auto dpdv>
 void tessellate_surface(const Params& params, Topology topology, std::size_t columns, std::size_t rows,
-                        MeshSink& sink) {
+                        const MeshRequest& request, MeshSink& sink) {
     const std::size_t width = columns + 1;
     const bool closed = topology.u_is_periodic && (topology.v_is_periodic || topology.v_ends_in_poles);
     const std::size_t poles = topology.v_ends_in_poles ? 2 : 0;
     const MeshSpans mesh = sink.allocate({.vertices = width * (rows + 1),
                                           .triangles = columns * (2 * rows - poles),
-                                          .has_uv = true,
-                                          .has_derivatives = true,
+                                          .has_uv = request.uv,
+                                          .has_derivatives = request.derivatives,
                                           .has_smooth_groups = true,
                                           .closedness = closed ? Closedness::closed : Closedness::open});
 
     for (std::size_t row = 0; row <= rows; ++row) {
         const std::size_t first = row * width;
         const float v = static_cast<float>(row) / static_cast<float>(rows);
-        multiversion<SurfaceRowLoop<Params, position, dpdu, dpdv>>(
-            params, v, 1.0f / static_cast<float>(columns), width, mesh.position.from(first),
-            mesh.uv.from(first), mesh.dpdu.from(first), mesh.dpdv.from(first));
+        const float u_step = 1.0f / static_cast<float>(columns);
+        multiversion<SurfaceRowLoop<Params, position>>(params, v, u_step, width, mesh.position.from(first));
+        if (request.uv) {
+            for (std::size_t column = 0; column <= columns; ++column) {
+                mesh.uv.x[first + column] = static_cast<float>(column) * u_step;
+                mesh.uv.y[first + column] = v;
+            }
+        }
+        if (request.derivatives) {
+            multiversion<SurfaceDerivativesRowLoop<Params, dpdu, dpdv>>(
+                params, v, u_step, width, mesh.dpdu.from(first), mesh.dpdv.from(first));
+        }
     }
 
     // Vertices that are one place get one position to the last bit, and one normal.
@@ -131,11 +147,11 @@ class ParametricShape final : public Shape {
   public:
     explicit ParametricShape(const Params& params) : params_(params) {}
 
-    void tessellate(const MeshRequest&, MeshSink& sink) const override {
+    void tessellate(const MeshRequest& request, MeshSink& sink) const override {
         const auto columns = static_cast<std::size_t>(params_.segments);
         const std::size_t fewest_rows = topology.v_is_periodic ? 3 : 2;
         tessellate_surface<Params, position, dpdu, dpdv>(params_, topology, columns,
-                                                         std::max(columns / 2, fewest_rows), sink);
+                                                         std::max(columns / 2, fewest_rows), request, sink);
     }
 
   private:
@@ -145,25 +161,7 @@ class ParametricShape final : public Shape {
 /// Puts vertices at one position, to the last bit, into one smooth group.
 inline void weld_by_position(ConstVec3Span position, std::size_t count,
                              std::span<std::uint32_t> smooth_group) {
-    struct Key {
-        std::uint32_t bits[3];
-        bool operator==(const Key&) const = default;
-    };
-    struct Hash {
-        std::size_t operator()(const Key& key) const {
-            std::uint64_t h = 0x9e3779b97f4a7c15u;
-            for (const std::uint32_t b : key.bits) h = (h ^ b) * 0xff51afd7ed558ccdu, h ^= h >> 32;
-            return static_cast<std::size_t>(h);
-        }
-    };
-    std::unordered_map<Key, std::uint32_t, Hash> first_at;
-    first_at.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const float p[3] = {position.x[i] + 0.0f, position.y[i] + 0.0f, position.z[i] + 0.0f};  // -0 is 0
-        Key key{};
-        std::memcpy(key.bits, p, sizeof p);
-        smooth_group[i] = first_at.try_emplace(key, static_cast<std::uint32_t>(i)).first->second;
-    }
+    std::ranges::copy(welded(position, count), smooth_group.begin());
 }
 
 }  // namespace candela::sdk
