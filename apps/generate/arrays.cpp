@@ -7,7 +7,7 @@ namespace generate {
 namespace {
 
 template <class T>
-std::string array_text(const char* type, const char* name, const std::vector<T>& numbers) {
+std::string array_text(const char* type, const char* name, std::span<const T> numbers) {
     std::string text = fmt::format("    static const {} {}[] = {{", type, name);
     std::size_t column = 200;  // the first number begins a line
     for (const T& number : numbers) {
@@ -41,11 +41,11 @@ std::vector<float> interleaved_uv(const candela::Mesh& mesh) {
     return numbers;
 }
 
-std::string number_array(const char* type, const char* name, const std::vector<float>& numbers) {
+std::string number_array(const char* type, const char* name, std::span<const float> numbers) {
     return array_text(type, name, numbers);
 }
 
-std::string number_array(const char* type, const char* name, const std::vector<std::uint32_t>& numbers) {
+std::string number_array(const char* type, const char* name, std::span<const std::uint32_t> numbers) {
     return array_text(type, name, numbers);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -19,7 +20,7 @@ std::vector<float> interleaved(const candela::Vec3Arrays& arrays);
 std::vector<float> interleaved_uv(const candela::Mesh& mesh);
 
 /// "    static const float name[] = {1.5f, ...};", in lines that can be read.
-std::string number_array(const char* type, const char* name, const std::vector<float>& numbers);
-std::string number_array(const char* type, const char* name, const std::vector<std::uint32_t>& numbers);
+std::string number_array(const char* type, const char* name, std::span<const float> numbers);
+std::string number_array(const char* type, const char* name, std::span<const std::uint32_t> numbers);
 
 }  // namespace generate

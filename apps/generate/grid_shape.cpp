@@ -1,5 +1,6 @@
 #include "grid_shape.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -61,8 +62,9 @@ std::optional<GridShape> grid_of(const candela::PlacedShape& shape) {
                 grid.v_is_periodic = v_is_periodic;
                 grid.v_ends_in_poles = has_poles;
                 const bool is_closed = u_is_periodic && (v_is_periodic || has_poles);
-                if (is_closed == shape.mesh.closed && groups_of(grid) == shape.smooth_group &&
-                    corners_of(grid) == shape.mesh.corners)
+                if (is_closed == shape.mesh.closed &&
+                    std::ranges::equal(groups_of(grid), shape.smooth_group) &&
+                    std::ranges::equal(corners_of(grid), shape.mesh.corners))
                     return grid;
             }
         }

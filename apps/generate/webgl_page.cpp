@@ -56,8 +56,8 @@ Json values_json(const candela::ParamSet& values) {
     return result;
 }
 
-template <class T>
-std::string packed(const std::vector<T>& values) {
+template <class T, class Allocator>
+std::string packed(const std::vector<T, Allocator>& values) {
     return base64(std::as_bytes(std::span(values)));
 }
 

@@ -6,6 +6,7 @@ module;
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <utility>
 #include <vector>
@@ -23,75 +24,44 @@ inline constexpr std::size_t k_lanes = 16;
 /// `count` rounded up to whole vectors.
 constexpr std::size_t whole_vectors(std::size_t count) { return (count + k_lanes - 1) / k_lanes * k_lanes; }
 
-/// Memory that begins at a cache line: a vector of 64 bytes that lies across two lines takes twice as long.
+/// Memory that begins at a cache line, as a vector of 64 bytes that lies across two takes twice as long; and
+/// that the system zeroes page by page, for whichever thread writes to a page first. What is constructed
+/// without a value keeps what is there: zeros, but where a vector shrank and grows again, its old values.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
-    static constexpr std::align_val_t k_line{64};
+    static constexpr std::size_t k_line = 64;
 
     CacheLineAllocator() = default;
     template <class Other>
     // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
     CacheLineAllocator(const CacheLineAllocator<Other>&) noexcept {}
 
+    // NOLINTBEGIN(cppcoreguidelines-no-malloc): nothing of the standard's gets such memory but calloc
     T* allocate(std::size_t count) {
-        if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
-        return static_cast<T*>(::operator new(count * sizeof(T), k_line));
+        if (count > (static_cast<std::size_t>(-1) - 2 * k_line) / sizeof(T))
+            throw std::bad_array_new_length();
+        std::size_t room = count * sizeof(T) + k_line;
+        void* const whole = std::calloc(room + sizeof whole, 1);
+        if (whole == nullptr) throw std::bad_alloc();
+        void* line = static_cast<void**>(whole) + 1;
+        std::align(k_line, count * sizeof(T), line, room);
+        static_cast<void**>(line)[-1] = whole;
+        return static_cast<T*>(line);
     }
-    void deallocate(T* memory, std::size_t) noexcept { ::operator delete(memory, k_line); }
+    void deallocate(T* memory, std::size_t) noexcept { std::free(reinterpret_cast<void**>(memory)[-1]); }
+    // NOLINTEND(cppcoreguidelines-no-malloc)
+
+    template <class U, class... Arguments>
+    void construct(U* place, Arguments&&... arguments) {
+        if constexpr (sizeof...(Arguments) > 0) ::new (place) U(std::forward<Arguments>(arguments)...);
+    }
 
     friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
-
-/// For allocators: what is constructed without a value keeps what its memory holds.
-struct KeepsMemory {
-    template <class U, class... Arguments>
-    void construct(U* place, Arguments&&... arguments) {
-        if constexpr (sizeof...(Arguments) > 0) ::new (place) U(std::forward<Arguments>(arguments)...);
-    }
-};
-
-/// Memory that begins at a cache line and holds no values until they are written, by whichever thread: only
-/// for what is written as a whole.
-template <class T>
-struct UnwrittenAllocator : CacheLineAllocator<T>, KeepsMemory {
-    UnwrittenAllocator() = default;
-    template <class Other>
-    // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
-    UnwrittenAllocator(const UnwrittenAllocator<Other>&) noexcept {}
-};
-
-template <class T>
-using UnwrittenVector = std::vector<T, UnwrittenAllocator<T>>;
-
-/// Memory that the system zeroes page by page, for whichever thread writes to a page first. What is
-/// constructed without a value keeps the zeros, so a vector must not shrink and then grow in place.
-template <class T>
-struct ZeroedAllocator : KeepsMemory {
-    using value_type = T;
-
-    ZeroedAllocator() = default;
-    template <class Other>
-    // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
-    ZeroedAllocator(const ZeroedAllocator<Other>&) noexcept {}
-
-    T* allocate(std::size_t count) {
-        // NOLINTNEXTLINE(cppcoreguidelines-no-malloc): nothing else of the standard's gets such memory
-        void* const memory = std::calloc(count, sizeof(T));
-        if (memory == nullptr) throw std::bad_alloc();
-        return static_cast<T*>(memory);
-    }
-    // NOLINTNEXTLINE(cppcoreguidelines-no-malloc)
-    void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
-
-    friend bool operator==(const ZeroedAllocator&, const ZeroedAllocator&) { return true; }
-};
-
-template <class T>
-using ZeroedVector = std::vector<T, ZeroedAllocator<T>>;
 
 /// Three arrays of their own memory.
 struct Vec3Arrays {

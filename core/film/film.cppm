@@ -44,8 +44,8 @@ class CANDELA_API Film {
     int height_;
     PixelType pixels_;
     ColorEncoding encoding_;
-    ZeroedVector<std::uint8_t> bytes_;
-    ZeroedVector<float> reals_;
+    AlignedVector<std::uint8_t> bytes_;
+    AlignedVector<float> reals_;
 };
 
 /// Which plugin writes a picture, and how it wants its pixels.

@@ -58,7 +58,7 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
     if (needs.uv) {
         const bool has_uv = !mesh.u.empty();
         for (std::size_t i = first; i < first + count; ++i) {
-            const auto mix = [&](const std::vector<float>& a) {
+            const auto mix = [&](const AlignedVector<float>& a) {
                 return has_uv ? weight.x[i] * a[vertices[0]] + weight.y[i] * a[vertices[1]] +
                                     weight.z[i] * a[vertices[2]]
                               : 0.0f;

@@ -76,7 +76,7 @@ class Collector final : public MeshSink {
 
     Mesh mesh;
     Vec3Arrays authored_normal;
-    std::vector<std::uint32_t> smooth_group;
+    AlignedVector<std::uint32_t> smooth_group;
     Closedness closedness = Closedness::unknown;
 
   private:
@@ -233,7 +233,7 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
     Mesh& mesh = placed.mesh;
     const std::size_t count = mesh.vertex_count();
     const bool has_groups = !placed.smooth_group.empty();
-    std::vector<std::uint32_t> each_its_own;
+    AlignedVector<std::uint32_t> each_its_own;
     if (!has_groups) {
         each_its_own.resize(count);
         std::iota(each_its_own.begin(), each_its_own.end(), 0u);

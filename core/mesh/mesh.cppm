@@ -30,12 +30,12 @@ struct alignas(32) MeshVertex {
 /// outside.
 struct Mesh {
     Vec3Arrays position;  // for loops over all vertices
-    std::vector<std::uint32_t> corners;
+    AlignedVector<std::uint32_t> corners;
     Vec3Arrays face_normal;  // a triangle each, unit; zero where it has no area
-    UnwrittenVector<MeshVertex> vertices;
-    std::vector<float> u, v;  // a vertex each, or empty
-    Vec3Arrays dpdu, dpdv;    // a vertex each, or empty
-    bool closed = false;      // else it is seen from both sides
+    AlignedVector<MeshVertex> vertices;
+    AlignedVector<float> u, v;  // a vertex each, or empty
+    Vec3Arrays dpdu, dpdv;      // a vertex each, or empty
+    bool closed = false;        // else it is seen from both sides
     std::size_t open_edges = 0;
 
     inline std::size_t vertex_count() const { return position.size(); }
@@ -51,8 +51,8 @@ struct Mesh {
 /// A mesh before it has normals, and what a shading model makes them from.
 struct PlacedShape {
     Mesh mesh;
-    Vec3Arrays authored_normal;               // a vertex each, unit, or empty
-    std::vector<std::uint32_t> smooth_group;  // a vertex each, or empty: each vertex is its own
+    Vec3Arrays authored_normal;                 // a vertex each, unit, or empty
+    AlignedVector<std::uint32_t> smooth_group;  // a vertex each, or empty: each vertex is its own
 };
 
 /// Tessellates `shape` and places it in the world.

@@ -1,5 +1,6 @@
 #include "candela/multiversion.h"
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>
@@ -24,6 +25,19 @@ struct GatherLoop {
 };
 
 }  // namespace
+
+TEST_CASE("an aligned vector begins at a cache line and with zeros, and keeps what it holds when it grows") {
+    for (const std::size_t size : {1u, 3u, 16u, 1000u, 100'000u, 3'000'000u}) {
+        candela::AlignedVector<float> vector(size);
+        CHECK(reinterpret_cast<std::uintptr_t>(vector.data()) % 64 == 0);
+        CHECK(std::ranges::all_of(vector, [](float x) { return x == 0; }));
+        std::ranges::fill(vector, 7.0f);
+        vector.resize(3 * size);
+        CHECK(reinterpret_cast<std::uintptr_t>(vector.data()) % 64 == 0);
+        CHECK(std::ranges::count(vector, 7.0f) == static_cast<std::ptrdiff_t>(size));
+        CHECK(std::ranges::count(vector, 0.0f) == static_cast<std::ptrdiff_t>(2 * size));
+    }
+}
 
 TEST_CASE("sixteen records fetched from anywhere become columns in their order, with every instruction set") {
     std::vector<Record> records;

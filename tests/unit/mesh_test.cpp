@@ -234,6 +234,51 @@ TEST_CASE("a mesh of unknown closedness is looked at: vertices at one place coun
     CHECK_FALSE(build(inside_out).closed);
 }
 
+TEST_CASE("open edges are as many as a map of all edges finds, whatever the triangles") {
+    Random random(17);
+    for (int mesh = 0; mesh < 50; ++mesh) {
+        // Few places, so that many edges lie between two triangles or more; some vertices share one.
+        GivenShape shape;
+        const double places = random.number(4, 9);
+        for (int i = 0; i < 12; ++i) {
+            const auto x = static_cast<float>(std::floor(random.number(0, places)));
+            shape.vertices.push_back({x, x == 0 && i % 2 == 0 ? -0.0f : 0.0f, x * x});
+        }
+        while (shape.corners.size() < 3 * 60) {
+            std::array<std::uint32_t, 3> c{};
+            for (std::uint32_t& corner : c) corner = static_cast<std::uint32_t>(random.number(0, 12));
+            const auto at = [&](std::size_t k) { return shape.vertices[c[k]].x; };
+            if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) continue;
+            shape.corners.insert(shape.corners.end(), c.begin(), c.end());
+        }
+        const Mesh built = build(shape);
+        CHECK(built.open_edges == static_cast<std::size_t>(topology(built).open_edges));
+    }
+}
+
+TEST_CASE("shapes make coordinates and derivatives only where they are asked for, and the same triangles") {
+    const auto shading = instance<candela::ShadingModel>("phong");
+    for (const char* name : {"sphere", "torus", "cube", "teapot"}) {
+        INFO(name);
+        const auto shape = instance<Shape>(name);
+        const Mesh all = build(*shape);
+        CHECK(all.u.size() == all.vertex_count());
+        CHECK(all.dpdv.size() == all.vertex_count());
+        for (const candela::MeshRequest request :
+             {candela::MeshRequest{}, {.uv = true}, {.derivatives = true}}) {
+            const Mesh mesh = candela::build_mesh(*shape, request, {}, *shading);
+            CHECK(mesh.corners == all.corners);
+            CHECK(mesh.position.x == all.position.x);
+            CHECK(mesh.position.y == all.position.y);
+            CHECK(mesh.position.z == all.position.z);
+            CHECK(mesh.u.size() == (request.uv ? all.u.size() : 0));
+            CHECK(mesh.v == (request.uv ? all.v : decltype(mesh.v){}));
+            CHECK(mesh.dpdu.x == (request.derivatives ? all.dpdu.x : decltype(mesh.v){}));
+            CHECK(mesh.dpdv.z == (request.derivatives ? all.dpdv.z : decltype(mesh.v){}));
+        }
+    }
+}
+
 TEST_CASE("what is no mesh is refused with a reason") {
     GivenShape empty;
     CHECK(complaint_about(empty).find("no triangles") != std::string::npos);

@@ -20,7 +20,7 @@ Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>
     Mesh mesh;
     mesh.position.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) mesh.position.span().set(i, vertices[i]);
-    mesh.corners = corners;
+    mesh.corners.assign(corners.begin(), corners.end());
     mesh.closed = closed;
     return mesh;
 }

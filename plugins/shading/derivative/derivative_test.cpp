@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <span>
 
 #include "support/command.h"
 #include "support/plugins.h"
@@ -63,7 +64,7 @@ Vec3 blend(const Mesh& mesh, std::size_t triangle, const Vec3Arrays& values, Vec
            weights.z * values.span()[corner[2]];
 }
 
-double blend(const Mesh& mesh, std::size_t triangle, const std::vector<float>& values, Vec3 weights) {
+double blend(const Mesh& mesh, std::size_t triangle, std::span<const float> values, Vec3 weights) {
     const std::uint32_t* const corner = &mesh.corners[3 * triangle];
     return weights.x * values[corner[0]] + weights.y * values[corner[1]] + weights.z * values[corner[2]];
 }
