@@ -44,7 +44,7 @@ struct CacheLineAllocator {
         std::size_t room = count * sizeof(T) + k_line;
         void* const whole = std::calloc(room + sizeof whole, 1);
         if (whole == nullptr) throw std::bad_alloc();
-        void* line = static_cast<void**>(whole) + 1;
+        void* line = static_cast<std::byte*>(whole) + sizeof whole;
         std::align(k_line, count * sizeof(T), line, room);
         static_cast<void**>(line)[-1] = whole;
         return static_cast<T*>(line);

@@ -11,6 +11,7 @@ module;
 #include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -218,7 +219,7 @@ std::size_t count_open_edges(const Mesh& mesh) {
     // Over a closed surface the directions of an edge add up to zero.
     std::size_t open = 0, first = 0;
     for (const std::size_t end : begin) {
-        std::ranges::sort(edges.begin() + first, edges.begin() + end, {}, &Edge::end);
+        std::ranges::sort(std::span(edges).subspan(first, end - first), {}, &Edge::end);
         while (first < end) {
             const std::uint32_t to = edges[first].end;
             std::int64_t balance = 0;
