@@ -14,7 +14,8 @@ export import candela.math;
 
 export namespace candela {
 
-/// Which optional arrays the renderer has a use for; a shape that has no such values leaves them out.
+/// Which optional arrays the renderer has a use for. A shape leaves out those that are not asked for, and
+/// those that it has no values for.
 struct MeshRequest {
     bool uv = false;
     bool derivatives = false;
