@@ -55,9 +55,9 @@ void print(const candela::PluginFile& file) {
     if (!m.reference.empty()) std::cout << "\nReference\n" << indented(m.reference) << '\n';
     if (!m.parameters.empty()) std::cout << "\nParameters\n";
     for (const candela::Parameter& p : m.parameters) {
-        const std::string fallback =
-            p.fallback ? "default " + candela::text_of(*p.fallback) : std::string("required");
-        std::cout << fmt::format("  {:<20} {}; {}{}{}\n", p.name, candela::expectation(p), fallback,
+        const std::string default_value =
+            p.default_value ? "default " + candela::text_of(*p.default_value) : std::string("required");
+        std::cout << fmt::format("  {:<20} {}; {}{}{}\n", p.name, candela::constraint_text(p), default_value,
                                  p.unit.empty() ? "" : " " + p.unit, "");
         std::cout << fmt::format("  {:<20} {}\n", "", p.meaning);
     }

@@ -30,7 +30,7 @@ height     = 500
 samples    = 8                       # a pixel: 1 is fast, 4, 8 and 16 are smooth at the edges
 background = [24, 26, 34]            # red, green, blue, 0 to 255 each
 
-# How the surface between corners is shaded: "flat" shows faces, "gouraud" shades corners, "phong" pixels.
+# How the surface between indices is shaded: "flat" shows faces, "gouraud" shades indices, "phong" pixels.
 [shading]
 model = "phong"
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 import candela.core;
-import candela.document;
+import candela.toml;
 
 namespace fs = std::filesystem;
 using candela::Error;

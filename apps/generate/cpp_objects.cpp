@@ -76,7 +76,7 @@ void CppObjects::add_object(std::size_t index) {
         fmt::format("    {{  // {}: {}\n        Object o;\n", tame(object.label), tame(object.shape));
     text += grid ? grid_text(object, *grid, needs_derivatives)
                  : fmt::format("        o.mesh = mesh_{}();\n", mesh_number(shape));
-    const candela::Placement& at = object.placement;
+    const candela::Transform& at = object.transform;
     text += fmt::format("        o.position = {};\n", vec3_text(at.position));
     if (at.rotation != Vec3{}) text += fmt::format("        o.rotation = {};\n", vec3_text(at.rotation));
     if (at.scale != Vec3{1, 1, 1}) text += fmt::format("        o.scale = {};\n", vec3_text(at.scale));
@@ -124,7 +124,7 @@ std::string CppObjects::grid_text(const ExportedObject& object, const GridShape&
 /// The number of an embedded mesh; equal ones are embedded once.
 std::size_t CppObjects::mesh_number(const candela::PlacedShape& shape) {
     std::string body = number_array("float", "position", interleaved(shape.mesh.position)) +
-                       number_array("int", "corners", shape.mesh.corners);
+                       number_array("int", "corners", shape.mesh.indices);
     std::string fill =
         "    Mesh m;\n    m.position = vectors_of(position);\n    m.corners.assign(std::begin(corners), "
         "std::end(corners));\n";
@@ -163,7 +163,7 @@ std::size_t CppObjects::mesh_number(const candela::PlacedShape& shape) {
 /// The program finds vertex normals as a shading model does that says nothing else than its kernel.
 void CppObjects::require_plain_normals(const ExportedObject& object) {
     struct Plain final : candela::ShadingModel {
-        candela::LightingRate lighting_rate() const noexcept override { return {}; }
+        candela::ShadingRate shading_rate() const noexcept override { return {}; }
         void normals(const candela::ShadingPointBatch&, const candela::Vec3Span&) const override {}
     };
     for (std::size_t i = 0; i < scene_.shadings.size(); ++i) {
@@ -171,8 +171,8 @@ void CppObjects::require_plain_normals(const ExportedObject& object) {
         if (model.kernel.function("corner_weight") != nullptr) continue;
         const auto shading =
             registry_.create<candela::ShadingModel>(model.name(), object.shadings[i], encoding_);
-        const auto expected = candela::build_mesh(*object.tessellator, {}, object.placement, Plain());
-        const auto actual = candela::build_mesh(*object.tessellator, {}, object.placement, *shading);
+        const auto expected = candela::build_mesh(*object.tessellator, {}, object.transform, Plain());
+        const auto actual = candela::build_mesh(*object.tessellator, {}, object.transform, *shading);
         const bool is_plain = std::ranges::equal(expected.vertices, actual.vertices, {},
                                                  &candela::MeshVertex::normal, &candela::MeshVertex::normal);
         if (!is_plain) {

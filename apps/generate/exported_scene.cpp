@@ -101,7 +101,7 @@ class Exporter {
         const auto instance = made<candela::ShadingModel>(name, values);
         auto model = model_of<ExportedShading>(PluginKind::shading, name);
         require_function(model, "normal");
-        model.rate = instance->lighting_rate();
+        model.rate = instance->shading_rate();
         model.needs = instance->needs();
         return put(result_.shadings, std::move(model));
     }
@@ -194,7 +194,7 @@ class Exporter {
         ExportedObject& to = result_.objects.emplace_back();
         to.label = name_in(object.label);
         to.color = object.color;
-        to.placement = object.placement;
+        to.transform = object.transform;
         to.shape = object.shape.name;
         to.shape_values = object.shape.parameters;
         to.tessellator = made<candela::Shape>(object.shape.name, object.shape.parameters);
@@ -215,7 +215,7 @@ class Exporter {
             to.materials.push_back(is_own ? object.reflection.parameters
                                           : values_for(PluginKind::reflection, name, index));
         }
-        to.closed = candela::place(*to.tessellator, {}, to.placement).mesh.closed;
+        to.closed = candela::place(*to.tessellator, {}, to.transform).mesh.closed;
     }
 
     /// One program holds all kernels, and neither C++ nor GLSL would tell two things of one name apart.
@@ -278,7 +278,7 @@ WorldMesh world_mesh(const ExportedScene& scene, const ExportedObject& object, c
     for (std::size_t i = 0; i < scene.shadings.size(); ++i) {
         const auto shading = registry.create<candela::ShadingModel>(
             scene.shadings[i].name(), object.shadings[i], scene.image.color_management);
-        candela::Mesh mesh = candela::build_mesh(*object.tessellator, request, object.placement, *shading);
+        candela::Mesh mesh = candela::build_mesh(*object.tessellator, request, object.transform, *shading);
         candela::Vec3Arrays normals = mesh.vertex_normals();
         const auto same = std::ranges::find_if(
             result.normals, [&](const candela::Vec3Arrays& n) { return are_equal(n, normals); });

@@ -23,7 +23,7 @@ struct ExportedModel {
 };
 
 struct ExportedShading : ExportedModel {
-    candela::LightingRate rate = candela::LightingRate::fragment;
+    candela::ShadingRate rate = candela::ShadingRate::fragment;
     candela::ShadingNeeds needs;
 };
 
@@ -47,7 +47,7 @@ struct ExportedObject {
     candela::ParamSet shape_values;
     std::optional<ExportedModel> shape_model;  // where the shape has a kernel
     std::unique_ptr<candela::Shape> tessellator;
-    candela::Placement placement;
+    candela::Transform transform;
     bool closed = false;
 };
 

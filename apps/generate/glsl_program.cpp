@@ -127,7 +127,7 @@ std::vector<LightUniform> light_uniforms(const ExportedScene& scene) {
     return uniforms;
 }
 
-const char* rate_name(candela::LightingRate rate) {
+const char* rate_name(candela::ShadingRate rate) {
     constexpr const char* k_names[] = {"face", "vertex", "fragment"};
     return k_names[static_cast<int>(rate)];
 }

@@ -31,6 +31,6 @@ struct LightUniform {
 std::vector<LightUniform> light_uniforms(const ExportedScene& scene);
 
 /// "face", "vertex", "fragment".
-const char* rate_name(candela::LightingRate rate);
+const char* rate_name(candela::ShadingRate rate);
 
 }  // namespace generate

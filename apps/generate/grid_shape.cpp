@@ -24,7 +24,7 @@ std::vector<std::uint32_t> groups_of(const GridShape& grid) {
 }
 
 std::vector<std::uint32_t> corners_of(const GridShape& grid) {
-    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> indices;
     const auto width = static_cast<std::uint32_t>(grid.columns) + 1;
     for (int row = 0; row < grid.rows; ++row) {
         for (int column = 0; column < grid.columns; ++column) {
@@ -33,11 +33,11 @@ std::vector<std::uint32_t> corners_of(const GridShape& grid) {
             const std::uint32_t b = a + 1, c = b + width, d = a + width;
             const bool starts_in_pole = grid.v_ends_in_poles && row == 0;
             const bool ends_in_pole = grid.v_ends_in_poles && row + 1 == grid.rows;
-            if (!starts_in_pole) corners.insert(corners.end(), {a, b, ends_in_pole ? d : c});
-            if (!ends_in_pole) corners.insert(corners.end(), {starts_in_pole ? b : a, c, d});
+            if (!starts_in_pole) indices.insert(indices.end(), {a, b, ends_in_pole ? d : c});
+            if (!ends_in_pole) indices.insert(indices.end(), {starts_in_pole ? b : a, c, d});
         }
     }
-    return corners;
+    return indices;
 }
 
 /// The places where u falls back are where rows begin.
@@ -64,7 +64,7 @@ std::optional<GridShape> grid_of(const candela::PlacedShape& shape) {
                 const bool is_closed = u_is_periodic && (v_is_periodic || has_poles);
                 if (is_closed == shape.mesh.closed &&
                     std::ranges::equal(groups_of(grid), shape.smooth_group) &&
-                    std::ranges::equal(corners_of(grid), shape.mesh.corners))
+                    std::ranges::equal(corners_of(grid), shape.mesh.indices))
                     return grid;
             }
         }

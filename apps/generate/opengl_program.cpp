@@ -161,7 +161,7 @@ class OpenGlWriter {
     void add_arrays(std::size_t index) {
         const WorldMesh world = world_mesh(scene_, scene_.objects[index], registry_);
         const candela::Mesh& mesh = world.mesh;
-        std::string body = number_array("unsigned", "corners", mesh.corners) +
+        std::string body = number_array("unsigned", "corners", mesh.indices) +
                            number_array("float", "position", interleaved(mesh.position));
         std::vector<std::string> sets;
         for (const candela::Vec3Arrays& normals : world.normals) {

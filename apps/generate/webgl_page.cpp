@@ -32,7 +32,7 @@ Json parameter_json(const candela::Parameter& p) {
             {"type", candela::name_of(p.type)},
             {"unit", p.unit},
             {"meaning", p.meaning},
-            {"default", p.fallback ? json_value(*p.fallback) : Json()},
+            {"default", p.default_value ? json_value(*p.default_value) : Json()},
             {"minimum", limit_json(p.minimum)},
             {"maximum", limit_json(p.maximum)},
             {"minimum_excluded", p.minimum_excluded},
@@ -77,7 +77,7 @@ Json mesh_json(const ExportedScene& scene, const WorldMesh& world) {
     const candela::Mesh& mesh = world.mesh;
     return {{"vertices", mesh.vertex_count()},
             {"triangles", mesh.triangle_count()},
-            {"corners", packed(mesh.corners)},
+            {"corners", packed(mesh.indices)},
             {"position", packed(mesh.position)},
             {"normals", std::move(normals)},
             {"normals_of", std::move(normals_of)},

@@ -14,15 +14,17 @@ module;
 
 module candela.render;
 
+import candela.color;
 import candela.constraints;
 import candela.diagnostics;
 import candela.environment;
+import candela.library;
 import candela.light;
 import candela.mesh;
 import candela.parallel;
 import candela.params;
-import candela.plugins;
 import candela.reflection;
+import candela.registry;
 import candela.scene;
 import candela.shading;
 import candela.shape;
@@ -122,15 +124,19 @@ class Compiler {
             const PointNeeds needs = has_surface ? compiled_.objects[i].surface.needs() : PointNeeds{};
             guarded(object, PluginKind::shape, object.shape.name, [&] {
                 placed_[i] = place(*made<Shape>(object.shape),
-                                   {.uv = needs.uv, .derivatives = needs.derivatives}, object.placement);
+                                   {.uv = needs.uv, .derivatives = needs.derivatives}, object.transform);
             });
         }
     }
 
     void check(const SceneDraft& draft) {
-        std::vector<const Mesh*> meshes;
-        for (const auto& placed : placed_) meshes.push_back(placed ? &placed->mesh : nullptr);
-        check_constraints(draft, meshes, diagnostics_);
+        std::vector<SurfaceView> surfaces(placed_.size());
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            if (!placed_[i]) continue;
+            const Mesh& mesh = placed_[i]->mesh;
+            surfaces[i] = {mesh.position.span(), mesh.vertex_count(), mesh.indices, mesh.closed};
+        }
+        check_constraints(draft, surfaces, diagnostics_);
     }
 
     void finish(std::size_t i) {
@@ -140,7 +146,7 @@ class Compiler {
                 [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
         if (solid.surface.reflection->shows_surroundings())
             solid.tree.emplace(std::as_const(solid.mesh.position).span(), solid.mesh.vertex_count(),
-                               solid.mesh.corners);
+                               solid.mesh.indices);
         if (!solid.mesh.closed) {
             diagnostics_.warning(
                 object.place,

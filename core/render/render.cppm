@@ -19,12 +19,12 @@ import candela.environment;
 import candela.film;
 import candela.fragments;
 import candela.geometry;
-import candela.lighting;
 import candela.math;
 import candela.mesh;
-import candela.plugins;
 import candela.raster;
+import candela.registry;
 import candela.scene;
+import candela.shade;
 
 export namespace candela {
 
@@ -133,7 +133,7 @@ class TileViewer {
 
 /// Numbers different indices in the order in which they come: a sparse set (Briggs, Torczon 1993), which is
 /// emptied at no cost.
-class Numbering {
+class SparseSet {
   public:
     /// Forgets all; indices to come are below `count`.
     void begin(std::size_t count) {
@@ -186,7 +186,7 @@ class TileShader {
     const ProjectedScene* projected_ = nullptr;
     Lighting lighting_;
     SurfacePoints points_;
-    Numbering numbering_;               // of a tile's faces, or sides of vertices
+    SparseSet sparse_set_;               // of a tile's faces, or sides of vertices
     std::vector<VertexSide> vertices_;  // in the order of their numbers
     Vec3Arrays batch_;                  // intensities of one batch
     Vec3Arrays places_;                 // of a tile's faces or vertices

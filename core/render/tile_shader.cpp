@@ -13,14 +13,15 @@ module;
 
 module candela.render;
 
+import candela.color;
 import candela.film;
 import candela.fragments;
-import candela.lighting;
 import candela.math;
 import candela.mesh;
 import candela.params;
 import candela.raster;
 import candela.scene;
+import candela.shade;
 import candela.shading;
 
 namespace candela {
@@ -62,7 +63,7 @@ struct AddLoop {
 
 /// A side of a vertex as an index.
 std::uint32_t index_of(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t k, bool is_back) {
-    return 2 * mesh.mesh.corners[3 * std::size_t{triangle} + k] + (is_back ? 1 : 0);
+    return 2 * mesh.mesh.indices[3 * std::size_t{triangle} + k] + (is_back ? 1 : 0);
 }
 
 }  // namespace
@@ -133,12 +134,12 @@ void TileShader::fill_background(const SeenTile& seen) {
 void TileShader::shade(const FragmentList& fragments) {
     const SolidObject& object = scene_->objects[fragments.object];
     const ProjectedMesh mesh{*projected_, object.mesh, projected_->first_vertex[fragments.object]};
-    switch (object.surface.shading->lighting_rate()) {
-        case LightingRate::face:
+    switch (object.surface.shading->shading_rate()) {
+        case ShadingRate::face:
             return shade_faces(mesh, fragments);
-        case LightingRate::vertex:
+        case ShadingRate::vertex:
             return shade_vertices(mesh, fragments);
-        case LightingRate::fragment:
+        case ShadingRate::fragment:
             return shade_fragments(mesh, fragments);
     }
 }
@@ -168,9 +169,9 @@ void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& 
 /// Light once a face that the tile sees.
 void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
-    numbering_.begin(mesh.mesh.triangle_count());
-    for (const FragmentRun& run : fragments.runs) numbering_.add(run.triangle);
-    const std::span<const std::uint32_t> triangles = numbering_.indices();
+    sparse_set_.begin(mesh.mesh.triangle_count());
+    for (const FragmentRun& run : fragments.runs) sparse_set_.add(run.triangle);
+    const std::span<const std::uint32_t> triangles = sparse_set_.indices();
     places_.resize(whole_vectors(triangles.size()));
     for (std::size_t first = 0; first < triangles.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, triangles.size() - first);
@@ -181,7 +182,7 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
         std::size_t first = 0;
         for (const FragmentRun& run : runs) {
-            const Vec3 intensity = places_.span()[numbering_.number_of(run.triangle)];
+            const Vec3 intensity = places_.span()[sparse_set_.number_of(run.triangle)];
             std::fill_n(&batch_.x[first], run.count, intensity.x);
             std::fill_n(&batch_.y[first], run.count, intensity.y);
             std::fill_n(&batch_.z[first], run.count, intensity.z);
@@ -194,16 +195,16 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
 /// Light once a vertex of a face that the tile sees, and once a side of it; interpolated in between.
 void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
-    numbering_.begin(2 * mesh.mesh.vertex_count());
+    sparse_set_.begin(2 * mesh.mesh.vertex_count());
     std::uint32_t last = k_no_triangle;
     for (const FragmentRun& run : fragments.runs) {
         if (run.triangle == last) continue;
         last = run.triangle;
         const bool is_back = mesh.is_back(run.triangle);
-        for (std::size_t k = 0; k < 3; ++k) numbering_.add(index_of(mesh, run.triangle, k, is_back));
+        for (std::size_t k = 0; k < 3; ++k) sparse_set_.add(index_of(mesh, run.triangle, k, is_back));
     }
     vertices_.clear();
-    for (const std::uint32_t index : numbering_.indices()) vertices_.push_back({index / 2, index % 2 == 1});
+    for (const std::uint32_t index : sparse_set_.indices()) vertices_.push_back({index / 2, index % 2 == 1});
     places_.resize(whole_vectors(vertices_.size()));
     for (std::size_t first = 0; first < vertices_.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, vertices_.size() - first);
@@ -222,7 +223,7 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
                 triangle = run.triangle;
                 for (std::size_t k = 0; k < 3; ++k) {
                     at_corner[k] =
-                        intensity[numbering_.number_of(index_of(mesh, triangle, k, points_.facing[i] < 0))];
+                        intensity[sparse_set_.number_of(index_of(mesh, triangle, k, points_.facing[i] < 0))];
                 }
             }
             for (const std::size_t end = i + run.count; i < end; ++i) {

@@ -11,15 +11,17 @@ module;
 
 module candela.render;
 
+import candela.color;
+import candela.containment;
 import candela.film;
-import candela.geometry;
 import candela.light;
-import candela.lighting;
 import candela.math;
 import candela.mesh;
 import candela.params;
 import candela.raster;
 import candela.scene;
+import candela.shade;
+import candela.transform;
 
 namespace candela {
 
@@ -65,8 +67,8 @@ class Receivers {
     void add(const Mesh& mesh, std::size_t triangle, const Camera& camera, const CompiledScene& scene) {
         const ConstVec3Span p = mesh.position.span();
         const Vec3 centroid =
-            (1 / 3.0f) * (p[mesh.corners[3 * triangle]] + p[mesh.corners[3 * triangle + 1]] +
-                          p[mesh.corners[3 * triangle + 2]]);
+            (1 / 3.0f) * (p[mesh.indices[3 * triangle]] + p[mesh.indices[3 * triangle + 1]] +
+                          p[mesh.indices[3 * triangle + 2]]);
         Vec3 normal = mesh.face_normal.span()[triangle];
         if (dot(normal, towards(camera, centroid)) <= 0) {
             if (mesh.closed) return;

@@ -66,7 +66,7 @@ function(candela_add_plugin id)
     set_source_files_properties(${text_source} PROPERTIES CXX_SCAN_FOR_MODULES OFF)
     target_compile_definitions(${target} PRIVATE
         CANDELA_PLUGIN_NAME="${name}" CANDELA_PLUGIN_VERSION="${PLUGIN_VERSION}")
-    target_link_libraries(${target} PRIVATE candela::core candela_batch_flags ${PLUGIN_LIBRARIES})
+    target_link_libraries(${target} PRIVATE candela::sdk candela_batch_flags ${PLUGIN_LIBRARIES})
     # Only candela_* leaves the library: module initialisers are otherwise visible, and two plugins could clash.
     target_link_options(${target} PRIVATE -Wl,--version-script=${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
     if(NOT CANDELA_SANITIZE)

@@ -82,13 +82,13 @@ TEST_CASE("parameters: each default is within its own range, and the defaults ag
           "[all]") {
     const candela::Manifest& m = subject_manifest();
     for (const candela::Parameter& p : m.parameters) {
-        if (!p.fallback) continue;
-        if (const auto wrong = candela::complaint(p, *p.fallback))
+        if (!p.default_value) continue;
+        if (const auto wrong = candela::validation_error(p, *p.default_value))
             FAIL_CHECK("the default of '" << p.name << "': " << *wrong);
     }
     const candela::ParamSet defaults(m.parameters);
     for (const candela::Relation& relation : m.relations) {
-        if (const auto wrong = candela::complaint(relation, defaults)) FAIL_CHECK("the defaults: " << *wrong);
+        if (const auto wrong = candela::validation_error(relation, defaults)) FAIL_CHECK("the defaults: " << *wrong);
     }
 }
 

@@ -102,7 +102,7 @@ double directional_albedo(const Reflections& reflections, Vec3 to_observer) {
 /// it receives, its energy is bounded only there.
 bool is_bounded(const Values& values) {
     return std::ranges::none_of(subject_manifest().relations, [&](const candela::Relation& relation) {
-        return candela::complaint(relation, values.set).has_value();
+        return candela::validation_error(relation, values.set).has_value();
     });
 }
 

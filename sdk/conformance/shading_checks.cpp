@@ -18,24 +18,24 @@ namespace {
 /// A mesh with what vertex normals are made from.
 struct Facets {
     std::vector<Vec3> position;
-    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> indices;
 
     std::vector<Vec3> vertex_normals(const ShadingModel& model) const;
 };
 
 std::vector<Vec3> Facets::vertex_normals(const ShadingModel& model) const {
-    const std::size_t count = position.size(), triangles = corners.size() / 3;
+    const std::size_t count = position.size(), triangles = indices.size() / 3;
     Arrays points(3, count), faces(3, triangles), normals(3, count);
     std::vector<std::uint32_t> group(count);
     std::iota(group.begin(), group.end(), 0u);
     for (std::size_t i = 0; i < count; ++i) points.vec3(0).set(i, position[i]);
     for (std::size_t t = 0; t < triangles; ++t) {
-        const Vec3 a = position[corners[3 * t]], b = position[corners[3 * t + 1]],
-                   c = position[corners[3 * t + 2]];
+        const Vec3 a = position[indices[3 * t]], b = position[indices[3 * t + 1]],
+                   c = position[indices[3 * t + 2]];
         faces.vec3(0).set(t, candela::normalized(cross(b - a, c - a)));
     }
     model.vertex_normals({.position = std::as_const(points).vec3(0),
-                          .corners = corners,
+                          .indices = indices,
                           .face_normal = std::as_const(faces).vec3(0),
                           .smooth_group = group,
                           .vertex_count = count,
@@ -62,7 +62,7 @@ Facets landscape(float bumps) {
     for (std::uint32_t row = 0; row + 1 < k_side; ++row) {
         for (std::uint32_t column = 0; column + 1 < k_side; ++column) {
             const std::uint32_t a = row * k_side + column, b = a + 1, c = b + k_side, d = a + k_side;
-            for (const std::uint32_t corner : {a, b, c, a, c, d}) mesh.corners.push_back(corner);
+            for (const std::uint32_t corner : {a, b, c, a, c, d}) mesh.indices.push_back(corner);
         }
     }
     return mesh;
@@ -128,8 +128,8 @@ TEST_CASE("order: vertex normals do not depend on how vertices and triangles are
     std::shuffle(place.begin(), place.end(), std::mt19937(5));
     Facets shuffled{mesh.position, {}};
     for (std::size_t i = 0; i < place.size(); ++i) shuffled.position[place[i]] = mesh.position[i];
-    for (std::size_t t = mesh.corners.size(); t > 0; t -= 3) {
-        for (const std::size_t k : {1, 2, 0}) shuffled.corners.push_back(place[mesh.corners[t - 3 + k]]);
+    for (std::size_t t = mesh.indices.size(); t > 0; t -= 3) {
+        for (const std::size_t k : {1, 2, 0}) shuffled.indices.push_back(place[mesh.indices[t - 3 + k]]);
     }
     for (const Values& values : many_values(10)) {
         const auto model = make<ShadingModel>(values);
@@ -162,7 +162,7 @@ TEST_CASE("degenerate: triangles without area, and vertices without triangles, l
     mesh.position.insert(mesh.position.end(), {{20, 0, 0}, {21, 0, 0}, {22, 0, 0}, {30, 0, 0}});
     const auto last = static_cast<std::uint32_t>(mesh.position.size());
     for (const std::uint32_t corner : {last - 4, last - 3, last - 2, 5u, 5u, 6u, 7u, 7u, 7u})
-        mesh.corners.push_back(corner);
+        mesh.indices.push_back(corner);
     for (const Values& values : many_values(10)) {
         const std::vector<Vec3> normals = mesh.vertex_normals(*make<ShadingModel>(values));
         for (std::size_t i = 0; i < normals.size(); ++i) {

@@ -39,9 +39,9 @@ Topology topology_of(const Mesh& mesh) {
     std::map<std::uint32_t, int> vertices;
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     Topology result;
-    for (std::size_t t = 0; t < mesh.corners.size(); t += 3) {
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
         std::array<std::uint32_t, 3> c{};
-        for (std::size_t k = 0; k < 3; ++k) vertices[c[k] = place[mesh.corners[t + k]]] = 1;
+        for (std::size_t k = 0; k < 3; ++k) vertices[c[k] = place[mesh.indices[t + k]]] = 1;
         for (std::size_t k = 0; k < 3; ++k)
             edges[std::minmax(c[k], c[(k + 1) % 3])] += c[k] < c[(k + 1) % 3] ? 1 : -1;
         const Vec3 normal = cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]);
@@ -111,11 +111,11 @@ TEST_CASE("normals: authored ones, and derivatives where there are some, agree w
         SKIP("it brings neither normals nor derivatives");
     const auto p = mesh.position.span();
     std::size_t against = 0, all = 0;
-    for (std::size_t t = 0; t < mesh.corners.size(); t += 3) {
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
         const Vec3 face =
-            cross(p[mesh.corners[t + 1]] - p[mesh.corners[t]], p[mesh.corners[t + 2]] - p[mesh.corners[t]]);
+            cross(p[mesh.indices[t + 1]] - p[mesh.indices[t]], p[mesh.indices[t + 2]] - p[mesh.indices[t]]);
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = mesh.corners[t + k];
+            const std::uint32_t v = mesh.indices[t + k];
             const auto judge = [&](Vec3 normal) {
                 if (candela::length(normal) < 1e-6f) return;  // a pole
                 ++all;

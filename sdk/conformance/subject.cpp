@@ -71,7 +71,7 @@ candela::Value value_at(const Parameter& p, double t, const Vec3& turn) {
             return turn == Vec3{} ? Vec3{0, -1, 0} : turn;
         case ParamType::color:
             return three(std::round(at(t)));
-        case ParamType::triple:
+        case ParamType::rgb:
             return three(at(t));
         default: {
             const auto part = [&](float share) { return static_cast<float>(at(0.5 + 0.5 * double{share})); };
@@ -82,7 +82,7 @@ candela::Value value_at(const Parameter& p, double t, const Vec3& turn) {
 
 bool is_allowed(const candela::ParamSet& set) {
     return std::ranges::none_of(subject_manifest().relations, [&](const candela::Relation& relation) {
-        return !relation.only_warns && candela::complaint(relation, set).has_value();
+        return !relation.only_warns && candela::validation_error(relation, set).has_value();
     });
 }
 
@@ -180,7 +180,7 @@ std::vector<Values> many_values(int random_sets) {
 
 bool needs_a_file() {
     return std::ranges::any_of(subject_manifest().parameters,
-                               [](const Parameter& p) { return p.type == ParamType::file && !p.fallback; });
+                               [](const Parameter& p) { return p.type == ParamType::file && !p.default_value; });
 }
 
 template <>

@@ -7,7 +7,8 @@
 #include <string>
 
 import candela.diagnostics;
-import candela.plugins;
+import candela.library;
+import candela.registry;
 
 int main(int argc, char** argv) {
     if (argc != 3) {

@@ -85,7 +85,7 @@ int run(const std::string& scene_file, const std::string& out_file) {
         put(out, &dump, 1);
         put_vectors(out, mesh.position);
         put_vectors(out, mesh.vertex_normals());
-        put(out, mesh.corners.data(), mesh.corners.size());
+        put(out, mesh.indices.data(), mesh.indices.size());
     }
     return out.flush() ? 0 : 1;
 }

@@ -165,7 +165,7 @@ class Rival {
             glBindBufferBase(GL_UNIFORM_BUFFER, 2, d.material);
             (d.is_closed ? glEnable : glDisable)(GL_CULL_FACE);
             glBindVertexArray(d.array);
-            glDrawElements(GL_TRIANGLES, d.corners, GL_UNSIGNED_INT, nullptr);
+            glDrawElements(GL_TRIANGLES, d.indices, GL_UNSIGNED_INT, nullptr);
         }
         glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
     }
@@ -173,7 +173,7 @@ class Rival {
   private:
     struct Drawn {
         GLuint array, material;
-        GLsizei corners;
+        GLsizei indices;
         bool is_closed;
     };
 
@@ -187,7 +187,7 @@ class Rival {
 
     void upload(const Scene::Object& o) {
         Drawn d{};
-        d.corners = static_cast<GLsizei>(o.corners.size());
+        d.indices = static_cast<GLsizei>(o.indices.size());
         d.is_closed = o.head.closed != 0;
         glGenVertexArrays(1, &d.array);
         glBindVertexArray(d.array);
@@ -197,7 +197,7 @@ class Rival {
         buffer(GL_ARRAY_BUFFER, o.normal.data(), o.normal.size() * sizeof(float), GL_STATIC_DRAW);
         glEnableVertexAttribArray(1);
         glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-        buffer(GL_ELEMENT_ARRAY_BUFFER, o.corners.data(), o.corners.size() * sizeof(std::uint32_t),
+        buffer(GL_ELEMENT_ARRAY_BUFFER, o.indices.data(), o.indices.size() * sizeof(std::uint32_t),
                GL_STATIC_DRAW);
         const float* const a = o.head.diffuse;
         const float* const s = o.head.specular;

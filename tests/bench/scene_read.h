@@ -17,7 +17,7 @@ struct Scene {
     struct Object {
         DumpObject head;
         std::vector<float> position, normal;
-        std::vector<std::uint32_t> corners;
+        std::vector<std::uint32_t> indices;
     };
     std::vector<Object> objects;
 };
@@ -39,10 +39,10 @@ inline Scene read_scene(const char* path) {
         get(in, &o.head, 1);
         o.position.resize(3 * std::size_t{o.head.vertices});
         o.normal.resize(3 * std::size_t{o.head.vertices});
-        o.corners.resize(3 * std::size_t{o.head.triangles});
+        o.indices.resize(3 * std::size_t{o.head.triangles});
         get(in, o.position.data(), o.position.size());
         get(in, o.normal.data(), o.normal.size());
-        get(in, o.corners.data(), o.corners.size());
+        get(in, o.indices.data(), o.indices.size());
     }
     return scene;
 }

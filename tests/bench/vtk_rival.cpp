@@ -78,11 +78,11 @@ vtkNew<vtkFloatArray> triples(const std::vector<float>& values) {
 vtkNew<vtkPolyData> mesh_of(const Scene::Object& o) {
     vtkNew<vtkPoints> points;
     points->SetData(triples(o.position));
-    vtkNew<vtkTypeInt32Array> corners;
-    corners->SetArray(reinterpret_cast<std::int32_t*>(const_cast<std::uint32_t*>(o.corners.data())),
-                      static_cast<vtkIdType>(o.corners.size()), 1);
+    vtkNew<vtkTypeInt32Array> indices;
+    indices->SetArray(reinterpret_cast<std::int32_t*>(const_cast<std::uint32_t*>(o.indices.data())),
+                      static_cast<vtkIdType>(o.indices.size()), 1);
     vtkNew<vtkCellArray> triangles;
-    triangles->SetData(3, corners);
+    triangles->SetData(3, indices);
     vtkNew<vtkPolyData> mesh;
     mesh->SetPoints(points);
     mesh->GetPointData()->SetNormals(triples(o.normal));

@@ -113,9 +113,9 @@ void check_finite(const candela::Scene& scene) {
     require(scene.image.width > 0 && scene.image.height > 0, "a valid picture has no pixels");
     for (const candela::LightSource& light : scene.lights) check_finite(light.model);
     for (const candela::Object& object : scene.objects) {
-        check_finite(object.placement.position);
-        check_finite(object.placement.rotation);
-        check_finite(object.placement.scale);
+        check_finite(object.transform.position);
+        check_finite(object.transform.rotation);
+        check_finite(object.transform.scale);
         check_finite(object.color);
         check_finite(object.shape);
         check_finite(object.shading);

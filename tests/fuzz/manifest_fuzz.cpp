@@ -9,14 +9,14 @@ namespace {
 /// What listings and scenes do with a manifest before the plugin's library is loaded.
 void use(const candela::Manifest& manifest) {
     for (const candela::Parameter& parameter : manifest.parameters) {
-        static_cast<void>(candela::expectation(parameter));
-        if (!parameter.fallback) continue;
-        static_cast<void>(candela::text_of(*parameter.fallback));
-        static_cast<void>(candela::complaint(parameter, *parameter.fallback));
+        static_cast<void>(candela::constraint_text(parameter));
+        if (!parameter.default_value) continue;
+        static_cast<void>(candela::text_of(*parameter.default_value));
+        static_cast<void>(candela::validation_error(parameter, *parameter.default_value));
     }
     const candela::ParamSet values(manifest.parameters);
     for (const candela::Relation& relation : manifest.relations) {
-        static_cast<void>(candela::complaint(relation, values));
+        static_cast<void>(candela::validation_error(relation, values));
     }
     try {
         const auto delivered = values.delivered(candela::ColorEncoding::srgb);

@@ -42,7 +42,7 @@ class WildShape final : public candela::Shape {
             }
             if (layout.has_smooth_groups) mesh.smooth_group[i] = index(layout.vertices);
         }
-        for (std::uint32_t& corner : mesh.corners) corner = index(layout.vertices);
+        for (std::uint32_t& corner : mesh.indices) corner = index(layout.vertices);
         if (bytes_.at_most(31) == 0) misbehave();
     }
 
@@ -90,7 +90,7 @@ bool is_unit_or_zero(Vec3 v) { return v == Vec3{} || std::abs(length(v) - 1) < 1
 void check(const candela::Mesh& mesh) {
     using fuzz::require;
     require(mesh.triangle_count() > 0, "a mesh without triangles");
-    for (const std::uint32_t corner : mesh.corners)
+    for (const std::uint32_t corner : mesh.indices)
         require(corner < mesh.vertex_count(), "a corner is no vertex");
     require(mesh.vertices.size() == mesh.vertex_count(), "vertices without normals");
     require(mesh.face_normal.size() == mesh.triangle_count(), "triangles without normals");
@@ -127,17 +127,17 @@ candela::Observer observer_from(Bytes& bytes) {
     return observer;
 }
 
-candela::Placement placement_from(Bytes& bytes) {
-    candela::Placement placement{.position = finite(bytes, {}), .rotation = finite(bytes, {})};
+candela::Transform placement_from(Bytes& bytes) {
+    candela::Transform transform{.position = finite(bytes, {}), .rotation = finite(bytes, {})};
     const Vec3 scale = finite(bytes, {1, 1, 1});
-    if (scale.x > 0 && scale.y > 0 && scale.z > 0) placement.scale = scale;
-    return placement;
+    if (scale.x > 0 && scale.y > 0 && scale.z > 0) transform.scale = scale;
+    return transform;
 }
 
 /// Whether it is in the way of others is asked of every mesh.
 void ask_geometry(const candela::Mesh& mesh) {
     const auto body_of = [](const candela::Mesh& m) {
-        return candela::Body(m.position.span(), m.vertex_count(), m.corners, m.closed);
+        return candela::Body(m.position.span(), m.vertex_count(), m.indices, m.closed);
     };
     static const candela::Mesh k_cube = candela::build_mesh(*instance<candela::Shape>("cube"), {}, {},
                                                             *instance<candela::ShadingModel>("flat"));
@@ -186,12 +186,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                       .shading = instance<candela::ShadingModel>(shading),
                       .reflection_plugin = reflection,
                       .reflection = instance<candela::ReflectionModel>(reflection)};
-    const candela::Placement placement = placement_from(bytes);
+    const candela::Transform transform = placement_from(bytes);
     const candela::MeshRequest request{.uv = bytes.flag(), .derivatives = bytes.flag()};
     const bool asks_well = bytes.flag();
     try {
         object.mesh = candela::build_mesh(
-            WildShape(bytes), request, asks_well ? candela::Placement{} : placement, *object.surface.shading);
+            WildShape(bytes), request, asks_well ? candela::Transform{} : transform, *object.surface.shading);
     } catch (const std::exception& problem) {
         fuzz::require(*problem.what() != '\0', "a refusal says nothing");
         return 0;

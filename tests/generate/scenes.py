@@ -107,7 +107,7 @@ def value_text(parameter, chance):
     if parameter["type"] == "choice":
         return json.dumps(chance.choice(parameter["choices"]))
     low, high = parameter.get("minimum"), parameter.get("maximum")
-    if low is None or high is None or parameter["type"] not in ("real", "integer", "triple"):
+    if low is None or high is None or parameter["type"] not in ("real", "integer", "rgb"):
         return None
     share = chance.uniform(0.2, 0.7)
     value = low + share * (high - low)

@@ -36,7 +36,7 @@ constexpr auto k_fields = fields(
     three(&Params::grain, candela::ParamType::vector, "grain", vec3(0), "how it runs").range(-2, 2),
     three(&Params::anchor, candela::ParamType::point, "anchor", vec3(0), "where it begins"),
     three(&Params::axis, candela::ParamType::direction, "axis", vec3(0, 1, 0), "which way it goes"),
-    three(&Params::weights, candela::ParamType::triple, "weights", vec3(0.5f), "of the channels").below(1));
+    three(&Params::weights, candela::ParamType::rgb, "weights", vec3(0.5f), "of the channels").below(1));
 
 }  // namespace
 

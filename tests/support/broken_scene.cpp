@@ -10,7 +10,7 @@
 
 #include "plugins.h"
 
-import candela.document;
+import candela.toml;
 
 namespace {
 

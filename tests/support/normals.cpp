@@ -25,7 +25,7 @@ Vec3 rounded(Double3 v) {
 }
 
 std::array<Double3, 3> corners_of(const Polyhedron& body, std::size_t triangle) {
-    const auto at = [&](std::size_t k) { return exact(body.position[body.corners[3 * triangle + k]]); };
+    const auto at = [&](std::size_t k) { return exact(body.position[body.indices[3 * triangle + k]]); };
     return {at(0), at(1), at(2)};
 }
 
@@ -41,7 +41,7 @@ std::vector<Vec3> vertex_normals(const ShadingModel& model, const Polyhedron& bo
     Vec3Arrays position = arrays_of(body.position), face = arrays_of(faces), given = arrays_of(authored),
                normal;
     normal.resize(body.position.size());
-    model.vertex_normals({position.span(), body.corners, face.span(), group, body.position.size(),
+    model.vertex_normals({position.span(), body.indices, face.span(), group, body.position.size(),
                           body.position.size(), given.empty() ? candela::ConstVec3Span{} : given.span()},
                          normal.span());
     std::vector<Vec3> result;
@@ -88,7 +88,7 @@ std::vector<WeightedSum> weighted_sums(const Polyhedron& body, const CornerWeigh
     for (std::size_t t = 0; t < body.triangles(); ++t) {
         const auto p = corners_of(body, t);
         for (std::size_t k = 0; k < 3; ++k) {
-            WeightedSum& s = sums[body.corners[3 * t + k]];
+            WeightedSum& s = sums[body.indices[3 * t + k]];
             const double w = weight(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
             s.sum = s.sum + w * face_normal(body, t);
             s.weights += w;
@@ -131,7 +131,7 @@ Polyhedron reordered(const Polyhedron& body, const std::vector<std::uint32_t>& r
     result.position.resize(body.position.size());
     for (std::size_t v = 0; v < body.position.size(); ++v) result.position[renumbered[v]] = body.position[v];
     for (std::size_t t = body.triangles(); t-- > 0;) {
-        const auto at = [&](std::size_t k) { return renumbered[body.corners[3 * t + (k + t) % 3]]; };
+        const auto at = [&](std::size_t k) { return renumbered[body.indices[3 * t + (k + t) % 3]]; };
         result.add(at(0), at(1), at(2));
     }
     return result;
@@ -218,7 +218,7 @@ void check_normals_of_odd_meshes(std::string_view name) {
 
 void check_interpolated_normals(std::string_view name) {
     const auto model = instance<ShadingModel>(name);
-    CHECK(model->lighting_rate() == candela::LightingRate::fragment);
+    CHECK(model->shading_rate() == candela::ShadingRate::fragment);
     Random random(6);
     each_way([&](std::size_t size) {
         Vec3Arrays face, vertex, weight, result;

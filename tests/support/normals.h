@@ -11,10 +11,10 @@
 /// Triangles; a vertex each is a smooth group of its own.
 struct Polyhedron {
     std::vector<candela::Vec3> position;
-    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> indices;
 
-    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) { corners.insert(corners.end(), {a, b, c}); }
-    std::size_t triangles() const { return corners.size() / 3; }
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
+    std::size_t triangles() const { return indices.size() / 3; }
 };
 
 /// The unit vector, or zero of a vector without length.

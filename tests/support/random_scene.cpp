@@ -226,7 +226,7 @@ class Generator {
                 return word(strange_name(0));
             case ParamType::color:
                 return color();
-            case ParamType::triple: {
+            case ParamType::rgb: {
                 if (chance(0.5)) return real(real_of(p));
                 const auto channel = [&] { return static_cast<float>(real_of(p)); };
                 return three({channel(), channel(), channel()});
@@ -246,7 +246,7 @@ class Generator {
     Entries parameters_of(const candela::PluginFile& plugin) {
         Entries entries;
         for (const Parameter& p : plugin.manifest.parameters) {
-            if (!p.fallback || chance(0.6)) entries.emplace_back(p.name, value_of(p));
+            if (!p.default_value || chance(0.6)) entries.emplace_back(p.name, value_of(p));
         }
         for (const candela::Relation& relation : plugin.manifest.relations) {
             if (!relation.only_warns) settle(relation, plugin.manifest.parameters, entries);
@@ -288,7 +288,7 @@ class Generator {
         for (const Parameter& p : plugin.manifest.parameters) {
             if (p.type != ParamType::real) continue;
             const std::string* const given = table.find(p.name);
-            lengths[p.name] = given != nullptr ? std::stod(*given) : std::get<double>(*p.fallback);
+            lengths[p.name] = given != nullptr ? std::stod(*given) : std::get<double>(*p.default_value);
         }
         table.set("type", word(shape));
         if (chance(0.7)) table.set("name", word(strange_name(index)));

@@ -17,12 +17,12 @@ candela::Mesh square() {
     candela::Mesh mesh;
     mesh.position.resize(4);
     mesh.face_normal.resize(2);
-    const std::array<Vec3, 4> corners = {Vec3{-1, -1, 0}, Vec3{1, -1, -1}, Vec3{1, 1, 0.5f}, Vec3{-1, 1, 0}};
+    const std::array<Vec3, 4> indices = {Vec3{-1, -1, 0}, Vec3{1, -1, -1}, Vec3{1, 1, 0.5f}, Vec3{-1, 1, 0}};
     for (std::size_t i = 0; i < 4; ++i) {
-        mesh.position.span().set(i, corners[i]);
-        mesh.vertices.push_back({.position = corners[i], .normal = {0.1f * static_cast<float>(i), 0.2f, 1}});
+        mesh.position.span().set(i, indices[i]);
+        mesh.vertices.push_back({.position = indices[i], .normal = {0.1f * static_cast<float>(i), 0.2f, 1}});
     }
-    mesh.corners = {0, 1, 2, 0, 2, 3};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
     mesh.face_normal.span().set(0, {0, 0, 1});
     mesh.face_normal.span().set(1, {0, 1, 0});
     return mesh;

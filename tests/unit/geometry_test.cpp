@@ -13,17 +13,17 @@
 
 using candela::Body;
 using candela::Mesh;
-using candela::Placement;
+using candela::Transform;
 using candela::Vec3;
 
 namespace {
 
-Mesh mesh_of(const char* shape, Given given, const Placement& placement = {}) {
-    return candela::place(*instance<candela::Shape>(shape, given), {}, placement).mesh;
+Mesh mesh_of(const char* shape, Given given, const Transform& transform = {}) {
+    return candela::place(*instance<candela::Shape>(shape, given), {}, transform).mesh;
 }
 
 Body body_of(const Mesh& mesh) {
-    return {mesh.position.span(), mesh.vertex_count(), mesh.corners, mesh.closed};
+    return {mesh.position.span(), mesh.vertex_count(), mesh.indices, mesh.closed};
 }
 
 Mesh cube(Vec3 position, float size = 1, Vec3 rotation = {}) {
@@ -55,14 +55,14 @@ Mesh joined(const std::vector<Mesh>& parts) {
             all.position.y.push_back(p.y[i]);
             all.position.z.push_back(p.z[i]);
         }
-        for (const std::uint32_t corner : part.corners) all.corners.push_back(first + corner);
+        for (const std::uint32_t corner : part.indices) all.indices.push_back(first + corner);
     }
     all.closed = std::ranges::all_of(parts, [](const Mesh& part) { return part.closed; });
     return all;
 }
 
 Mesh inside_out(Mesh mesh) {
-    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) std::swap(mesh.corners[i], mesh.corners[i + 1]);
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i], mesh.indices[i + 1]);
     return mesh;
 }
 
@@ -70,9 +70,9 @@ Mesh inside_out(Mesh mesh) {
 double winding_number(const Mesh& mesh, Double3 p) {
     double sum = 0;
     const auto position = mesh.position.span();
-    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
-        const Double3 a = exact(position[mesh.corners[i]]) - p, b = exact(position[mesh.corners[i + 1]]) - p,
-                      c = exact(position[mesh.corners[i + 2]]) - p;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const Double3 a = exact(position[mesh.indices[i]]) - p, b = exact(position[mesh.indices[i + 1]]) - p,
+                      c = exact(position[mesh.indices[i + 2]]) - p;
         const double na = length(a), nb = length(b), nc = length(c);
         sum +=
             std::atan2(dot(a, cross(b, c)), na * nb * nc + dot(a, b) * nc + dot(b, c) * na + dot(c, a) * nb);
@@ -86,8 +86,8 @@ Double3 point_below_surface(const Mesh& mesh, std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1);
     const std::size_t t = 3 * pick(random);
     const auto position = mesh.position.span();
-    const Double3 a = exact(position[mesh.corners[t]]), b = exact(position[mesh.corners[t + 1]]),
-                  c = exact(position[mesh.corners[t + 2]]);
+    const Double3 a = exact(position[mesh.indices[t]]), b = exact(position[mesh.indices[t + 1]]),
+                  c = exact(position[mesh.indices[t + 2]]);
     double u = unit(random), v = unit(random);
     if (u + v > 1) u = 1 - u, v = 1 - v;
     const Double3 n = cross(b - a, c - a);
@@ -117,23 +117,23 @@ RandomBody random_body(std::mt19937& random) {
     const auto between = [&](float low, float high) {
         return std::uniform_real_distribution<float>(low, high)(random);
     };
-    const Placement placement{{between(-0.9f, 0.9f), between(-0.9f, 0.9f), between(-0.9f, 0.9f)},
+    const Transform transform{{between(-0.9f, 0.9f), between(-0.9f, 0.9f), between(-0.9f, 0.9f)},
                               {between(0, 360), between(0, 360), between(0, 360)},
                               {between(0.5f, 1.2f), between(0.5f, 1.2f), between(0.5f, 1.2f)}};
     const std::int64_t segments = std::uniform_int_distribution<int>(6, 24)(random);
     switch (random() % 3) {
         case 0:
-            return {"cube", mesh_of("cube", {{"size", double{between(0.3f, 0.9f)}}}, placement)};
+            return {"cube", mesh_of("cube", {{"size", double{between(0.3f, 0.9f)}}}, transform)};
         case 1:
             return {"sphere",
                     mesh_of("sphere", {{"radius", double{between(0.2f, 0.6f)}}, {"segments", segments}},
-                            placement)};
+                            transform)};
         default:
             return {"torus", mesh_of("torus",
                                      {{"major_radius", double{between(0.5f, 0.8f)}},
                                       {"minor_radius", double{between(0.1f, 0.2f)}},
                                       {"segments", segments}},
-                                     placement)};
+                                     transform)};
     }
 }
 

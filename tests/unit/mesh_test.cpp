@@ -15,15 +15,15 @@
 import candela.parallel;
 
 using candela::Mesh;
-using candela::Placement;
+using candela::Transform;
 using candela::Shape;
 using candela::Vec3;
 
 namespace {
 
-Mesh build(const Shape& shape, const Placement& placement = {}) {
+Mesh build(const Shape& shape, const Transform& transform = {}) {
     const auto shading = instance<candela::ShadingModel>("phong");
-    return candela::build_mesh(shape, {.uv = true, .derivatives = true}, placement, *shading);
+    return candela::build_mesh(shape, {.uv = true, .derivatives = true}, transform, *shading);
 }
 
 /// By the divergence theorem: positive where the triangles face outwards.
@@ -31,8 +31,8 @@ double volume(const Mesh& mesh) {
     double six = 0;
     const auto p = mesh.position.span();
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        const Double3 a = exact(p[mesh.corners[3 * t]]), b = exact(p[mesh.corners[3 * t + 1]]),
-                      c = exact(p[mesh.corners[3 * t + 2]]);
+        const Double3 a = exact(p[mesh.indices[3 * t]]), b = exact(p[mesh.indices[3 * t + 1]]),
+                      c = exact(p[mesh.indices[3 * t + 2]]);
         six += a.x * (b.y * c.z - b.z * c.y) - a.y * (b.x * c.z - b.z * c.x) + a.z * (b.x * c.y - b.y * c.x);
     }
     return six / 6;
@@ -53,8 +53,8 @@ Topology topology(const Mesh& mesh) {
     std::map<std::pair<std::size_t, std::size_t>, int> edges;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t a = place(mesh.corners[3 * t + k]),
-                              b = place(mesh.corners[3 * t + (k + 1) % 3]);
+            const std::size_t a = place(mesh.indices[3 * t + k]),
+                              b = place(mesh.indices[3 * t + (k + 1) % 3]);
             edges[std::minmax(a, b)] += a < b ? 1 : -1;
         }
     }
@@ -70,15 +70,15 @@ class GivenShape final : public Shape {
   public:
     GivenShape() = default;
     GivenShape(std::vector<Vec3> v, std::vector<std::uint32_t> c)
-        : vertices(std::move(v)), corners(std::move(c)) {}
+        : vertices(std::move(v)), indices(std::move(c)) {}
 
     std::vector<Vec3> vertices;
-    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> indices;
 
     void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
-        const auto mesh = sink.allocate({.vertices = vertices.size(), .triangles = corners.size() / 3});
+        const auto mesh = sink.allocate({.vertices = vertices.size(), .triangles = indices.size() / 3});
         for (std::size_t i = 0; i < vertices.size(); ++i) mesh.position.set(i, vertices[i]);
-        std::copy(corners.begin(), corners.end(), mesh.corners.begin());
+        std::copy(indices.begin(), indices.end(), mesh.indices.begin());
     }
 };
 
@@ -177,7 +177,7 @@ TEST_CASE("a large mesh has the same vertices and normals whatever the number of
 
 TEST_CASE("of the vertex normals that are no numbers the first is named, whatever the number of threads") {
     struct Broken final : candela::ShadingModel {
-        candela::LightingRate lighting_rate() const noexcept override { return {}; }
+        candela::ShadingRate shading_rate() const noexcept override { return {}; }
         void normals(const candela::ShadingPointBatch&, const candela::Vec3Span&) const override {}
         void vertex_normals(const candela::MeshView& mesh, const candela::Vec3Span& normals) const override {
             ShadingModel::vertex_normals(mesh, normals);
@@ -198,7 +198,7 @@ TEST_CASE("a cube keeps its sharp edges: the normals of a corner are those of it
     const Mesh mesh = build(*instance<Shape>("cube"));
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            CHECK(mesh.vertices[mesh.corners[3 * t + k]].normal == mesh.face_normal.span()[t]);
+            CHECK(mesh.vertices[mesh.indices[3 * t + k]].normal == mesh.face_normal.span()[t]);
         }
     }
 }
@@ -219,18 +219,18 @@ TEST_CASE("a mesh of unknown closedness is looked at: vertices at one place coun
     CHECK(build(shape).closed);
     // The same with three vertices of its own for every triangle.
     GivenShape soup;
-    for (const std::uint32_t corner : shape.corners) {
-        soup.corners.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
+    for (const std::uint32_t corner : shape.indices) {
+        soup.indices.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
         soup.vertices.push_back(shape.vertices[corner]);
     }
     CHECK(build(soup).closed);
-    soup.corners.resize(9);
+    soup.indices.resize(9);
     const Mesh open = build(soup);
     CHECK_FALSE(open.closed);
     CHECK(open.open_edges == 3);
     // One triangle inside out: closed in number, not in sense.
     GivenShape inside_out = tetrahedron();
-    std::swap(inside_out.corners[0], inside_out.corners[1]);
+    std::swap(inside_out.indices[0], inside_out.indices[1]);
     CHECK_FALSE(build(inside_out).closed);
 }
 
@@ -244,12 +244,12 @@ TEST_CASE("open edges are as many as a map of all edges finds, whatever the tria
             const auto x = static_cast<float>(std::floor(random.number(0, places)));
             shape.vertices.push_back({x, x == 0 && i % 2 == 0 ? -0.0f : 0.0f, x * x});
         }
-        while (shape.corners.size() < 3 * 60) {
+        while (shape.indices.size() < 3 * 60) {
             std::array<std::uint32_t, 3> c{};
             for (std::uint32_t& corner : c) corner = static_cast<std::uint32_t>(random.number(0, 12));
             const auto at = [&](std::size_t k) { return shape.vertices[c[k]].x; };
             if (at(0) == at(1) || at(1) == at(2) || at(2) == at(0)) continue;
-            shape.corners.insert(shape.corners.end(), c.begin(), c.end());
+            shape.indices.insert(shape.indices.end(), c.begin(), c.end());
         }
         const Mesh built = build(shape);
         CHECK(built.open_edges == static_cast<std::size_t>(topology(built).open_edges));
@@ -267,7 +267,7 @@ TEST_CASE("shapes make coordinates and derivatives only where they are asked for
         for (const candela::MeshRequest request :
              {candela::MeshRequest{}, {.uv = true}, {.derivatives = true}}) {
             const Mesh mesh = candela::build_mesh(*shape, request, {}, *shading);
-            CHECK(mesh.corners == all.corners);
+            CHECK(mesh.indices == all.indices);
             CHECK(mesh.position.x == all.position.x);
             CHECK(mesh.position.y == all.position.y);
             CHECK(mesh.position.z == all.position.z);
@@ -283,7 +283,7 @@ TEST_CASE("what is no mesh is refused with a reason") {
     GivenShape empty;
     CHECK(complaint_about(empty).find("no triangles") != std::string::npos);
     GivenShape wild = tetrahedron();
-    wild.corners[4] = 77;
+    wild.indices[4] = 77;
     CHECK(complaint_about(wild).find("vertex 77") != std::string::npos);
     GivenShape infinite = tetrahedron();
     infinite.vertices[2].y = std::numeric_limits<float>::infinity();
@@ -306,7 +306,7 @@ TEST_CASE("a shape too far away to compute with is refused with a reason, howeve
 TEST_CASE("a triangle without area has no normal, and does no harm to its neighbours'") {
     GivenShape shape;
     shape.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
-    shape.corners = {0, 1, 2, 0, 1, 3};
+    shape.indices = {0, 1, 2, 0, 1, 3};
     const Mesh mesh = build(shape);
     CHECK(mesh.face_normal.span()[1] == Vec3{});
     CHECK(mesh.vertices[0].normal == Vec3{0, 0, 1});

@@ -31,27 +31,27 @@ candela::Manifest sample_manifest() {
                      .type = ParamType::real,
                      .unit = "m",
                      .meaning = "x",
-                     .fallback = 0.1,
+                     .default_value = 0.1,
                      .minimum = 0,
                      .minimum_excluded = true},
                     {.name = "count",
                      .type = ParamType::integer,
                      .meaning = "x",
-                     .fallback = std::int64_t{3},
+                     .default_value = std::int64_t{3},
                      .minimum = 1,
                      .maximum = 9},
-                    {.name = "on", .type = ParamType::boolean, .meaning = "x", .fallback = true},
+                    {.name = "on", .type = ParamType::boolean, .meaning = "x", .default_value = true},
                     {.name = "law",
                      .type = ParamType::choice,
                      .meaning = "x",
-                     .fallback = std::string("b"),
+                     .default_value = std::string("b"),
                      .choices = {"a", "b"}},
-                    {.name = "at", .type = ParamType::point, .meaning = "x", .fallback = std::nullopt},
-                    {.name = "tint", .type = ParamType::color, .meaning = "x", .fallback = Vec3{1, 2, 3}},
+                    {.name = "at", .type = ParamType::point, .meaning = "x", .default_value = std::nullopt},
+                    {.name = "tint", .type = ParamType::color, .meaning = "x", .default_value = Vec3{1, 2, 3}},
                     {.name = "kd",
-                     .type = ParamType::triple,
+                     .type = ParamType::rgb,
                      .meaning = "x",
-                     .fallback = Vec3{0.1f, 0.2f, 0.3f},
+                     .default_value = Vec3{0.1f, 0.2f, 0.3f},
                      .maximum = 1,
                      .maximum_excluded = true}};
     m.relations = {{candela::RelationType::less, "size", "count", true, "why"}};
@@ -82,31 +82,31 @@ TEST_CASE("what is no manifest is refused with a reason") {
 TEST_CASE("parameters are delivered as plugins expect them") {
     using candela::ColorEncoding;
     ParamSet angle =
-        set_of({.name = "a", .type = ParamType::real, .unit = "deg", .meaning = "", .fallback = 180.0});
+        set_of({.name = "a", .type = ParamType::real, .unit = "deg", .meaning = "", .default_value = 180.0});
     CHECK(agree(angle.delivered(ColorEncoding::none)[0].number[0], 3.14159265, 1e-6));
     ParamSet direction =
-        set_of({.name = "d", .type = ParamType::direction, .meaning = "", .fallback = Vec3{0, 3, 4}});
+        set_of({.name = "d", .type = ParamType::direction, .meaning = "", .default_value = Vec3{0, 3, 4}});
     CHECK(direction.delivered(ColorEncoding::none)[0].number[1] == 0.6f);
     ParamSet color =
-        set_of({.name = "c", .type = ParamType::color, .meaning = "", .fallback = Vec3{255, 51, 0}});
+        set_of({.name = "c", .type = ParamType::color, .meaning = "", .default_value = Vec3{255, 51, 0}});
     CHECK(agree(color.delivered(ColorEncoding::none)[0].number[1], 0.2, 1e-6));
     CHECK(agree(color.delivered(ColorEncoding::srgb)[0].number[1], 0.033105, 1e-4));
     ParamSet choice = set_of({.name = "w",
                               .type = ParamType::choice,
                               .meaning = "",
-                              .fallback = std::string("two"),
+                              .default_value = std::string("two"),
                               .choices = {"one", "two"}});
     CHECK(choice.delivered(ColorEncoding::none)[0].integer == 1);
     ParamSet required =
-        set_of({.name = "r", .type = ParamType::point, .meaning = "", .fallback = std::nullopt});
+        set_of({.name = "r", .type = ParamType::point, .meaning = "", .default_value = std::nullopt});
     CHECK_THROWS_AS(required.delivered(ColorEncoding::none), std::invalid_argument);
 }
 
 TEST_CASE("a parameter set takes what fits and nothing else") {
     ParamSet set = set_of({.name = "kd",
-                           .type = ParamType::triple,
+                           .type = ParamType::rgb,
                            .meaning = "",
-                           .fallback = Vec3{},
+                           .default_value = Vec3{},
                            .minimum = 0,
                            .maximum = 1});
     set.set("kd", 0.5);

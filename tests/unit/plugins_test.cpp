@@ -89,11 +89,11 @@ TEST_CASE("every shipped plugin agrees with its manifest, and every default fits
         INFO(file->manifest.id());
         CHECK_NOTHROW(candela::load_plugin(file->library, &file->manifest));
         for (const candela::Parameter& p : file->manifest.parameters) {
-            if (p.fallback) CHECK_FALSE(candela::complaint(p, *p.fallback));
+            if (p.default_value) CHECK_FALSE(candela::validation_error(p, *p.default_value));
         }
         const candela::ParamSet defaults(file->manifest.parameters);
         for (const candela::Relation& r : file->manifest.relations)
-            CHECK_FALSE(candela::complaint(r, defaults));
+            CHECK_FALSE(candela::validation_error(r, defaults));
     }
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("a text file called .so is refused") {
 TEST_CASE("a manifest that disagrees with its library is refused, with the parts that differ") {
     const fs::path directory = directory_with(k_shipped / "reflection-phong.so", "phong");
     candela::Manifest manifest = test_registry().require(PluginKind::reflection, "phong").manifest;
-    manifest.parameters[3].fallback = 33.0;
+    manifest.parameters[3].default_value = 33.0;
     manifest.title = "Fong";
     write_file(directory / "reflection-phong.json", candela::to_json(manifest));
     CHECK(holds(refusal(directory, "phong"), "its manifest disagrees with it about its title, parameters"));

@@ -58,10 +58,10 @@ TEST_CASE("the meshes of random scenes lie within the bounds that the generator 
             const auto shape = test_registry().create<candela::Shape>(
                 object.shape.name, object.shape.parameters, candela::ColorEncoding::none);
             const auto shading = instance<candela::ShadingModel>("flat");
-            const candela::Mesh mesh = candela::build_mesh(*shape, {}, object.placement, *shading);
+            const candela::Mesh mesh = candela::build_mesh(*shape, {}, object.transform, *shading);
             const auto position = mesh.position.span();
             REQUIRE(mesh.triangle_count() > 0);
-            for (const std::uint32_t corner : mesh.corners) {
+            for (const std::uint32_t corner : mesh.indices) {
                 INFO("seed " << seed << ", object " << i << " (" << object.shape.name << ")");
                 REQUIRE(candela::length(position[corner] - random.objects[i].center) <=
                         random.objects[i].radius + 1e-5f);

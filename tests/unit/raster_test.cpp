@@ -15,12 +15,12 @@ using candela::Vec3;
 
 namespace {
 
-Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>& corners,
+Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>& indices,
              bool closed = false) {
     Mesh mesh;
     mesh.position.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) mesh.position.span().set(i, vertices[i]);
-    mesh.corners.assign(corners.begin(), corners.end());
+    mesh.indices.assign(indices.begin(), indices.end());
     mesh.closed = closed;
     return mesh;
 }
@@ -125,7 +125,7 @@ TEST_CASE("what is seen is what a ray meets first, also for triangles that reach
                             perspective ? Projection::perspective : Projection::orthographic,
                             perspective ? 70.0f : 3.0f, width, height);
         std::vector<Vec3> vertices;
-        std::vector<std::uint32_t> corners;
+        std::vector<std::uint32_t> indices;
         std::vector<std::array<Double3, 3>> triangles;
         for (std::uint32_t t = 0; t < 12; ++t) {
             std::array<Double3, 3> triangle;
@@ -134,11 +134,11 @@ TEST_CASE("what is seen is what a ray meets first, also for triangles that reach
                 const Vec3 p = random.point(round % 2 == 0 ? 3 : 300);
                 triangle[k] = exact(p);
                 vertices.push_back(p);
-                corners.push_back(3 * t + static_cast<std::uint32_t>(k));
+                indices.push_back(3 * t + static_cast<std::uint32_t>(k));
             }
             triangles.push_back(triangle);
         }
-        const Mesh mesh = mesh_of(vertices, corners);
+        const Mesh mesh = mesh_of(vertices, indices);
         const auto ids = visible({&mesh}, camera);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
@@ -196,8 +196,8 @@ TEST_CASE("a floor that passes under the observer is drawn to the picture's lowe
 TEST_CASE("closed meshes are culled from behind, open ones are seen from both sides") {
     const std::vector<Vec3> vertices = {{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}};
     const Camera camera = pixel_camera(16, 16);
-    const auto sees = [&](const std::vector<std::uint32_t>& corners, bool closed) {
-        const Mesh mesh = mesh_of(vertices, corners, closed);
+    const auto sees = [&](const std::vector<std::uint32_t>& indices, bool closed) {
+        const Mesh mesh = mesh_of(vertices, indices, closed);
         const auto ids = visible({&mesh}, camera);
         return std::any_of(ids.begin(), ids.end(),
                            [](std::uint32_t id) { return id != candela::k_no_triangle; });

@@ -133,8 +133,8 @@ scale = [1, 2, 3]
     REQUIRE(scene.objects.size() == 2);
     const candela::Object& ball = scene.objects[0];
     CHECK(ball.label == "'ball'");
-    CHECK(ball.placement.scale == Vec3{2, 2, 2});
-    CHECK(ball.placement.rotation == Vec3{10, 20, 30});
+    CHECK(ball.transform.scale == Vec3{2, 2, 2});
+    CHECK(ball.transform.rotation == Vec3{10, 20, 30});
     CHECK(ball.shading.name == "gouraud");
     CHECK(ball.reflection.name == "blinn-phong");
     CHECK(std::get<Vec3>(ball.reflection.parameters.get("ka")) == Vec3{0.2f, 0.2f, 0.2f});
@@ -143,7 +143,7 @@ scale = [1, 2, 3]
     CHECK(std::get<std::int64_t>(ball.shape.parameters.get("segments")) == 12);
     CHECK(scene.objects[1].shading.name == "flat");
     CHECK(scene.objects[1].reflection.name == "lambert");
-    CHECK(scene.objects[1].placement.scale == Vec3{1, 2, 3});
+    CHECK(scene.objects[1].transform.scale == Vec3{1, 2, 3});
     CHECK(scene.objects[1].label == "number 1");
 }
 

@@ -184,9 +184,9 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.objects.pop_back(); },
         [](Scene& s) { s.objects[1].label = "'pot'"; },
         [](Scene& s) { s.objects[1].shape.parameters.set("segments", std::int64_t{9}); },
-        [](Scene& s) { s.objects[1].placement.position.x += 1; },
-        [](Scene& s) { s.objects[1].placement.rotation.x += 1; },
-        [](Scene& s) { s.objects[1].placement.scale.x += 1; },
+        [](Scene& s) { s.objects[1].transform.position.x += 1; },
+        [](Scene& s) { s.objects[1].transform.rotation.x += 1; },
+        [](Scene& s) { s.objects[1].transform.scale.x += 1; },
         [](Scene& s) { s.objects[1].color.x += 1; },
         [](Scene& s) { s.objects[1].shading.name = "flat"; },
         [](Scene& s) { s.objects[1].reflection.parameters.set("kd", Vec3{0.1f, 0.2f, 0.3f}); },
@@ -233,7 +233,7 @@ TEST_CASE(
     const fs::path directory = scratch_directory();
     candela::Manifest wavy = test_registry().require(candela::PluginKind::shading, "phong").manifest;
     wavy.name = "wavy";
-    wavy.parameters = {{.name = "waves", .type = candela::ParamType::real, .fallback = 2.0}};
+    wavy.parameters = {{.name = "waves", .type = candela::ParamType::real, .default_value = 2.0}};
     write_file(directory / "shading-wavy.json", candela::to_json(wavy));
     write_file(directory / "shading-wavy.so", "");  // never loaded
     candela::Registry registry({directory, CANDELA_TEST_PLUGINS});

@@ -24,13 +24,13 @@ Manifest manifest(PluginKind kind, const std::string& name, std::vector<Paramete
     return m;
 }
 
-Parameter number(const std::string& name, float minimum, float maximum, double fallback) {
+Parameter number(const std::string& name, float minimum, float maximum, double default_value) {
     Parameter p;
     p.name = name;
     p.meaning = "meaning of " + name;
     p.minimum = minimum;
     p.maximum = maximum;
-    p.fallback = fallback;
+    p.default_value = default_value;
     return p;
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("the reference keeps a parameter's text within its cell, and shows how
     p.meaning = "|p|\nand more";
     p.unit = "deg";
     Parameter required = number("q", 0, 8, 0);
-    required.fallback.reset();
+    required.default_value.reset();
     Manifest m = manifest(PluginKind::light, "a", {p, required});
     m.formula = "I = |p|";
     m.relations = {{candela::RelationType::less, "p", "q", false, "so it is"}};

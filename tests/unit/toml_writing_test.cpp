@@ -11,7 +11,7 @@
 #include <vector>
 
 import candela.core;
-import candela.document;
+import candela.toml;
 
 namespace {
 

@@ -20,7 +20,7 @@ candela::Mesh shape(const char* name, Given given) {
 
 TriangleTree tree_of(const candela::Mesh& mesh) {
     const candela::ConstVec3Span position = mesh.position.span();
-    return {position, mesh.vertex_count(), mesh.corners};
+    return {position, mesh.vertex_count(), mesh.indices};
 }
 
 Double3 at(Vec3 origin, Vec3 direction, double distance) {
@@ -42,7 +42,7 @@ TEST_CASE("a ray within a ball leaves it where the quadratic equation says") {
         CHECK(std::abs(static_cast<double>(exit->distance) - (-b + std::sqrt(b * b - c))) < 1e-3);
         // Barycentric coordinates say the same place.
         const auto corner = [&](std::size_t k) {
-            return exact(ball.position.span()[ball.corners[3 * std::size_t{exit->triangle} + k]]);
+            return exact(ball.position.span()[ball.indices[3 * std::size_t{exit->triangle} + k]]);
         };
         const Vec3 w = exit->barycentric;
         const Double3 there = double{w.x} * corner(0) + double{w.y} * corner(1) + double{w.z} * corner(2);
@@ -92,8 +92,8 @@ TEST_CASE("in a torus the way ends at the nearest wall, not at the far side of t
 
 TEST_CASE("where a surface is open, or there is none, a ray does not leave") {
     const std::vector<float> x = {0, 1, 0}, y = {0, 0, 1}, z = {0, 0, 0};
-    const std::vector<std::uint32_t> corners = {0, 1, 2};
-    const TriangleTree one({x.data(), y.data(), z.data()}, 3, corners);
+    const std::vector<std::uint32_t> indices = {0, 1, 2};
+    const TriangleTree one({x.data(), y.data(), z.data()}, 3, indices);
     CHECK(one.exit_of({0.2f, 0.2f, -1}, {0, 0, 1}).has_value());
     CHECK_FALSE(one.exit_of({0.2f, 0.2f, 1}, {0, 0, -1}).has_value());  // it comes in there
     CHECK_FALSE(one.exit_of({0.9f, 0.9f, -1}, {0, 0, 1}).has_value());

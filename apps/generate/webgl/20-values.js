@@ -11,7 +11,7 @@ function tidy(value) {
 
 /// A triple is three numbers, however it was written.
 function canonical(parameter, value) {
-    return tidy(parameter.type === "triple" && isNumber(value) ? [value, value, value] : value);
+    return tidy(parameter.type === "rgb" && isNumber(value) ? [value, value, value] : value);
 }
 
 function areEqual(a, b) {
@@ -45,7 +45,7 @@ function complaint(parameter, value) {
             return parameter.choices.includes(value) ? null : "must be one of the choices";
         case "color":
             return isThreeNumbers(value) && value.every((x) => x >= 0 && x <= 256) ? null : "must be three numbers from 0 to 255";
-        case "triple":
+        case "rgb":
             if (isNumber(value)) return inRange(value);
             break;
     }

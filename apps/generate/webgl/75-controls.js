@@ -174,7 +174,7 @@ class Controls {
             case "boolean":
             case "choice":
             case "color":
-            case "triple":
+            case "rgb":
                 return this[found.parameter.type](path, title);
             default:
                 return this.vector(path, title, AXES);

@@ -16,6 +16,7 @@
 #include "filter.h"
 
 import candela.parallel;
+import candela.pool;
 
 using namespace candela::sdk;
 

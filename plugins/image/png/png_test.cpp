@@ -75,7 +75,7 @@ Bytes png_of(const Picture& picture, int compression = 1, int threads = 2,
     return memory.bytes;
 }
 
-/// As libpng reads it, without a word of complaint.
+/// As libpng reads it, without a word of validation_error.
 Picture read_by_libpng(const Bytes& file) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;

@@ -7,7 +7,7 @@ namespace candela::kernel {
 using namespace candela::sdk;
 
 using Derivative =
-    KernelShading<NoParams, candela::LightingRate::fragment, &candela::kernel::derivative_normal,
+    KernelShading<NoParams, candela::ShadingRate::fragment, &candela::kernel::derivative_normal,
                   candela::ShadingNeeds{.derivatives = true}>;
 
 CANDELA_KERNEL_PLUGIN(

@@ -59,13 +59,13 @@ struct Deviation {
 };
 
 Vec3 blend(const Mesh& mesh, std::size_t triangle, const Vec3Arrays& values, Vec3 weights) {
-    const std::uint32_t* const corner = &mesh.corners[3 * triangle];
+    const std::uint32_t* const corner = &mesh.indices[3 * triangle];
     return weights.x * values.span()[corner[0]] + weights.y * values.span()[corner[1]] +
            weights.z * values.span()[corner[2]];
 }
 
 double blend(const Mesh& mesh, std::size_t triangle, std::span<const float> values, Vec3 weights) {
-    const std::uint32_t* const corner = &mesh.corners[3 * triangle];
+    const std::uint32_t* const corner = &mesh.indices[3 * triangle];
     return weights.x * values[corner[0]] + weights.y * values[corner[1]] + weights.z * values[corner[2]];
 }
 
@@ -134,7 +134,7 @@ std::vector<float> rendered(const fs::path& file, const char* shading) {
 
 TEST_CASE("shading/derivative is the normalised dp/du x dp/dv, on the side of the vertex normal") {
     const auto model = instance<ShadingModel>("derivative");
-    CHECK(model->lighting_rate() == candela::LightingRate::fragment);
+    CHECK(model->shading_rate() == candela::ShadingRate::fragment);
     CHECK(model->needs().derivatives);
     each_way([&](std::size_t size) {
         Random random(static_cast<unsigned>(size));

@@ -9,7 +9,7 @@ using candela::Vec3Arrays;
 
 TEST_CASE("shading/flat takes the face's normal, once a face (DD8)") {
     const auto model = instance<ShadingModel>("flat");
-    CHECK(model->lighting_rate() == candela::LightingRate::face);
+    CHECK(model->shading_rate() == candela::ShadingRate::face);
     Random random(5);
     each_way([&](std::size_t size) {
         Vec3Arrays face, vertex, weight, result;

@@ -29,7 +29,7 @@ class Cube final : public candela::Shape {
         std::uint32_t vertex = 0;
         std::size_t corner = 0;
         for (const Face& face : k_faces) {
-            for (const std::uint32_t c : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.corners[corner++] = vertex + c;
+            for (const std::uint32_t c : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices[corner++] = vertex + c;
             for (const auto& [u, v] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}}) {
                 const float half = 0.5f * shape_.size;
                 mesh.position.set(vertex,

@@ -28,9 +28,9 @@ bool is_finite(const Derivatives& d) {
 
 void derivatives_from_uv(const candela::MeshSpans& mesh, std::size_t vertices) {
     std::vector<float> area(vertices);
-    for (std::size_t corner = 0; corner + 2 < mesh.corners.size(); corner += 3) {
-        const std::array<std::size_t, 3> v = {mesh.corners[corner], mesh.corners[corner + 1],
-                                              mesh.corners[corner + 2]};
+    for (std::size_t corner = 0; corner + 2 < mesh.indices.size(); corner += 3) {
+        const std::array<std::size_t, 3> v = {mesh.indices[corner], mesh.indices[corner + 1],
+                                              mesh.indices[corner + 2]};
         const auto along = [&](const float* a, std::size_t k) { return a[v[k]] - a[v[0]]; };
         const Vec3 p = mesh.position[v[1]] - mesh.position[v[0]];
         const Vec3 q = mesh.position[v[2]] - mesh.position[v[0]];

@@ -115,7 +115,7 @@ class FileMesh final : public candela::Shape {
                                                  std::to_string(index) + " of " +
                                                  std::to_string(part->mNumVertices));
                     }
-                    mesh.corners[corner++] = first + index;
+                    mesh.indices[corner++] = first + index;
                 }
             }
             for (unsigned i = 0; i < part->mNumVertices; ++i, ++vertex) {

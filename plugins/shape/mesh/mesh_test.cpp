@@ -22,11 +22,11 @@ Mesh mesh_of(const std::filesystem::path& file, const char* shading = "phong") {
 /// A mesh as careless exporters write it: every triangle with three vertices of its own, and no normals.
 std::string soup_of(const Mesh& mesh) {
     std::string text;
-    for (const std::uint32_t corner : mesh.corners) {
+    for (const std::uint32_t corner : mesh.indices) {
         const Vec3 p = mesh.position.span()[corner];
         text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
     }
-    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         text += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
     }
     return text;
@@ -64,15 +64,15 @@ TEST_CASE("shape/mesh: normals from the file go before those of the shading mode
         mesh_of(write_file(scratch_directory() / "n.obj",
                            std::string(k_triangle) + "vn 1 0 0\nvn 0 1 0\nvn 0 0 2\nf 1//1 2//2 3//3\n"));
     CHECK(mesh.triangle_count() == 1);
-    CHECK(agree(mesh.vertices[mesh.corners[0]].normal, Vec3{1, 0, 0}, 1e-6));
-    CHECK(agree(mesh.vertices[mesh.corners[1]].normal, Vec3{0, 1, 0}, 1e-6));
-    CHECK(agree(mesh.vertices[mesh.corners[2]].normal, Vec3{0, 0, 1}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.indices[0]].normal, Vec3{1, 0, 0}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.indices[1]].normal, Vec3{0, 1, 0}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.indices[2]].normal, Vec3{0, 0, 1}, 1e-6));
     CHECK(mesh.face_normal.span()[0] == Vec3{0, 0, 1});
 }
 
 TEST_CASE("shape/mesh reads the formats that it names, by their extension, and no other") {
     const auto directory = scratch_directory();
-    const auto complaint = [&](const char* name, const std::string& content) -> std::string {
+    const auto validation_error = [&](const char* name, const std::string& content) -> std::string {
         try {
             mesh_of(write_file(directory / name, content));
         } catch (const std::exception& problem) {
@@ -81,23 +81,23 @@ TEST_CASE("shape/mesh reads the formats that it names, by their extension, and n
         return "";
     };
     const std::string triangle = std::string(k_triangle) + "f 1 2 3\n";
-    CHECK(complaint("a.OBJ", triangle).empty());
+    CHECK(validation_error("a.OBJ", triangle).empty());
     for (const char* const name : {"a.dae", "a.3ds", "a.off", "a", "a.ob", "a.toml"}) {
         INFO(name);
-        CHECK(complaint(name, triangle).find("extension of a mesh: .obj, .ply, .stl, .gltf or .glb") !=
+        CHECK(validation_error(name, triangle).find("extension of a mesh: .obj, .ply, .stl, .gltf or .glb") !=
               std::string::npos);
     }
     // assimp itself would look into the file, and find a reader for it.
     const std::string off = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    CHECK_FALSE(complaint("off.obj", off).empty());
-    CHECK_FALSE(complaint("off.stl", off).empty());
+    CHECK_FALSE(validation_error("off.obj", off).empty());
+    CHECK_FALSE(validation_error("off.stl", off).empty());
 }
 
 TEST_CASE("shape/mesh: where a file's normals are zero, the shading model makes them") {
     const Mesh mesh = mesh_of(write_file(scratch_directory() / "n.obj",
                                          std::string(k_triangle) + "vn 0 0 0\nvn 0 1 0\nf 1//1 2//2 3//1\n"));
-    CHECK(agree(mesh.vertices[mesh.corners[0]].normal, Vec3{0, 0, 1}, 1e-6));
-    CHECK(agree(mesh.vertices[mesh.corners[1]].normal, Vec3{0, 1, 0}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.indices[0]].normal, Vec3{0, 0, 1}, 1e-6));
+    CHECK(agree(mesh.vertices[mesh.indices[1]].normal, Vec3{0, 1, 0}, 1e-6));
 }
 
 TEST_CASE("shape/mesh: polygons are cut into triangles") {
@@ -133,16 +133,16 @@ TEST_CASE("shape/mesh reads PLY, STL and glTF") {
     const Mesh facets = mesh_of(stl);
     CHECK(facets.triangle_count() == 2);
     const float half = 1 / std::sqrt(2.0f);
-    CHECK(agree(facets.vertices[facets.corners[0]].normal, Vec3{half, 0, half}, 1e-6));
+    CHECK(agree(facets.vertices[facets.indices[0]].normal, Vec3{half, 0, half}, 1e-6));
 }
 
 TEST_CASE("a teapot that lost its normals and its shared vertices looks like the teapot") {
     const Mesh original = built(*instance<Shape>("teapot"));
     const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", soup_of(original)));
     REQUIRE(read.triangle_count() == original.triangle_count());
-    for (std::size_t corner = 0; corner < read.corners.size(); ++corner) {
-        REQUIRE(agree(read.vertices[read.corners[corner]].normal,
-                      original.vertices[original.corners[corner]].normal, 1e-4, 1e-4));
+    for (std::size_t corner = 0; corner < read.indices.size(); ++corner) {
+        REQUIRE(agree(read.vertices[read.indices[corner]].normal,
+                      original.vertices[original.indices[corner]].normal, 1e-4, 1e-4));
     }
 }
 

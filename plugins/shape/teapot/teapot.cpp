@@ -76,11 +76,11 @@ class Teapot final : public candela::Shape {
                 position.push_back(scale * Vec3{p.x, p.y - 0.5f * teapot::k_height, p.z});
             }
         }
-        std::vector<std::uint32_t> corners;
+        std::vector<std::uint32_t> indices;
         const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
             if (position[a] == position[b] || position[b] == position[c] || position[c] == position[a])
                 return;
-            for (const std::size_t vertex : {a, b, c}) corners.push_back(static_cast<std::uint32_t>(vertex));
+            for (const std::size_t vertex : {a, b, c}) indices.push_back(static_cast<std::uint32_t>(vertex));
         };
         for (std::size_t p = 0; p < patches.size(); ++p) {
             for (std::size_t row = 0; row < n; ++row) {
@@ -93,12 +93,12 @@ class Teapot final : public candela::Shape {
         }
 
         const candela::MeshSpans mesh = sink.allocate({.vertices = position.size(),
-                                                       .triangles = corners.size() / 3,
+                                                       .triangles = indices.size() / 3,
                                                        .has_uv = request.uv,
                                                        .has_derivatives = request.derivatives,
                                                        .has_smooth_groups = true,
                                                        .closedness = candela::Closedness::open});
-        std::ranges::copy(corners, mesh.corners.begin());
+        std::ranges::copy(indices, mesh.indices.begin());
         std::size_t i = 0;
         for (const teapot::Patch& patch : patches) {
             for (std::size_t vertex = 0; vertex < width * width; ++vertex, ++i) {

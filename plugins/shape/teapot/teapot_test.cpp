@@ -66,7 +66,7 @@ TEST_CASE("shape/teapot faces outwards, and its derivatives agree with its faces
     const Mesh mesh = teapot(1, 12);
     std::size_t outwards = 0, checked = 0;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        const std::uint32_t v = mesh.corners[3 * t];
+        const std::uint32_t v = mesh.indices[3 * t];
         const Vec3 n = cross(mesh.dpdu.span()[v], mesh.dpdv.span()[v]);
         if (length(n) > 1e-3f) {
             ++checked;
@@ -77,7 +77,7 @@ TEST_CASE("shape/teapot faces outwards, and its derivatives agree with its faces
     CHECK(static_cast<double>(outwards) > 0.999 * static_cast<double>(checked));
     // The belly's faces look away from the axis.
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        const Vec3 p = mesh.position.span()[mesh.corners[3 * t]];
+        const Vec3 p = mesh.position.span()[mesh.indices[3 * t]];
         const double from_axis = std::hypot(p.x, p.z);
         if (from_axis < 0.57 || from_axis > 0.64 || std::abs(p.z) < 0.2) continue;
         const Vec3 n = mesh.face_normal.span()[t];

@@ -16,6 +16,7 @@
 #include "candela/abi.h"
 #include "candela/kernel.h"
 
+import candela.color;
 import candela.descriptor;
 import candela.math;
 
@@ -81,22 +82,22 @@ struct Field {
 // colours 0-255.
 
 template <class P>
-constexpr Field<P> real(float P::* member, const char* name, float fallback, const char* meaning) {
-    return {.spec = {.name = name, .type = ParamType::real, .meaning = meaning, .fallback = {{fallback}}},
+constexpr Field<P> real(float P::* member, const char* name, float default_value, const char* meaning) {
+    return {.spec = {.name = name, .type = ParamType::real, .meaning = meaning, .default_value = {{default_value}}},
             .real = member};
 }
 /// In degrees for the scene, in radians for the plugin.
 template <class P>
-constexpr Field<P> angle(float P::* member, const char* name, float fallback, const char* meaning) {
-    return real(member, name, fallback, meaning).unit("deg");
+constexpr Field<P> angle(float P::* member, const char* name, float default_value, const char* meaning) {
+    return real(member, name, default_value, meaning).unit("deg");
 }
 template <class P>
-constexpr Field<P> integer(std::int32_t P::* member, const char* name, std::int32_t fallback,
+constexpr Field<P> integer(std::int32_t P::* member, const char* name, std::int32_t default_value,
                            const char* meaning) {
     return {.spec = {.name = name,
                      .type = ParamType::integer,
                      .meaning = meaning,
-                     .fallback = {.integer = fallback}},
+                     .default_value = {.integer = default_value}},
             .integer = member};
 }
 /// One of `words`; the member receives its index, the default is the first.
@@ -107,25 +108,25 @@ constexpr Field<P> choice(std::int32_t P::* member, const char* name, std::span<
             .integer = member};
 }
 template <class P>
-constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool fallback, const char* meaning) {
+constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool default_value, const char* meaning) {
     return {.spec = {.name = name,
                      .type = ParamType::boolean,
                      .meaning = meaning,
-                     .fallback = {.integer = fallback ? 1 : 0}},
+                     .default_value = {.integer = default_value ? 1 : 0}},
             .integer = member};
 }
 template <class P>
-constexpr Field<P> three(vec3 P::* member, ParamType type, const char* name, vec3 fallback,
+constexpr Field<P> three(vec3 P::* member, ParamType type, const char* name, vec3 default_value,
                          const char* meaning) {
     return {.spec = {.name = name,
                      .type = type,
                      .meaning = meaning,
-                     .fallback = {{fallback.x, fallback.y, fallback.z}}},
+                     .default_value = {{default_value.x, default_value.y, default_value.z}}},
             .vector = member};
 }
 template <class P>
-constexpr Field<P> color(vec3 P::* member, const char* name, vec3 fallback, const char* meaning) {
-    return three(member, ParamType::color, name, fallback, meaning);
+constexpr Field<P> color(vec3 P::* member, const char* name, vec3 default_value, const char* meaning) {
+    return three(member, ParamType::color, name, default_value, meaning);
 }
 template <class P>
 constexpr Field<P> point(vec3 P::* member, const char* name, const char* meaning) {
@@ -137,8 +138,8 @@ constexpr Field<P> direction(vec3 P::* member, const char* name, const char* mea
 }
 /// A number, or one per channel, 0 to 1.
 template <class P>
-constexpr Field<P> coefficient(vec3 P::* member, const char* name, float fallback, const char* meaning) {
-    return three(member, ParamType::triple, name, vec3(fallback), meaning).range(0, 1);
+constexpr Field<P> coefficient(vec3 P::* member, const char* name, float default_value, const char* meaning) {
+    return three(member, ParamType::rgb, name, vec3(default_value), meaning).range(0, 1);
 }
 template <class P>
 constexpr Field<P> file(const char* P::* member, const char* name, const char* meaning) {

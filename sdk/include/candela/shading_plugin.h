@@ -52,11 +52,11 @@ struct NormalLoop {
     }
 };
 
-template <class Params, LightingRate rate, auto normal, ShadingNeeds needs_ = ShadingNeeds{}>
+template <class Params, ShadingRate rate, auto normal, ShadingNeeds needs_ = ShadingNeeds{}>
 class KernelShading : public ShadingModel {
   public:
     explicit KernelShading(const Params& params) : params_(params) {}
-    LightingRate lighting_rate() const noexcept override { return rate; }
+    ShadingRate shading_rate() const noexcept override { return rate; }
     ShadingNeeds needs() const noexcept override { return needs_; }
     void normals(const ShadingPointBatch& points, const Vec3Span& normals) const override {
         multiversion<NormalLoop<Params, normal, needs_>>(params_, points, normals);
@@ -104,9 +104,9 @@ class WeightedNormals {
 
     /// Overwrites `normals` except where all weights are zero or beyond a number's range.
     void write(const Vec3Span& normals) {
-        const std::size_t corners = mesh_.corners.size();
-        for (std::size_t first = 0; first < corners; first += k_batch)
-            add(first, std::min(k_batch, corners - first));
+        const std::size_t indices = mesh_.indices.size();
+        for (std::size_t first = 0; first < indices; first += k_batch)
+            add(first, std::min(k_batch, indices - first));
         for (std::size_t group = 0; group < sum_.size(); ++group) {
             const auto& [x, y, z] = sum_[group];
             const double length = std::sqrt(x * x + y * y + z * z);
@@ -125,7 +125,7 @@ class WeightedNormals {
     };
 
     void add(std::size_t first, std::size_t count) {
-        const auto vertex = [&](std::size_t corner) { return mesh_.position[mesh_.corners[corner]]; };
+        const auto vertex = [&](std::size_t corner) { return mesh_.position[mesh_.indices[corner]]; };
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t corner = first + i;
             const std::size_t triangle = corner - i % 3;
@@ -137,7 +137,7 @@ class WeightedNormals {
                                                        ConstVec3Span(to_previous_.span()), weights_.data());
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 normal = mesh_.face_normal[(first + i) / 3];
-            auto& sum = sum_[mesh_.smooth_group[mesh_.corners[first + i]]];
+            auto& sum = sum_[mesh_.smooth_group[mesh_.indices[first + i]]];
             sum[0] += static_cast<double>(weights_[i]) * normal.x;
             sum[1] += static_cast<double>(weights_[i]) * normal.y;
             sum[2] += static_cast<double>(weights_[i]) * normal.z;
@@ -154,7 +154,7 @@ class WeightedNormals {
 
 /// Vertex normals are weighted; the plain sum stands in where no face has a weight, and authored normals go
 /// before all.
-template <class Params, LightingRate rate, auto normal, auto weight, ShadingNeeds needs = ShadingNeeds{}>
+template <class Params, ShadingRate rate, auto normal, auto weight, ShadingNeeds needs = ShadingNeeds{}>
 class WeightedShading final : public KernelShading<Params, rate, normal, needs> {
   public:
     using KernelShading<Params, rate, normal, needs>::KernelShading;
@@ -169,14 +169,14 @@ class WeightedShading final : public KernelShading<Params, rate, normal, needs> 
 /// A plugin from the kernel function `prefix_normal`; `rate` is face, vertex or fragment.
 #define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(shading,                                                          \
-                          (candela::sdk::KernelShading<Params, candela::LightingRate::rate, \
+                          (candela::sdk::KernelShading<Params, candela::ShadingRate::rate, \
                                                        &candela::kernel::prefix##_normal>), \
                           prefix, Params, fields, __VA_ARGS__)
 
 /// The same with vertex normals weighted by the kernel function `prefix_corner_weight`.
 #define CANDELA_WEIGHTED_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(shading,                                                                   \
-                          (candela::sdk::WeightedShading<Params, candela::LightingRate::rate,        \
+                          (candela::sdk::WeightedShading<Params, candela::ShadingRate::rate,        \
                                                          &candela::kernel::prefix##_normal,          \
                                                          &candela::kernel::prefix##_corner_weight>), \
                           prefix, Params, fields, __VA_ARGS__)

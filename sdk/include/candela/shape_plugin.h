@@ -20,15 +20,14 @@
 #include "candela/multiversion.h"
 #include "candela/plugin.h"
 
-import candela.geometry;
 import candela.shape;
 
 namespace candela::sdk {
 
 /// The density parameter that the shipped curved shapes share.
 template <class P>
-constexpr Field<P> segments(std::int32_t P::* member, std::int32_t fallback, const char* meaning) {
-    return integer(member, "segments", fallback, meaning).range(3, 8192);
+constexpr Field<P> segments(std::int32_t P::* member, std::int32_t default_value, const char* meaning) {
+    return integer(member, "segments", default_value, meaning).range(3, 8192);
 }
 
 /// What the edges of a surface's parameter square are to one another.
@@ -125,7 +124,7 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
     std::size_t corner = 0;
     const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
         for (const std::size_t vertex : {a, b, c})
-            mesh.corners[corner++] = static_cast<std::uint32_t>(vertex);
+            mesh.indices[corner++] = static_cast<std::uint32_t>(vertex);
     };
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t column = 0; column < columns; ++column) {

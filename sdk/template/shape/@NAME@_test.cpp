@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
     const candela::Mesh mesh = candela::place(*shape, {}, {}).mesh;
     const auto p = mesh.position.span();
     float six = 0;
-    for (std::size_t t = 0; t < mesh.corners.size(); t += 3)
-        six += dot(p[mesh.corners[t]], cross(p[mesh.corners[t + 1]], p[mesh.corners[t + 2]]));
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3)
+        six += dot(p[mesh.indices[t]], cross(p[mesh.indices[t + 1]], p[mesh.indices[t + 2]]));
     const float expected = std::numbers::pi_v<float> / 6 * 1.4f;
     std::printf("volume %g, expected %g\n", static_cast<double>(six / 6), static_cast<double>(expected));
     return std::abs(six / 6 - expected) < 0.01f * expected ? 0 : 1;

@@ -5,11 +5,11 @@ namespace {
 class LastFaceWins final : public candela::ShadingModel {
   public:
     explicit LastFaceWins(const candela::sdk::NoParams&) {}
-    candela::LightingRate lighting_rate() const noexcept override { return candela::LightingRate::fragment; }
+    candela::ShadingRate shading_rate() const noexcept override { return candela::ShadingRate::fragment; }
     void vertex_normals(const candela::MeshView& mesh, const candela::Vec3Span& normals) const override {
         for (std::size_t i = 0; i < mesh.group_count; ++i) normals.set(i, {0, 1, 0});
-        for (std::size_t c = 0; c < mesh.corners.size(); ++c)
-            normals.set(mesh.smooth_group[mesh.corners[c]], mesh.face_normal[c / 3]);
+        for (std::size_t c = 0; c < mesh.indices.size(); ++c)
+            normals.set(mesh.smooth_group[mesh.indices[c]], mesh.face_normal[c / 3]);
     }
     void normals(const candela::ShadingPointBatch& points, const candela::Vec3Span& normals) const override {
         for (std::size_t i = 0; i < points.count; ++i)

@@ -5,7 +5,7 @@ namespace {
 class LongNormals final : public candela::ShadingModel {
   public:
     explicit LongNormals(const candela::sdk::NoParams&) {}
-    candela::LightingRate lighting_rate() const noexcept override { return candela::LightingRate::fragment; }
+    candela::ShadingRate shading_rate() const noexcept override { return candela::ShadingRate::fragment; }
     void normals(const candela::ShadingPointBatch& points, const candela::Vec3Span& normals) const override {
         for (std::size_t i = 0; i < points.count; ++i) normals.set(i, 2.0f * points.face_normal[i]);
     }

@@ -14,7 +14,7 @@ class Tetrahedron final : public candela::Shape {
         mesh.position.set(1, {1, 0, 0});
         mesh.position.set(2, {0, 1, 0});
         mesh.position.set(3, {0, 0, 1});
-        std::ranges::copy(k_corners, mesh.corners.begin());
+        std::ranges::copy(k_corners, mesh.indices.begin());
     }
 };
 constexpr candela::Property k_properties[] = {{"closed"}};

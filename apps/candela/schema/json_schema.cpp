@@ -1,0 +1,314 @@
+// The scene file as a JSON Schema.
+//
+// Editors complete from what stands under "properties" and do not look into conditions, so a table that names
+// a plugin lists the parameters of all plugins of that kind there; what only the plugin at hand takes, or
+// takes in a way of its own, stands in a definition, which a dependency on the naming key brings in.
+module;
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.schema;
+
+import candela.parameters;
+import candela.registry;
+import candela.scene;
+
+namespace candela {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json value_json(const Parameter& p) { return Json::parse(value_schema(p)); }
+
+std::string description_of(const Parameter& p) {
+    // That a place is in metres is part of what is expected.
+    const std::string unit = p.type == ParamType::point ? "" : unit_word(p);
+    return fmt::format("{}{}{} ({})", p.meaning, unit.empty() ? "" : ", in ", unit, constraint_text(p));
+}
+
+void put_default(Json& schema, const Parameter& p) {
+    const auto text = default_text(p);
+    if (!text) return;
+    const auto* const word = std::get_if<std::string>(&*p.default_value);
+    schema["default"] = word != nullptr ? Json(*word) : Json::parse(*text);
+}
+
+Json parameter_schema(const Parameter& p) {
+    Json schema{{"description", description_of(p)}};
+    schema.update(value_json(p));
+    put_default(schema, p);
+    return schema;
+}
+
+/// A list of values of the parameter's type.
+Json list_schema(const Parameter& p) {
+    return {{"description", p.meaning}, {"type", "array"}, {"items", value_json(p)}, {"uniqueItems", true}};
+}
+
+Json required_in(std::span<const Parameter> parameters) {
+    Json names = Json::array();
+    for (const Parameter& p : parameters) {
+        if (!p.default_value) names.push_back(p.name);
+    }
+    return names;
+}
+
+void put_unless_empty(Json& schema, const std::string& key, Json value) {
+    if (!value.empty()) schema[key] = std::move(value);
+}
+
+/// A plugin, and its parameter of a certain name.
+struct User {
+    const Manifest* plugin;
+    const Parameter* parameter;
+};
+
+template <class Function>
+bool is_same_for_all(const std::vector<User>& users, Function function) {
+    return std::ranges::all_of(users, [&](const User& user) {
+        return function(*user.parameter) == function(*users.front().parameter);
+    });
+}
+
+/// Whether all ask the same of the value.
+bool is_agreed(const std::vector<User>& users) { return is_same_for_all(users, value_schema); }
+
+/// What holds for all who use a parameter of that name, and what it means to each.
+Json merged(const std::vector<User>& users) {
+    std::vector<std::pair<std::string, std::string>> meanings;  // and who means it
+    for (const auto& [plugin, parameter] : users) {
+        const std::string meaning = description_of(*parameter);
+        const auto same = std::ranges::find(meanings, meaning, [](const auto& pair) { return pair.first; });
+        if (same == meanings.end()) {
+            meanings.emplace_back(meaning, plugin->name);
+        } else {
+            same->second += ", " + plugin->name;
+        }
+    }
+    std::vector<std::string> lines;
+    for (const auto& [meaning, who] : meanings) lines.push_back(fmt::format("{}: {}", who, meaning));
+    Json schema{{"description", fmt::format("{}", fmt::join(lines, "\n"))}};
+
+    const Parameter& first = *users.front().parameter;
+    const auto type_of = [](const Parameter& p) { return value_json(p)["type"]; };
+    if (is_agreed(users)) {
+        schema.update(value_json(first));
+    } else if (is_same_for_all(users, type_of)) {
+        schema["type"] = type_of(first);
+    }
+    if (is_same_for_all(users, default_text)) put_default(schema, first);
+    return schema;
+}
+
+class SchemaWriter {
+  public:
+    explicit SchemaWriter(std::span<const Manifest> installed) : installed_(installed) {}
+
+    Json write() {
+        Json root{
+            {"$schema", "http://json-schema.org/draft-07/schema#"},
+            {"title", "Candela scene"},
+            {"description",
+             "A scene for Candela, or a part of one: several files may be read as one scene, so neither "
+             "'version' nor [observer] is required here, though each must stand once over all files. "
+             "'candela check' also finds what no JSON Schema can say."},
+            {"type", "object"}};
+        for (const Parameter& p : top_schema().parameters) {
+            const bool is_list = std::ranges::find(top_schema().lists, p.name) != top_schema().lists.end();
+            root["properties"][p.name] = is_list ? list_schema(p) : parameter_schema(p);
+        }
+        for (const TableSchema& table : scene_schema()) root["properties"][table.name] = schema_of(table);
+        root["additionalProperties"] = false;
+        put_unless_empty(root, "dependencies", material_dependencies());
+        put_unless_empty(root, "definitions", std::move(definitions_));
+        return root;
+    }
+
+  private:
+    std::vector<const Manifest*> all(PluginKind kind) const {
+        std::vector<const Manifest*> found;
+        for (const Manifest& m : installed_) {
+            if (m.kind == kind) found.push_back(&m);
+        }
+        return found;
+    }
+
+    static std::string definition_name(const Manifest& m) {
+        return fmt::format("{}-{}", name_of(m.kind), m.name);
+    }
+    static Json reference_to(const Manifest& m) { return {{"$ref", "#/definitions/" + definition_name(m)}}; }
+
+    Json schema_of(const TableSchema& table) {
+        Json properties = Json::object();
+        std::vector<std::string> own;
+        for (const Parameter& p : table.parameters) {
+            properties[p.name] = parameter_schema(p);
+            own.push_back(p.name);
+        }
+        for (const PluginKey& key : table.plugins) {
+            properties[key.key] = name_schema(parameter_in(table, key.key).meaning, key.kind);
+            if (key.parameters_in.value_or("").empty()) continue;
+            properties[*key.parameters_in] = inner_table(table, key);
+            own.push_back(*key.parameters_in);
+        }
+        Json dependencies = Json::object();
+        for (const PluginKey& key : table.plugins) {
+            if (!key.parameters_in) continue;
+            if (key.parameters_in->empty()) {
+                const Json parameters = union_of(key.kind);
+                // An own key stays what it is, also where a plugin has a parameter of that name.
+                for (const auto& [name, schema] : parameters.items()) {
+                    if (!properties.contains(name)) properties[name] = schema;
+                }
+            }
+            put_unless_empty(dependencies, key.key, cases_of(key, own));
+        }
+        Json one{{"title", table.title},
+                 {"description", table.meaning},
+                 {"type", "object"},
+                 {"properties", std::move(properties)}};
+        put_unless_empty(one, "required", required_in(table.parameters));
+        one["additionalProperties"] = false;
+        put_unless_empty(one, "dependencies", std::move(dependencies));
+        if (!table.repeated) return one;
+        return {{"title", table.title}, {"description", table.meaning}, {"type", "array"}, {"items", one}};
+    }
+
+    /// For each plugin that a key may name: what the table then takes.
+    Json cases_of(const PluginKey& key, const std::vector<std::string>& own) {
+        Json cases = Json::object();
+        for (const Manifest* m : all(key.kind)) {
+            define(*m, key.parameters_in->empty() ? own : std::vector<std::string>());
+            Json is_it;
+            is_it["properties"][key.key]["const"] = m->name;
+            cases["allOf"].push_back({{"if", is_it}, {"then", takes(*m, *key.parameters_in)}});
+        }
+        return cases;
+    }
+
+    Json inner_table(const TableSchema& table, const PluginKey& key) const {
+        return {{"title", fmt::format("[{}.{}]", table.name, *key.parameters_in)},
+                {"description", fmt::format("parameters of the {} model", name_of(key.kind))},
+                {"type", "object"},
+                {"properties", union_of(key.kind)},
+                {"additionalProperties", false}};
+    }
+
+    static const Parameter& parameter_in(const TableSchema& table, const std::string& name) {
+        return *std::ranges::find(table.parameters, name, &Parameter::name);
+    }
+
+    /// The name of an installed plugin.
+    Json name_schema(const std::string& meaning, PluginKind kind) const {
+        Json schema{{"description", meaning}, {"type", "string"}, {"enum", Json::array()}};
+        Json& summaries = schema["x-taplo"]["docs"]["enumValues"] = Json::array();
+        for (const Manifest* m : all(kind)) summaries.push_back(m->summary);
+        for (const Manifest* m : all(kind)) schema["enum"].push_back(m->name);
+        return schema;
+    }
+
+    /// The plugins of a kind that have a parameter of that name.
+    std::vector<User> users_of(PluginKind kind, std::string_view name) const {
+        std::vector<User> users;
+        for (const Manifest* m : all(kind)) {
+            for (const Parameter& p : m->parameters) {
+                if (p.name == name) users.push_back({m, &p});
+            }
+        }
+        return users;
+    }
+
+    /// The parameters of all plugins of a kind.
+    Json union_of(PluginKind kind) const {
+        Json properties = Json::object();
+        for (const Manifest* m : all(kind)) {
+            for (const Parameter& p : m->parameters) {
+                if (!properties.contains(p.name)) properties[p.name] = merged(users_of(kind, p.name));
+            }
+        }
+        return properties;
+    }
+
+    /// Defines what a table takes with a plugin, as far as the table has not said it for all plugins:
+    /// which keys, and what of them is this plugin's own. `beside`: the table's own keys.
+    void define(const Manifest& m, const std::vector<std::string>& beside) {
+        std::string description = m.summary;
+        for (const Relation& r : m.relations) description += "\n" + text_of(r);
+        Json schema{{"title", fmt::format("{}: {}", m.id(), m.title)},
+                    {"description", description},
+                    {"type", "object"},
+                    {"properties", Json::object()}};
+        Json& properties = schema["properties"];
+        for (const std::string& key : beside) properties[key] = true;
+        for (const Parameter& p : m.parameters) {
+            const bool is_said = !properties.contains(p.name) && is_agreed(users_of(m.kind, p.name));
+            properties[p.name] = is_said ? Json(true) : parameter_schema(p);
+        }
+        put_unless_empty(schema, "required", required_in(m.parameters));
+        schema["additionalProperties"] = false;
+        definitions_[definition_name(m)] = std::move(schema);
+    }
+
+    /// That a table takes a plugin's parameters, itself or in a table within it.
+    static Json takes(const Manifest& m, const std::string& where) {
+        if (where.empty()) return reference_to(m);
+        Json schema;
+        schema["properties"][where] = reference_to(m);
+        if (!required_in(m.parameters).empty()) schema["required"] = Json::array({where});
+        return schema;
+    }
+
+    /// [reflection] says what the material of objects takes that name no model of their own.
+    Json material_dependencies() const {
+        Json dependencies = Json::object();
+        for (const TableSchema& chooser : scene_schema()) {
+            for (const PluginKey& choice : chooser.plugins) {
+                if (chooser.repeated || choice.parameters_in) continue;
+                for (const Manifest* m : all(choice.kind)) {
+                    Json then = parameters_elsewhere(choice.kind, *m);
+                    if (then.empty()) continue;
+                    Json is_it;
+                    is_it["properties"][chooser.name] = {{"properties", {{choice.key, {{"const", m->name}}}}},
+                                                         {"required", {choice.key}}};
+                    dependencies[chooser.name]["allOf"].push_back({{"if", is_it}, {"then", then}});
+                }
+            }
+        }
+        return dependencies;
+    }
+
+    static Json parameters_elsewhere(PluginKind kind, const Manifest& m) {
+        Json schema = Json::object();
+        for (const TableSchema& table : scene_schema()) {
+            for (const PluginKey& own : table.plugins) {
+                if (!table.repeated || own.kind != kind || own.parameters_in.value_or("").empty()) continue;
+                schema["properties"][table.name]["items"] = {{"if", {{"required", {own.key}}}},
+                                                             {"then", true},
+                                                             {"else", takes(m, *own.parameters_in)}};
+            }
+        }
+        return schema;
+    }
+
+    std::span<const Manifest> installed_;
+    Json definitions_ = Json::object();
+};
+
+}  // namespace
+
+std::string scene_json_schema(std::span<const Manifest> installed) {
+    return SchemaWriter(installed).write().dump(2) + "\n";
+}
+
+}  // namespace candela

@@ -1,0 +1,33 @@
+module;
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <variant>
+
+module candela.schema;
+
+import candela.math;
+import candela.parameters;
+
+namespace candela {
+
+std::optional<std::string> default_text(const Parameter& p) {
+    if (!p.default_value) return std::nullopt;
+    if (const auto* text = std::get_if<std::string>(&*p.default_value); text != nullptr && text->empty())
+        return std::nullopt;
+    if (const auto* v = std::get_if<Vec3>(&*p.default_value);
+        p.type == ParamType::rgb && v->x == v->y && v->y == v->z) {
+        return fmt::format("{}", v->x);
+    }
+    return text_of(*p.default_value);
+}
+
+std::string unit_word(const Parameter& p) {
+    if (p.unit == "m") return "metres";
+    if (p.unit == "deg") return "degrees";
+    return p.unit;
+}
+
+}  // namespace candela

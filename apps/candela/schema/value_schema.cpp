@@ -1,0 +1,119 @@
+// The types of parameters as JSON Schemas.
+module;
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+module candela.schema;
+
+import candela.parameters;
+
+namespace candela {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A float in as few digits as name it: 0.1, not 0.10000000149011612.
+Json number_json(float x) { return Json::parse(fmt::format("{}", x)); }
+
+/// The range that the parameter declares; where it declares none, what its type can hold.
+template <class Number>
+void put_range(Json& schema, const Parameter& p, Number largest) {
+    if (p.minimum == k_no_minimum) {
+        schema["minimum"] = -largest;
+    } else {
+        schema[p.minimum_excluded ? "exclusiveMinimum" : "minimum"] = number_json(p.minimum);
+    }
+    if (p.maximum == k_no_maximum) {
+        schema["maximum"] = largest;
+    } else {
+        schema[p.maximum_excluded ? "exclusiveMaximum" : "maximum"] = number_json(p.maximum);
+    }
+}
+
+void put_real_range(Json& schema, const Parameter& p) {
+    put_range(schema, p, static_cast<double>(std::numeric_limits<float>::max()));
+}
+
+void put_three(Json& schema, Json each) {
+    schema["items"] = std::move(each);
+    schema["minItems"] = 3;
+    schema["maxItems"] = 3;
+}
+
+Json real_schema(const Parameter& p) {
+    Json schema{{"type", "number"}};
+    put_real_range(schema, p);
+    return schema;
+}
+
+Json integer_schema(const Parameter& p) {
+    Json schema{{"type", "integer"}};
+    if (p.choices.empty()) {
+        put_range(schema, p, std::numeric_limits<std::int32_t>::max());
+    } else if (p.choices.size() == 1) {
+        schema["const"] = Json::parse(p.choices.front());
+    } else {
+        for (const std::string& choice : p.choices) schema["enum"].push_back(Json::parse(choice));
+    }
+    return schema;
+}
+
+Json color_schema() {
+    Json schema{{"type", "array"}};
+    put_three(schema, {{"type", "integer"}, {"minimum", 0}, {"maximum", 256}});
+    return schema;
+}
+
+Json triple_schema(const Parameter& p) {
+    Json schema{{"type", {"number", "array"}}};
+    put_real_range(schema, p);
+    put_three(schema, real_schema(p));
+    return schema;
+}
+
+Json vector_schema(const Parameter& p) {
+    Json schema{{"type", "array"}};
+    put_three(schema, real_schema(p));
+    if (p.type == ParamType::direction) schema["contains"] = {{"not", {{"minimum", 0}, {"maximum", 0}}}};
+    return schema;
+}
+
+/// What a value must be.
+Json schema_of(const Parameter& p) {
+    switch (p.type) {
+        case ParamType::real:
+            return real_schema(p);
+        case ParamType::integer:
+            return integer_schema(p);
+        case ParamType::boolean:
+            return {{"type", "boolean"}};
+        case ParamType::choice:
+            return {{"type", "string"}, {"enum", p.choices}};
+        case ParamType::text:
+            return {{"type", "string"}};
+        case ParamType::file:
+            return {{"type", "string"}, {"minLength", 1}};
+        case ParamType::color:
+            return color_schema();
+        case ParamType::rgb:
+            return triple_schema(p);
+        case ParamType::vector:
+        case ParamType::point:
+        case ParamType::direction:
+            break;
+    }
+    return vector_schema(p);
+}
+
+}  // namespace
+
+std::string value_schema(const Parameter& p) { return schema_of(p).dump(); }
+
+}  // namespace candela

@@ -1,0 +1,79 @@
+// What a plugin says about itself, and the root of all that it makes.
+module;
+
+#include "candela/api.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+export module candela.descriptor;
+
+export import candela.color;
+export import candela.params;
+
+export namespace candela {
+
+enum class PluginKind : int { light, reflection, shading, shape, image };
+
+inline constexpr std::array k_plugin_kinds = {PluginKind::light, PluginKind::reflection, PluginKind::shading,
+                                              PluginKind::shape, PluginKind::image};
+
+CANDELA_API std::string_view name_of(PluginKind kind) noexcept;
+CANDELA_API std::optional<PluginKind> plugin_kind_named(std::string_view name) noexcept;
+
+/// One set of parameter values of a plugin: a light, a material, a shape. Made by the plugin, owned by the
+/// host, which deletes it. Immutable from then on: every member function of the kinds is const and is called
+/// by many threads at once.
+class CANDELA_API Instance {
+  public:
+    Instance() = default;
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+    virtual ~Instance();
+};
+
+/// A fact that a plugin declares, for listings and for the conformance test: {"reciprocal", "true"}.
+struct Property {
+    const char* name = "";
+    const char* value = "true";
+};
+
+/// A kind of file that an image plugin writes, and reads if it says so.
+struct FileFormat {
+    const char* extension = "";  // lower case, without the dot
+    const char* title = "";
+    PixelType pixels = PixelType::byte;
+    bool reads = false;
+};
+
+/// The mathematics of a plugin as text, for programs that are generated from it.
+struct KernelText {
+    const char* text = nullptr;    // the whole .kernel file; null where there is none
+    const char* prefix = nullptr;  // its functions are called <prefix>_reflect, <prefix>_normal, …
+    const char* parameters =
+        "";  // the struct that they take first, whose members are called as the parameters
+};
+
+/// All about one plugin. Plain data with static lifetime in the plugin's library.
+struct PluginDescriptor {
+    PluginKind kind = PluginKind::light;
+    const char* name = "";       // "half-lambert"; lower case, digits, hyphens
+    const char* version = "";    // of the plugin
+    const char* title = "";      // "Half Lambert"
+    const char* summary = "";    // one sentence
+    const char* formula = "";    // as text; lines separated by \n
+    const char* reference = "";  // author, year, title; empty where there is none
+    std::span<const ParamSpec> parameters{};
+    std::span<const RelationSpec> relations{};
+    std::span<const Property> properties{};
+    std::span<const FileFormat> formats{};  // image plugins only
+    KernelText kernel{};
+
+    /// Makes an instance; `values` are in the order of `parameters`. May throw std::exception: bad files, bad
+    /// values. The result is of the kind's interface class. Any thread.
+    Instance* (*create)(std::span<const ParamValue> values) = nullptr;
+};
+
+}  // namespace candela

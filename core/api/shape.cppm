@@ -1,0 +1,76 @@
+// The interface of shape plugins.
+module;
+
+#include "candela/api.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+export module candela.shape;
+
+export import candela.descriptor;
+export import candela.math;
+
+export namespace candela {
+
+/// Which optional arrays the renderer has a use for. A shape leaves out those that are not asked for, and
+/// those that it has no values for.
+struct MeshRequest {
+    bool uv = false;
+    bool derivatives = false;
+};
+
+/// What a shape knows of its surface.
+enum class Closedness : int {
+    unknown,  // the host looks
+    closed,   // every edge lies between two triangles that agree on what is outside
+    open,     // seen from both sides
+};
+
+/// What a shape asks for.
+struct MeshLayout {
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;
+    bool has_normals = false;  // authored normals, which go before any that a shading model would make
+    bool has_uv = false;
+    bool has_derivatives = false;
+    bool has_smooth_groups = false;  // else every vertex has a normal of its own
+    Closedness closedness = Closedness::unknown;
+};
+
+/// Arrays of the sizes asked for, zero-filled; null or empty where not asked for. Object space, metres.
+struct MeshSpans {
+    Vec3Span position;
+    std::span<std::uint32_t> indices;  // three vertices a triangle, counter-clockwise seen from outside
+    Vec3Span normal;
+    Vec2Span uv;
+    Vec3Span dpdu;
+    Vec3Span dpdv;
+    std::span<std::uint32_t>
+        smooth_group;  // a vertex each, 0 … vertices - 1; vertices of one group share a normal
+};
+
+/// Where a shape puts its triangles. Owned by the host; used only during tessellate().
+class CANDELA_API MeshSink {
+  public:
+    virtual ~MeshSink();
+    /// To be called once. May throw std::bad_alloc.
+    virtual MeshSpans allocate(const MeshLayout& layout) = 0;
+};
+
+/// A shape with one set of parameters. Any thread.
+class CANDELA_API Shape : public Instance {
+  public:
+    ~Shape() override;
+
+    /// Writes the shape's triangles, centred on the origin of object space unless its parameters say
+    /// otherwise. May throw std::exception: a file that cannot be read.
+    virtual void tessellate(const MeshRequest& request, MeshSink& sink) const = 0;
+};
+
+/// For each vertex the first one at the same position, to the last bit (-0 is 0).
+CANDELA_API std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count);
+
+}  // namespace candela

@@ -1,0 +1,20 @@
+// Where things are placed, and how they are projected.
+export module candela.transform;
+
+export import candela.math;
+
+export namespace candela {
+
+/// Where an object stands: scaled (by more than zero), then rotated about x, then y, then z (fixed axes,
+/// degrees), then moved.
+struct Transform {
+    Vec3 position{};
+    Vec3 rotation{};
+    Vec3 scale{1, 1, 1};
+
+    friend constexpr bool operator==(const Transform&, const Transform&) = default;
+};
+
+enum class Projection : int { perspective, orthographic };
+
+}  // namespace candela

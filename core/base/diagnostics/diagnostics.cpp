@@ -1,0 +1,83 @@
+module;
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+module candela.diagnostics;
+
+namespace candela {
+
+Error::Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+Error::~Error() = default;
+
+void Diagnostics::error(SourcePlace place, std::string message, std::string hint) {
+    all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint)});
+    exit_code_ = ExitCode::invalid_scene;
+    ++errors_;
+}
+
+void Diagnostics::failure(SourcePlace place, std::string message, std::string hint) {
+    all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint)});
+    if (exit_code_ == ExitCode::ok) exit_code_ = ExitCode::failure;
+    ++errors_;
+}
+
+void Diagnostics::warning(SourcePlace place, std::string message, std::string hint) {
+    all_.push_back({Severity::warning, std::move(place), std::move(message), std::move(hint)});
+}
+
+void Diagnostics::remember_source(const std::string& file, std::string text) {
+    files_.push_back(file);
+    sources_.insert_or_assign(file, std::move(text));
+}
+
+std::vector<std::size_t> Diagnostics::order_of_places() const {
+    std::map<std::string_view, std::size_t> file_ranks;
+    for (const std::string& file : files_) file_ranks.try_emplace(file, file_ranks.size());
+    using Rank = std::tuple<std::size_t, int, int, std::size_t>;  // last, the order in which they were found
+    std::vector<Rank> ranks;
+    ranks.reserve(all_.size());
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        const SourcePlace& place = all_[i].place;
+        const auto known = file_ranks.find(place.file);
+        ranks.emplace_back(known != file_ranks.end() ? known->second : files_.size(), place.line,
+                           place.column, i);
+    }
+    std::ranges::sort(ranks);
+    std::vector<std::size_t> order;
+    order.reserve(ranks.size());
+    for (const Rank& rank : ranks) order.push_back(std::get<3>(rank));
+    return order;
+}
+
+std::vector<Diagnostic> Diagnostics::sorted() const {
+    std::vector<Diagnostic> result;
+    for (const std::size_t i : order_of_places()) result.push_back(all_[i]);
+    return result;
+}
+
+std::optional<std::string> Diagnostics::source_line(const SourcePlace& place) const {
+    const auto found = sources_.find(place.file);
+    if (found == sources_.end() || place.line < 1) return std::nullopt;
+    const std::string_view text = found->second;
+    std::size_t begin = 0;
+    for (int line = 1; line < place.line; ++line) {
+        begin = text.find('\n', begin);
+        if (begin == std::string_view::npos) return std::nullopt;
+        ++begin;
+    }
+    const std::size_t end = text.find('\n', begin);
+    std::string_view line = text.substr(begin, end == std::string_view::npos ? end : end - begin);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return std::string(line);
+}
+
+}  // namespace candela

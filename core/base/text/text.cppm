@@ -1,0 +1,27 @@
+// Text for messages.
+module;
+
+#include "candela/api.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+export module candela.text;
+
+export namespace candela {
+
+/// As much of what somebody wrote as fits a message, on one line.
+CANDELA_API std::string shortened(std::string_view text);
+
+/// The candidate that `name` was most likely meant to be, if one is near enough: at most a third of its
+/// letters wrong, a swap of neighbours counting once (Damerau 1964).
+CANDELA_API std::optional<std::string> closest(std::string_view name,
+                                               std::span<const std::string> candidates);
+
+/// "12.9 GB", in powers of ten.
+CANDELA_API std::string size_text(std::uint64_t bytes);
+
+}  // namespace candela

@@ -1,0 +1,147 @@
+// Loading a library, and the handshake.
+module;
+
+#include <fmt/format.h>
+
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <boost/dll/shared_library.hpp>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+module candela.library;
+
+import candela.diagnostics;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Loaded {
+    boost::dll::shared_library library;
+    const PluginDescriptor* descriptor = nullptr;
+};
+
+/// Never destroyed: unloading would leave dangling vtables and exceptions behind.
+std::map<fs::path, Loaded>& loaded_libraries() {
+    static auto* const libraries = new std::map<fs::path, Loaded>;
+    return *libraries;
+}
+
+[[noreturn]] void refuse(const fs::path& library, const std::string& reason) {
+    throw Error(ExitCode::failure, fmt::format("plugin '{}' is refused: {}", library.string(), reason));
+}
+
+/// What the loader said, without the path that it repeats: "libfoo.so.1: cannot open shared object file: No
+/// such file …".
+std::string loader_message(const boost::dll::fs::system_error& problem, const fs::path& library) {
+    std::string text = problem.what();
+    for (const std::string& prefix :
+         {library.string() + ": ", std::string("boost::dll::shared_library::load() failed: ")}) {
+        if (const auto at = text.find(prefix); at != std::string::npos) text.erase(0, at + prefix.size());
+    }
+    if (const auto end = text.find(" [system:"); end != std::string::npos) text.erase(end);
+    return text;
+}
+
+boost::dll::shared_library open_library(const fs::path& library) {
+    try {
+        return boost::dll::shared_library(
+            library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+    } catch (const boost::dll::fs::system_error& problem) {
+        refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it",
+                                    loader_message(problem, library)));
+    }
+}
+
+/// Which parts of the manifest are not what the library says.
+std::string differences(const Manifest& written, const Manifest& actual) {
+    std::string parts;
+    const auto compare = [&](std::string_view what, bool same) {
+        if (same) return;
+        if (!parts.empty()) parts += ", ";
+        parts += what;
+    };
+    compare("kind", written.kind == actual.kind);
+    compare("name", written.name == actual.name);
+    compare("version", written.version == actual.version);
+    compare("title", written.title == actual.title);
+    compare("summary", written.summary == actual.summary);
+    compare("formula", written.formula == actual.formula);
+    compare("reference", written.reference == actual.reference);
+    compare("parameters", written.parameters == actual.parameters);
+    compare("relations", written.relations == actual.relations);
+    compare("properties", written.properties == actual.properties);
+    compare("formats", written.formats == actual.formats);
+    compare("kernel", written.has_kernel == actual.has_kernel &&
+                          written.kernel_prefix == actual.kernel_prefix &&
+                          written.kernel_parameters == actual.kernel_parameters);
+    return parts;
+}
+
+}  // namespace
+
+const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manifest) {
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    const fs::path library = fs::absolute(path).lexically_normal();
+
+    if (manifest != nullptr && manifest->abi != host_abi()) {
+        refuse(library,
+               fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                           manifest->abi, host_abi()));
+    }
+    Loaded& entry = loaded_libraries()[library];
+    if (!entry.library.is_loaded()) entry.library = open_library(library);
+    if (entry.descriptor == nullptr) {
+        for (const char* symbol : {"candela_plugin_abi", "candela_plugin_descriptor"}) {
+            if (!entry.library.has(symbol)) {
+                refuse(library, fmt::format("it does not export {}, so it is no Candela plugin", symbol));
+            }
+        }
+        const std::string_view abi = entry.library.get<const char*()>("candela_plugin_abi")();
+        if (abi != host_abi()) {
+            refuse(library,
+                   fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                               abi, host_abi()));
+        }
+        const PluginDescriptor* descriptor =
+            entry.library.get<const PluginDescriptor*()>("candela_plugin_descriptor")();
+        if (descriptor == nullptr || descriptor->create == nullptr)
+            refuse(library, "its descriptor is empty");
+        entry.descriptor = descriptor;
+    }
+    if (manifest != nullptr) {
+        const Manifest actual = manifest_of(*entry.descriptor, host_abi());
+        if (const std::string parts = differences(*manifest, actual); !parts.empty()) {
+            refuse(library,
+                   fmt::format("its manifest disagrees with it about its {}; build it again, so that "
+                               "both are of one build",
+                               parts));
+        }
+    }
+    return *entry.descriptor;
+}
+
+void rethrow_as_plugin_error(PluginKind kind, std::string_view name) {
+    try {
+        throw;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& problem) {
+        throw Error(ExitCode::failure,
+                    fmt::format("plugin {}/{}: {}", candela::name_of(kind), name, problem.what()));
+    } catch (...) {
+        throw Error(ExitCode::failure, fmt::format("plugin {}/{} threw something that is no std::exception",
+                                                   candela::name_of(kind), name));
+    }
+}
+
+}  // namespace candela

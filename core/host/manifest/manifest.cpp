@@ -1,0 +1,282 @@
+// Manifests as JSON and as made from a descriptor.
+module;
+
+#include "candela/abi.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.manifest;
+
+import candela.color;
+import candela.diagnostics;
+import candela.math;
+import candela.text;
+
+namespace candela {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int k_manifest_version = 1;
+
+double shortest(float x) { return std::stod(fmt::format("{}", x)); }
+
+Json json_of(const Value& value) {
+    struct Writer {
+        Json operator()(bool b) const { return b; }
+        Json operator()(std::int64_t i) const { return i; }
+        Json operator()(double d) const { return d; }
+        Json operator()(const std::string& s) const { return s; }
+        Json operator()(const Vec3& v) const {
+            return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
+        }
+    };
+    return std::visit(Writer{}, value);
+}
+
+/// A colour's channels are whole numbers.
+Json color_json(const Vec3& v) { return Json::array({std::lround(v.x), std::lround(v.y), std::lround(v.z)}); }
+
+Json json_of(const Parameter& p) {
+    Json json;
+    json["name"] = p.name;
+    json["type"] = name_of(p.type);
+    if (!p.unit.empty()) json["unit"] = p.unit;
+    if (p.default_value) {
+        json["default"] =
+            p.type == ParamType::color ? color_json(std::get<Vec3>(*p.default_value)) : json_of(*p.default_value);
+    }
+    if (p.minimum != k_no_minimum) json[p.minimum_excluded ? "above" : "minimum"] = shortest(p.minimum);
+    if (p.maximum != k_no_maximum) json[p.maximum_excluded ? "below" : "maximum"] = shortest(p.maximum);
+    if (!p.choices.empty()) json["choices"] = p.choices;
+    json["meaning"] = p.meaning;
+    return json;
+}
+
+Json json_of(const Manifest& m) {
+    Json json;
+    json["candela_manifest"] = k_manifest_version;
+    json["abi"] = m.abi;
+    json["kind"] = name_of(m.kind);
+    json["name"] = m.name;
+    json["version"] = m.version;
+    json["title"] = m.title;
+    json["summary"] = m.summary;
+    json["formula"] = m.formula;
+    json["reference"] = m.reference;
+    json["parameters"] = Json::array();
+    for (const Parameter& p : m.parameters) json["parameters"].push_back(json_of(p));
+    json["relations"] = Json::array();
+    for (const Relation& r : m.relations) {
+        json["relations"].push_back({{"type", name_of(r.type)},
+                                     {"left", r.left},
+                                     {"right", r.right},
+                                     {"only_warns", r.only_warns},
+                                     {"meaning", r.meaning}});
+    }
+    json["properties"] = Json::object();
+    for (const auto& [name, value] : m.properties) json["properties"][name] = value;
+    if (!m.formats.empty()) {
+        json["formats"] = Json::array();
+        for (const ManifestFormat& f : m.formats) {
+            json["formats"].push_back({{"extension", f.extension},
+                                       {"title", f.title},
+                                       {"pixels", f.pixels == PixelType::byte ? "byte" : "real"},
+                                       {"reads", f.reads}});
+        }
+    }
+    if (m.has_kernel) json["kernel"] = {{"prefix", m.kernel_prefix}, {"parameters", m.kernel_parameters}};
+    return json;
+}
+
+[[noreturn]] void refuse(const std::string& reason) { throw Error(ExitCode::failure, reason); }
+
+template <class Named>
+auto named(const Json& json, std::string_view what, Named named_function) {
+    const auto name = json.get<std::string>();
+    const auto found = named_function(name);
+    if (!found) refuse(fmt::format("'{}' is no {}", shortened(name), what));
+    return *found;
+}
+
+std::int64_t whole_number(const Json& json) {
+    const bool is_large =
+        json.is_number_unsigned() &&
+        json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (!json.is_number_integer() || is_large) refuse(json.dump() + " is no whole number that can be used");
+    return json.get<std::int64_t>();
+}
+
+float channel(const Json& json) {
+    const std::int64_t number = whole_number(json);
+    if (number < 0 || number > 256) refuse(json.dump() + " is no channel of a colour: 0 to 255");
+    return static_cast<float>(number);
+}
+
+Value value_from(const Json& json, ParamType type) {
+    switch (type) {
+        case ParamType::real:
+            return json.get<double>();
+        case ParamType::integer:
+            return whole_number(json);
+        case ParamType::boolean:
+            return json.get<bool>();
+        case ParamType::choice:
+        case ParamType::text:
+        case ParamType::file:
+            return json.get<std::string>();
+        default:
+            if (json.size() != 3) refuse("a default has other than three numbers");
+            if (type == ParamType::color)
+                return Vec3{channel(json.at(0)), channel(json.at(1)), channel(json.at(2))};
+            return Vec3{json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
+    }
+}
+
+Parameter parameter_from(const Json& json) {
+    Parameter p;
+    p.name = json.at("name").get<std::string>();
+    p.type = named(json.at("type"), "type of a parameter", param_type_named);
+    p.unit = json.value("unit", "");
+    if (json.contains("default")) p.default_value = value_from(json["default"], p.type);
+    p.minimum_excluded = json.contains("above");
+    p.maximum_excluded = json.contains("below");
+    p.minimum = json.value(p.minimum_excluded ? "above" : "minimum", k_no_minimum);
+    p.maximum = json.value(p.maximum_excluded ? "below" : "maximum", k_no_maximum);
+    if (json.contains("choices")) p.choices = json["choices"].get<std::vector<std::string>>();
+    p.meaning = json.at("meaning").get<std::string>();
+    const auto wrong = [&](const std::string& what) {
+        refuse(fmt::format("parameter '{}': {}", shortened(p.name), what));
+    };
+    if (p.type == ParamType::choice && p.choices.empty()) wrong("there is nothing to choose from");
+    if (std::isnan(p.minimum) || std::isinf(p.minimum) != (p.minimum == k_no_minimum) ||
+        std::isinf(p.maximum) != (p.maximum == k_no_maximum)) {
+        wrong("its range is not one of numbers");
+    }
+    if (p.default_value) {
+        // That it is within its range is the conformance kit's affair; that it can be computed with is ours.
+        Parameter unbounded = p;
+        unbounded.minimum = k_no_minimum;
+        unbounded.maximum = k_no_maximum;
+        if (const auto problem = validation_error(unbounded, *p.default_value)) wrong("its default: " + *problem);
+    }
+    return p;
+}
+
+Manifest manifest_from(const Json& json) {
+    if (whole_number(json.at("candela_manifest")) != k_manifest_version) {
+        refuse("it is of another manifest version");
+    }
+    Manifest m;
+    m.abi = json.at("abi").get<std::string>();
+    m.kind = named(json.at("kind"), "kind of plugin", plugin_kind_named);
+    m.name = json.at("name").get<std::string>();
+    m.version = json.at("version").get<std::string>();
+    m.title = json.at("title").get<std::string>();
+    m.summary = json.at("summary").get<std::string>();
+    m.formula = json.at("formula").get<std::string>();
+    m.reference = json.at("reference").get<std::string>();
+    for (const Json& p : json.at("parameters")) m.parameters.push_back(parameter_from(p));
+    for (std::size_t i = 0; i < m.parameters.size(); ++i) {
+        const bool is_double =
+            std::any_of(m.parameters.begin(), m.parameters.begin() + static_cast<std::ptrdiff_t>(i),
+                        [&](const Parameter& p) { return p.name == m.parameters[i].name; });
+        if (is_double) refuse(fmt::format("two parameters are called '{}'", shortened(m.parameters[i].name)));
+    }
+    for (const Json& r : json.at("relations")) {
+        m.relations.push_back({named(r.at("type"), "type of a relation", relation_type_named),
+                               r.at("left").get<std::string>(), r.at("right").get<std::string>(),
+                               r.at("only_warns").get<bool>(), r.at("meaning").get<std::string>()});
+    }
+    for (const auto& [name, value] : json.at("properties").items()) {
+        m.properties.emplace_back(name, value.get<std::string>());
+    }
+    if (json.contains("formats")) {
+        for (const Json& f : json["formats"]) {
+            const auto pixels =
+                f.at("pixels").get<std::string>() == "byte" ? PixelType::byte : PixelType::real;
+            m.formats.push_back({f.at("extension").get<std::string>(), f.at("title").get<std::string>(),
+                                 pixels, f.at("reads").get<bool>()});
+        }
+    }
+    m.has_kernel = json.contains("kernel");
+    if (m.has_kernel) {
+        m.kernel_prefix = json["kernel"].at("prefix").get<std::string>();
+        m.kernel_parameters = json["kernel"].at("parameters").get<std::string>();
+    }
+    return m;
+}
+
+}  // namespace
+
+std::string_view host_abi() noexcept { return CANDELA_ABI; }
+
+std::string Manifest::id() const { return fmt::format("{}/{}", candela::name_of(kind), name); }
+
+std::optional<std::string> Manifest::property(std::string_view property_name) const {
+    for (const auto& [key, value] : properties) {
+        if (key == property_name) return value;
+    }
+    return std::nullopt;
+}
+
+Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
+    Manifest m;
+    m.abi = abi;
+    m.kind = d.kind;
+    m.name = d.name;
+    m.version = d.version;
+    m.title = d.title;
+    m.summary = d.summary;
+    m.formula = d.formula;
+    m.reference = d.reference;
+    for (const ParamSpec& spec : d.parameters) m.parameters.push_back(parameter_of(spec));
+    for (const RelationSpec& spec : d.relations) m.relations.push_back(relation_of(spec));
+    for (const Property& p : d.properties) m.properties.emplace_back(p.name, p.value);
+    for (const FileFormat& f : d.formats) m.formats.push_back({f.extension, f.title, f.pixels, f.reads});
+    m.has_kernel = d.kernel.text != nullptr && d.kernel.prefix != nullptr;
+    if (m.has_kernel) {
+        m.kernel_prefix = d.kernel.prefix;
+        m.kernel_parameters = d.kernel.parameters;
+    }
+    return m;
+}
+
+std::string to_json(const Manifest& manifest) { return json_of(manifest).dump(2) + "\n"; }
+
+std::string to_json(std::span<const Manifest> manifests) {
+    Json all = Json::array();
+    for (const Manifest& manifest : manifests) all.push_back(json_of(manifest));
+    return all.dump(2) + "\n";
+}
+
+Manifest manifest_from_json(std::string_view text) {
+    try {
+        return manifest_from(Json::parse(text));
+    } catch (const Json::exception& problem) {
+        throw Error(ExitCode::failure, fmt::format("it is no manifest: {}", problem.what()));
+    }
+}
+
+std::string abi_from_json(std::string_view text) {
+    const Json json = Json::parse(text, nullptr, false);
+    const bool says_so = json.is_object() && json.contains("abi") && json["abi"].is_string();
+    return says_so ? json["abi"].get<std::string>() : "";
+}
+
+}  // namespace candela

@@ -1,0 +1,69 @@
+// What stands beside a plugin's library: enough to list it, to describe it and to check a scene without loading it.
+module;
+
+#include "candela/api.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+export module candela.manifest;
+
+export import candela.descriptor;
+export import candela.parameters;
+import candela.color;
+
+export namespace candela {
+
+struct ManifestFormat {
+    std::string extension;
+    std::string title;
+    PixelType pixels = PixelType::byte;
+    bool reads = false;
+
+    friend bool operator==(const ManifestFormat&, const ManifestFormat&) = default;
+};
+
+/// What a plugin says about itself, as it stands in the file beside its library: enough to list it, to
+/// describe it and to check a scene without loading it.
+struct CANDELA_API Manifest {
+    std::string abi;
+    PluginKind kind = PluginKind::light;
+    std::string name;
+    std::string version;
+    std::string title;
+    std::string summary;
+    std::string formula;
+    std::string reference;
+    std::vector<Parameter> parameters;
+    std::vector<Relation> relations;
+    std::vector<std::pair<std::string, std::string>> properties;
+    std::vector<ManifestFormat> formats;
+    bool has_kernel = false;    // its mathematics can be exported; the text itself is in the library
+    std::string kernel_prefix;  // see KernelText
+    std::string kernel_parameters;
+
+    /// "reflection/phong"
+    std::string id() const;
+    std::optional<std::string> property(std::string_view property_name) const;
+
+    friend bool operator==(const Manifest&, const Manifest&) = default;
+};
+
+/// The fingerprint of this core: interface version, C++ ABI, standard library.
+CANDELA_API std::string_view host_abi() noexcept;
+
+CANDELA_API Manifest manifest_of(const PluginDescriptor& descriptor, std::string_view abi);
+CANDELA_API std::string to_json(const Manifest& manifest);
+/// The same for several, as one array.
+CANDELA_API std::string to_json(std::span<const Manifest> manifests);
+/// Throws Error with a plain sentence about `text`.
+CANDELA_API Manifest manifest_from_json(std::string_view text);
+/// What a plugin was built for, also where this Candela cannot read the rest of its manifest; empty where the
+/// manifest does not say.
+CANDELA_API std::string abi_from_json(std::string_view text);
+
+}  // namespace candela

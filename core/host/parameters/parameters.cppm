@@ -1,0 +1,114 @@
+// Parameters, their values and what must hold between them, as the host keeps them: read from manifests, checked,
+// written in messages. `Value` is one value as a person wrote it.
+module;
+
+#include "candela/api.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+export module candela.parameters;
+
+export import candela.color;
+export import candela.params;
+import candela.math;
+
+export namespace candela {
+
+/// A value as a person writes it. Vec3 holds vector, point, direction, color and rgb.
+using Value = std::variant<bool, std::int64_t, double, std::string, Vec3>;
+
+/// `ParamSpec` with its own memory.
+struct Parameter {
+    std::string name{};
+    ParamType type = ParamType::real;
+    std::string unit{};
+    std::string meaning{};
+    std::optional<Value> default_value{};  // none: required
+    float minimum = k_no_minimum;
+    float maximum = k_no_maximum;
+    bool minimum_excluded = false;
+    bool maximum_excluded = false;
+    std::vector<std::string> choices{};
+
+    friend bool operator==(const Parameter&, const Parameter&) = default;
+};
+
+/// `RelationSpec` with its own memory.
+struct Relation {
+    RelationType type = RelationType::less_or_equal;
+    std::string left;
+    std::string right;
+    bool only_warns = false;
+    std::string meaning;
+
+    friend bool operator==(const Relation&, const Relation&) = default;
+};
+
+CANDELA_API Parameter parameter_of(const ParamSpec& spec);
+CANDELA_API Relation relation_of(const RelationSpec& spec);
+
+CANDELA_API std::string_view name_of(ParamType type) noexcept;
+CANDELA_API std::optional<ParamType> param_type_named(std::string_view name) noexcept;
+CANDELA_API std::string_view name_of(RelationType type) noexcept;
+CANDELA_API std::optional<RelationType> relation_type_named(std::string_view name) noexcept;
+
+/// What is expected of a value: "a number, at least 0", "three whole numbers 0-255", "one of 'a', 'b'".
+CANDELA_API std::string constraint_text(const Parameter& parameter);
+
+/// The range alone: "0 to 1", "greater than 0", or empty.
+CANDELA_API std::string range_text(const Parameter& parameter);
+
+/// A value as a person would write it in a scene file.
+CANDELA_API std::string text_of(const Value& value);
+
+/// What a relation asks for: "inner_angle does not exceed outer_angle: the cone of full light …".
+CANDELA_API std::string text_of(const Relation& relation);
+
+/// What is wrong with `value` (which already has the parameter's type), or nothing.
+CANDELA_API std::optional<std::string> validation_error(const Parameter& parameter, const Value& value);
+
+/// A schema that many sets have in common. Never null.
+using SharedSchema = std::shared_ptr<const std::vector<Parameter>>;
+
+/// The values of one schema: every parameter has one, except required ones not yet set.
+class CANDELA_API ParamSet {
+  public:
+    ParamSet();
+    explicit ParamSet(std::vector<Parameter> schema);
+    explicit ParamSet(SharedSchema schema);
+
+    const std::vector<Parameter>& schema() const noexcept { return *schema_; }
+    std::size_t index_of(std::string_view name) const noexcept;  // schema().size() where there is none
+
+    /// Throws std::invalid_argument where there is no such parameter or the value does not fit it.
+    void set(std::string_view name, Value value);
+    void set(std::size_t index, Value value) { values_[index] = std::move(value); }
+
+    /// The value, or nothing for a required one that is not set.
+    const std::optional<Value>& get(std::size_t index) const { return values_[index]; }
+    /// Throws std::invalid_argument where there is no such parameter or it is not set.
+    const Value& get(std::string_view name) const;
+
+    /// The values as a plugin receives them, in the schema's order. The texts point into this set.
+    /// Throws std::invalid_argument where a required one is not set.
+    std::vector<ParamValue> delivered(ColorEncoding encoding) const;
+
+    /// The same schema and the same values.
+    friend CANDELA_API bool operator==(const ParamSet& a, const ParamSet& b);
+
+  private:
+    SharedSchema schema_;
+    std::vector<std::optional<Value>> values_;
+};
+
+/// What is wrong between two parameters of `set`, or nothing.
+CANDELA_API std::optional<std::string> validation_error(const Relation& relation, const ParamSet& set);
+
+}  // namespace candela

@@ -1,0 +1,305 @@
+// Where plugins are looked for.
+module;
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+module candela.registry;
+
+import candela.diagnostics;
+import candela.library;
+import candela.text;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Shipped ones have two or three thousand bytes.
+constexpr std::size_t k_largest_manifest = 1u << 20;
+
+std::string id_of(PluginKind kind, std::string_view name) {
+    return fmt::format("{}/{}", name_of(kind), name);
+}
+
+bool is_regular(const fs::path& file) {
+    std::error_code ignored;
+    return fs::is_regular_file(file, ignored);
+}
+
+/// A manifest's text, or nothing; of a file that is too large to be one, as much as shows that.
+std::optional<std::string> text_of_file(const fs::path& file) {
+    if (!is_regular(file)) return std::nullopt;
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return std::nullopt;
+    std::string text;
+    std::array<char, 4096> some{};
+    while (in && text.size() <= k_largest_manifest) {
+        in.read(some.data(), some.size());
+        text.append(some.data(), static_cast<std::size_t>(in.gcount()));
+    }
+    if (in.bad()) return std::nullopt;
+    return text;
+}
+
+void add_path_list(std::vector<fs::path>& directories, std::string_view list) {
+    while (!list.empty()) {
+        const auto colon = list.find(':');
+        if (colon != 0) directories.emplace_back(list.substr(0, colon));
+        list.remove_prefix(colon == std::string_view::npos ? list.size() : colon + 1);
+    }
+}
+
+std::string_view environment(const char* name) {
+    const char* const value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+/// "belongs to …" or "can be written to by everybody"; empty where only this user and root can change a file
+/// or folder.
+std::string who_else_can_write(const fs::path& path) {
+    struct stat status{};
+    if (::stat(path.c_str(), &status) != 0) return {};
+    if (status.st_uid != 0 && status.st_uid != ::geteuid())
+        return fmt::format("belongs to user {}", status.st_uid);
+    if ((status.st_mode & S_IWOTH) != 0) return "can be written to by every user";
+    return {};
+}
+
+/// Whole, for its last part may be the one that differs; a manifest may also hold anything else in its place.
+std::string fingerprint_text(std::string_view abi) {
+    constexpr std::size_t k_longest = 100;
+    const bool is_plain =
+        abi.size() <= k_longest && std::ranges::all_of(abi, [](char c) { return c >= ' ' && c <= '~'; });
+    return is_plain ? std::string(abi) : shortened(abi);
+}
+
+}  // namespace
+
+std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
+    std::vector<fs::path> directories(first.begin(), first.end());
+    add_path_list(directories, environment("CANDELA_PLUGIN_PATH"));
+    if (const auto data = environment("XDG_DATA_HOME"); !data.empty()) {
+        directories.push_back(fs::path(data) / "candela/plugins");
+    } else if (const auto home = environment("HOME"); !home.empty()) {
+        directories.push_back(fs::path(home) / ".local/share/candela/plugins");
+    }
+    // Where this library is: lib/libcandela_core.so, so lib/candela/plugins.
+    directories.push_back(
+        (boost::dll::this_line_location().parent_path() / "candela/plugins").lexically_normal());
+    return directories;
+}
+
+Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust)
+    : search_path_(std::move(search_path)), trust_(trust) {}
+
+const PluginFile* Registry::look_at(const fs::path& directory, const std::string& id, PluginKind kind,
+                                    std::string_view name) {
+    const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
+    const fs::path manifest_path = directory / (stem + ".json");
+    const fs::path library = directory / (stem + ".so");
+    const auto refuse = [&](const std::string& reason) {
+        refused_[library] = fmt::format("plugin '{}' is refused: {}", library.string(), reason);
+        return nullptr;
+    };
+    const bool has_library = is_regular(library);
+    const auto text = text_of_file(manifest_path);
+    if (!text) {
+        return has_library
+                   ? refuse(fmt::format(
+                         "its manifest {}.json is not beside it; build it with candela_add_plugin()", stem))
+                   : nullptr;
+    }
+    if (!has_library) return refuse("its manifest is there, the library is not");
+    if (text->size() > k_largest_manifest) {
+        return refuse(fmt::format("its manifest {}.json is larger than {} bytes", stem, k_largest_manifest));
+    }
+    if (trust_ != PluginTrust::any) {
+        for (const fs::path& part : {directory, library}) {
+            if (const std::string who = who_else_can_write(part); !who.empty()) {
+                return refuse(
+                    fmt::format("'{}' {}, so that anybody's code could run here; change that, or use "
+                                "--allow-untrusted-plugins",
+                                part.string(), who));
+            }
+        }
+    }
+    const auto refuse_abi = [&](std::string_view abi) {
+        return refuse(
+            fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+                        fingerprint_text(abi), host_abi()));
+    };
+    auto file = std::make_unique<PluginFile>();
+    try {
+        file->manifest = manifest_from_json(*text);
+    } catch (const Error& problem) {
+        if (const std::string abi = abi_from_json(*text); !abi.empty() && abi != host_abi())
+            return refuse_abi(abi);
+        return refuse(fmt::format("its manifest {}.json cannot be used: {}", stem, problem.what()));
+    }
+    if (file->manifest.abi != host_abi()) return refuse_abi(file->manifest.abi);
+    if (file->manifest.id() != id) {
+        return refuse(fmt::format("its manifest is that of {}; a plugin's file is called <kind>-<name>.so",
+                                  file->manifest.id()));
+    }
+    file->library = library;
+    file->schema = std::make_shared<const std::vector<Parameter>>(file->manifest.parameters);
+    return (found_[id] = std::move(file)).get();
+}
+
+const PluginFile* Registry::find(PluginKind kind, std::string_view name) {
+    const std::lock_guard lock(mutex_);
+    const std::string id = id_of(kind, name);
+    if (const auto known = found_.find(id); known != found_.end()) return known->second.get();
+    if (name.find('/') != std::string_view::npos) return nullptr;
+    for (const fs::path& directory : search_path_) {
+        if (const PluginFile* const file = look_at(directory, id, kind, name)) return file;
+    }
+    found_[id] = nullptr;
+    return nullptr;
+}
+
+const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
+    if (const PluginFile* const file = find(kind, name)) return *file;
+    const std::lock_guard lock(mutex_);
+    const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
+    for (const auto& [library, reason] : refused_) {
+        if (library.stem() == stem) throw Error(ExitCode::failure, reason);
+    }
+    const std::vector<std::string> known = names(kind);
+    const auto near = closest(name, known);
+    throw Error(ExitCode::failure,
+                fmt::format("no {} plugin is called '{}'; {} (installed: {})", candela::name_of(kind), name,
+                            near ? fmt::format("did you mean '{}'?", *near) : "candela list shows all",
+                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+}
+
+void Registry::scan(PluginKind kind) {
+    if (!scanned_.insert(kind).second) return;
+    const std::string prefix = fmt::format("{}-", candela::name_of(kind));
+    for (const fs::path& directory : search_path_) {
+        std::error_code ignored;
+        std::set<std::string> names;
+        for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
+            const std::string extension = entry.path().extension().string();
+            const std::string stem = entry.path().stem().string();
+            if ((extension == ".so" || extension == ".json") && stem.starts_with(prefix))
+                names.insert(stem.substr(prefix.size()));
+        }
+        for (const std::string& name : names) find(kind, name);
+    }
+}
+
+std::vector<const PluginFile*> Registry::list(PluginKind kind) {
+    const std::lock_guard lock(mutex_);
+    scan(kind);
+    std::vector<const PluginFile*> all;
+    for (const auto& [id, file] : found_) {
+        if (file != nullptr && file->manifest.kind == kind) all.push_back(file.get());
+    }
+    std::ranges::sort(all, {},
+                      [](const PluginFile* file) -> const std::string& { return file->manifest.name; });
+    return all;
+}
+
+std::vector<const PluginFile*> Registry::list() {
+    std::vector<const PluginFile*> all;
+    for (const PluginKind kind : k_plugin_kinds) {
+        const auto some = list(kind);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+}
+
+std::vector<std::string> Registry::names(PluginKind kind) {
+    std::vector<std::string> result;
+    for (const PluginFile* file : list(kind)) result.push_back(file->manifest.name);
+    return result;
+}
+
+std::vector<Refusal> Registry::refusals() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<Refusal> result;
+    for (const auto& [file, reason] : refused_) result.push_back({file, reason});
+    return result;
+}
+
+const PluginFile* Registry::find_format(std::string_view extension, FormatUse use) {
+    // The plugin called after its format is looked at first: it spares reading all the others' manifests.
+    const auto is_able = [&](const PluginFile* file) {
+        return std::ranges::any_of(file->manifest.formats, [&](const ManifestFormat& format) {
+            return format.extension == extension && (use == FormatUse::write || format.reads);
+        });
+    };
+    const auto is_fallback = [](const PluginFile* file) {
+        return file->manifest.property("fallback").has_value();
+    };
+    if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && is_able(file))
+        return file;
+    const PluginFile* best = nullptr;
+    for (const PluginFile* file : list(PluginKind::image)) {
+        if (is_able(file) && (best == nullptr || (is_fallback(best) && !is_fallback(file)))) best = file;
+    }
+    return best;
+}
+
+std::vector<std::string> Registry::extensions(FormatUse use) {
+    std::set<std::string> all;
+    for (const PluginFile* file : list(PluginKind::image)) {
+        for (const ManifestFormat& format : file->manifest.formats) {
+            if (use == FormatUse::write || format.reads) all.insert(format.extension);
+        }
+    }
+    return {all.begin(), all.end()};
+}
+
+ParamSet Registry::parameters(PluginKind kind, std::string_view name) {
+    return ParamSet(require(kind, name).schema);
+}
+
+const PluginDescriptor& Registry::load(const PluginFile& file) {
+    const std::lock_guard lock(mutex_);
+    PluginFile& known = *found_.find(file.manifest.id())->second;
+    if (known.descriptor == nullptr) known.descriptor = &load_plugin(known.library, &known.manifest);
+    return *known.descriptor;
+}
+
+std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string_view name,
+                                                    const ParamSet& values, ColorEncoding encoding) {
+    const PluginFile& file = require(kind, name);
+    const PluginDescriptor& descriptor = load(file);
+    try {
+        std::unique_ptr<Instance> instance(descriptor.create(values.delivered(encoding)));
+        if (instance == nullptr) throw std::runtime_error("made nothing");
+        return instance;
+    } catch (...) {
+        rethrow_as_plugin_error(kind, name);
+    }
+}
+
+void Registry::throw_wrong_interface(PluginKind kind, std::string_view name) {
+    throw Error(ExitCode::failure, fmt::format("plugin {}/{} made something that is no {}",
+                                               candela::name_of(kind), name, candela::name_of(kind)));
+}
+
+}  // namespace candela

@@ -1,0 +1,133 @@
+// The installed plugins: where they are looked for, which of them are used, and instances of them.
+module;
+
+#include "candela/api.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+export module candela.registry;
+
+export import candela.manifest;
+import candela.image;
+import candela.light;
+import candela.reflection;
+import candela.shading;
+import candela.shape;
+
+export namespace candela {
+
+/// A plugin that was found.
+struct PluginFile {
+    Manifest manifest;
+    std::filesystem::path library;
+    SharedSchema schema;                           // the manifest's parameters
+    const PluginDescriptor* descriptor = nullptr;  // once it is loaded
+};
+
+/// A candidate that cannot be used, and one sentence that says why and what to do.
+struct Refusal {
+    std::filesystem::path file;
+    std::string reason;
+};
+
+/// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins beside the core.
+CANDELA_API std::vector<std::filesystem::path> plugin_search_path(
+    std::span<const std::filesystem::path> first);
+
+template <class Interface>
+inline constexpr PluginKind k_kind_of = [] {
+    static_assert(sizeof(Interface) == 0, "not the interface of a plugin kind");
+    return PluginKind::light;
+}();
+template <>
+inline constexpr PluginKind k_kind_of<Light> = PluginKind::light;
+template <>
+inline constexpr PluginKind k_kind_of<ReflectionModel> = PluginKind::reflection;
+template <>
+inline constexpr PluginKind k_kind_of<ShadingModel> = PluginKind::shading;
+template <>
+inline constexpr PluginKind k_kind_of<Shape> = PluginKind::shape;
+template <>
+inline constexpr PluginKind k_kind_of<ImageFormat> = PluginKind::image;
+
+/// Whose plugins are used. A plugin is code that runs with all the rights of who renders.
+enum class PluginTrust : int {
+    own_and_system,  // of this user and of root, in folders and files that nobody else can write to
+    any,
+};
+
+/// What a picture's file is to be done with.
+enum class FormatUse : bool { write, read };
+
+/// The plugins of a search path. Reads a manifest when it is asked for, loads a library when an instance is
+/// wanted. Any thread; returned pointers live as long as the registry.
+class CANDELA_API Registry {
+  public:
+    explicit Registry(std::vector<std::filesystem::path> search_path,
+                      PluginTrust trust = PluginTrust::own_and_system);
+
+    const std::vector<std::filesystem::path>& search_path() const noexcept { return search_path_; }
+    PluginTrust trust() const noexcept { return trust_; }
+
+    /// The first usable plugin of that name on the search path, or null.
+    const PluginFile* find(PluginKind kind, std::string_view name);
+    /// Likewise; throws Error where there is none: what is not known, why a candidate was refused, and a
+    /// suggestion.
+    const PluginFile& require(PluginKind kind, std::string_view name);
+
+    /// All usable plugins, by kind and name.
+    std::vector<const PluginFile*> list();
+    /// All usable plugins of a kind, by name; reads no other kind's manifests.
+    std::vector<const PluginFile*> list(PluginKind kind);
+    std::vector<std::string> names(PluginKind kind);
+    /// The candidates that list() and find() have passed over.
+    std::vector<Refusal> refusals() const;
+
+    /// The image plugin that writes, or reads, `.extension`, or null. One with the property "fallback" yields
+    /// to one without.
+    const PluginFile* find_format(std::string_view extension, FormatUse use = FormatUse::write);
+    /// All extensions that an image plugin writes, or reads, sorted.
+    std::vector<std::string> extensions(FormatUse use = FormatUse::write);
+
+    /// An empty set of a plugin's parameters: its defaults. Throws Error as require() does.
+    ParamSet parameters(PluginKind kind, std::string_view name);
+
+    /// Loads the plugin if need be and makes an instance. Throws Error, also for what the plugin throws.
+    template <class Interface>
+    std::unique_ptr<Interface> create(std::string_view name, const ParamSet& values, ColorEncoding encoding) {
+        std::unique_ptr<Instance> made = create_instance(k_kind_of<Interface>, name, values, encoding);
+        auto* const typed = dynamic_cast<Interface*>(made.get());
+        if (typed == nullptr) throw_wrong_interface(k_kind_of<Interface>, name);
+        static_cast<void>(made.release());
+        return std::unique_ptr<Interface>(typed);
+    }
+
+  private:
+    std::unique_ptr<Instance> create_instance(PluginKind kind, std::string_view name, const ParamSet& values,
+                                              ColorEncoding encoding);
+    [[noreturn]] static void throw_wrong_interface(PluginKind kind, std::string_view name);
+    const PluginFile* look_at(const std::filesystem::path& directory, const std::string& id, PluginKind kind,
+                              std::string_view name);
+    void scan(PluginKind kind);
+    const PluginDescriptor& load(const PluginFile& file);
+
+    std::vector<std::filesystem::path> search_path_;
+    PluginTrust trust_;
+    mutable std::recursive_mutex mutex_;
+    std::set<PluginKind> scanned_;
+    std::map<std::string, std::unique_ptr<PluginFile>, std::less<>>
+        found_;  // by id; null: looked for in vain
+    std::map<std::filesystem::path, std::string> refused_;
+};
+
+}  // namespace candela

@@ -1,0 +1,45 @@
+// What is seen where there is no object.
+module;
+
+#include "candela/api.h"
+
+#include <filesystem>
+#include <vector>
+
+export module candela.environment;
+
+import candela.color;
+import candela.math;
+import candela.params;
+import candela.registry;
+
+export namespace candela {
+
+/// Intensity from far away, by direction: one for all, or that of a picture all around. Immutable; any
+/// thread.
+class CANDELA_API Environment {
+  public:
+    explicit Environment(Rgb everywhere = {});
+    /// A picture of latitudes and longitudes (equirectangular): its middle is what one sees along -z, its
+    /// right half is along +x, its top row +y. `intensity`: per channel, interleaved, rows from the top.
+    Environment(int width, int height, std::vector<float> intensity);
+
+    bool is_uniform() const noexcept { return width_ == 0; }
+    /// Blended between the pixels around; `towards` is a unit vector.
+    Rgb seen(Vec3 towards) const noexcept;
+
+  private:
+    Rgb pixel(int column, int row) const noexcept;
+
+    Rgb everywhere_;
+    int width_ = 0;
+    int height_ = 0;
+    std::vector<float> intensity_;
+};
+
+/// Reads a picture as an environment; 8-bit colours are decoded as `encoding` says. Throws Error: no image
+/// plugin reads such files, or this one cannot be read.
+CANDELA_API Environment read_environment(const std::filesystem::path& file, Registry& registry,
+                                         ColorEncoding encoding);
+
+}  // namespace candela

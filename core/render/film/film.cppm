@@ -1,0 +1,68 @@
+// The picture while it is made, and its way into a file.
+module;
+
+#include "candela/api.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+export module candela.film;
+
+import candela.arrays;
+import candela.color;
+import candela.image;
+import candela.math;
+import candela.params;
+import candela.registry;
+
+export namespace candela {
+
+/// Pixels as their file format wants them: 8-bit, clamped and encoded, or 32-bit float, as computed.
+class CANDELA_API Film {
+  public:
+    /// Throws Error where there is not enough memory.
+    Film(int width, int height, PixelType pixels, ColorEncoding encoding);
+
+    int width() const noexcept { return width_; }
+    int height() const noexcept { return height_; }
+
+    /// Stores a rectangle of intensities, rows `stride` apart. Different threads may store different pixels
+    /// at once.
+    void store(int x, int y, int width, int height, ConstVec3Span intensity, int stride);
+
+    /// Stores a rectangle of one intensity.
+    void fill(int x, int y, int width, int height, Rgb intensity);
+
+    PictureView view() const noexcept;
+
+  private:
+    std::size_t index_of(int x, int y) const noexcept;
+
+    int width_;
+    int height_;
+    PixelType pixels_;
+    ColorEncoding encoding_;
+    AlignedVector<std::uint8_t> bytes_;
+    AlignedVector<float> reals_;
+};
+
+/// Which plugin writes a picture, and how it wants its pixels.
+struct PictureFormat {
+    std::string plugin;
+    std::string extension;
+    PixelType pixels = PixelType::byte;
+};
+
+/// The format of a path, by its extension; "-", standard output, is PNG. Throws Error for an extension that
+/// nobody writes.
+CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
+
+/// Writes the picture as an OutputFile, which nobody ever finds half of. Plugins that encode on several
+/// threads use those of with_threads(). Throws Error.
+CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
+                               const std::filesystem::path& path, Registry& registry);
+
+}  // namespace candela

@@ -1,0 +1,79 @@
+// From a picture in memory to a file of the format that its name asks for.
+module;
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+module candela.film;
+
+import candela.color;
+import candela.diagnostics;
+import candela.files;
+import candela.library;
+import candela.text;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What an image plugin writes, into a file.
+class FileSink final : public ByteSink {
+  public:
+    explicit FileSink(OutputFile& file) : file_(file) {}
+    void write(std::span<const std::byte> bytes) override { file_.write(bytes); }
+
+  private:
+    OutputFile& file_;
+};
+
+}  // namespace
+
+PictureFormat format_of(const fs::path& path, Registry& registry) {
+    if (path == "-") return {.plugin = "png", .extension = "png", .pixels = PixelType::byte};
+    std::string extension = path.extension().string();
+    if (!extension.empty()) extension.erase(0, 1);
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const PluginFile* const plugin = extension.empty() ? nullptr : registry.find_format(extension);
+    if (plugin == nullptr) {
+        const std::vector<std::string> all = registry.extensions();
+        const auto near = closest(extension, all);
+        throw Error(
+            ExitCode::usage,
+            fmt::format("'{}' {}{} (possible: {})", path.string(),
+                        extension.empty() ? "has no extension that names a picture format"
+                                          : fmt::format("is of no format that an image plugin writes"),
+                        near && !extension.empty() ? fmt::format("; did you mean '.{}'?", *near) : "",
+                        fmt::join(all, ", ")));
+    }
+    const auto& formats = plugin->manifest.formats;
+    const auto format =
+        std::ranges::find_if(formats, [&](const ManifestFormat& f) { return f.extension == extension; });
+    return {.plugin = plugin->manifest.name, .extension = extension, .pixels = format->pixels};
+}
+
+void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry) {
+    const auto writer = registry.create<ImageFormat>(
+        format.plugin, registry.parameters(PluginKind::image, format.plugin), film.view().encoding);
+    OutputFile file(path);
+    FileSink sink(file);
+    try {
+        writer->write(film.view(), format.extension.c_str(), sink);
+    } catch (...) {
+        rethrow_as_plugin_error(PluginKind::image, format.plugin);
+    }
+    file.finish();
+}
+
+}  // namespace candela

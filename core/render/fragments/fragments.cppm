@@ -1,0 +1,197 @@
+// From visibility to points of surfaces: faces, vertices and fragments, gathered in batches.
+module;
+
+#include "candela/api.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+export module candela.fragments;
+
+import candela.math;
+import candela.mesh;
+import candela.raster;
+
+export namespace candela {
+
+/// How many points are shaded at once: enough to hide a virtual call, few enough to stay in the first-level
+/// cache.
+inline constexpr std::size_t k_batch_size = 256;
+
+/// Points of one object's surface, structure of arrays with room for k_batch_size. Reused from batch to
+/// batch.
+struct CANDELA_API SurfacePoints {
+    SurfacePoints();
+
+    std::size_t count = 0;
+    std::size_t filled = 0;  // whole_vectors(count) or count: from `count` on, the last point again
+    Vec3Arrays position;
+    Vec3Arrays face_normal;    // unit
+    Vec3Arrays vertex_normal;  // interpolated; not unit
+    Vec3Arrays barycentric;
+    AlignedVector<float> facing;  // 1, or -1 where an open surface is seen from behind
+    bool any_from_behind = false;
+    AlignedVector<float> u, v;  // filled where attributes are asked for and the mesh has them, else zero
+    Vec3Arrays dpdu, dpdv;
+};
+
+/// Which attributes of a point somebody reads beyond those that all read.
+struct PointNeeds {
+    bool uv = false;
+    bool derivatives = false;
+};
+
+/// Pixels of a row, side by side, to each of which one triangle contributes the same share.
+struct FragmentRun {
+    std::uint32_t triangle;  // of the object's mesh
+    std::uint32_t pixel;     // the first: row * stride + column of the tile
+    std::uint32_t count;
+    float x,
+        y;  // where the first is evaluated, in pixels of the picture; the next one to the right, and so on
+    float weight;  // the share of a pixel's samples that see the triangle
+};
+
+/// The fragments of one object in one tile, in the order of their pixels: each is what one triangle
+/// contributes to one pixel.
+struct FragmentList {
+    std::uint32_t object = 0;
+    std::vector<FragmentRun> runs;  // cut where a batch of k_batch_size ends
+
+    void begin(std::uint32_t of_object);
+    inline void add(FragmentRun run) {
+        while (run.count > room_) run = add_what_has_room(run);
+        room_ -= run.count;
+        if (room_ == 0) room_ = k_batch_size;
+        runs.push_back(run);
+    }
+    /// Makes the last run longer by a pixel, unless a batch ends with it.
+    bool prolong();
+
+  private:
+    /// Returns the rest of the run.
+    FragmentRun add_what_has_room(FragmentRun run);
+
+    std::uint32_t room_ = k_batch_size;  // in the last batch
+};
+
+/// Pixels of a row, side by side, that do not see one triangle alone: `weight` of each sees the background.
+struct BackgroundRun {
+    std::uint32_t pixel;
+    std::uint32_t count;
+    float weight;
+};
+
+/// All fragments of a tile, one list an object, in the scene's order. Reused from tile to tile.
+class CANDELA_API TileFragments {
+  public:
+    /// Sorts what `visibility` holds.
+    void collect(const ProjectedScene& scene, const TileVisibility& visibility);
+
+    std::span<const FragmentList> lists() const { return {lists_.data(), used_}; }
+
+    /// The pixels whose intensity is not one fragment's alone.
+    std::span<const BackgroundRun> background() const { return background_; }
+
+    /// How many pixels see an object.
+    std::size_t pixels_seen() const { return pixels_seen_; }
+
+  private:
+    FragmentList& list_of(const ProjectedScene& scene, std::uint32_t triangle);
+    void collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility);
+    void collect_samples(const ProjectedScene& scene, const TileVisibility& visibility);
+
+    std::vector<FragmentList> lists_;
+    std::vector<BackgroundRun> background_;
+    std::size_t pixels_seen_ = 0;
+    std::size_t used_ = 0;
+    std::size_t last_ = 0;
+};
+
+/// The batches of k_batch_size fragments, or fewer in the last, that a list is made of.
+class FragmentBatches {
+  public:
+    explicit FragmentBatches(const FragmentList& list) : rest_(list.runs) {}
+
+    /// The runs of the next batch; empty at the end.
+    inline std::span<const FragmentRun> next() {
+        std::size_t runs = 0, fragments = 0;
+        for (; runs < rest_.size() && fragments < k_batch_size; ++runs) fragments += rest_[runs].count;
+        const std::span<const FragmentRun> batch = rest_.first(runs);
+        rest_ = rest_.subspan(runs);
+        return batch;
+    }
+
+  private:
+    std::span<const FragmentRun> rest_;
+};
+
+/// One mesh of a projected scene.
+struct ProjectedMesh {
+    const ProjectedScene& scene;
+    const Mesh& mesh;
+    std::uint32_t first_vertex;
+
+    /// Whether the triangle is seen from behind.
+    bool is_back(std::uint32_t triangle) const;
+};
+
+/// Fills `points` with the fragments of a batch: barycentric coordinates on the triangle itself (Blinn 1992,
+/// "Hyperbolic interpolation"), and what follows from them.
+CANDELA_API void gather_fragments(const ProjectedMesh& mesh, std::span<const FragmentRun> runs,
+                                  PointNeeds needs, SurfacePoints& points);
+
+/// Fills `points` with the centroids of triangles.
+CANDELA_API void gather_faces(const ProjectedMesh& mesh, std::span<const std::uint32_t> triangles,
+                              PointNeeds needs, SurfacePoints& points);
+
+/// A vertex, seen from the front or from behind.
+struct VertexSide {
+    std::uint32_t vertex;
+    bool is_back;
+};
+
+/// Fills `points` with vertices. A vertex has no face of its own: its face normal is its vertex normal.
+CANDELA_API void gather_vertices(const ProjectedMesh& mesh, std::span<const VertexSide> vertices,
+                                 PointNeeds needs, SurfacePoints& points);
+
+/// Fills `points` with points on triangles, their barycentric coordinates given; all are seen from the front.
+CANDELA_API void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles,
+                               ConstVec3Span barycentric, PointNeeds needs, SurfacePoints& points);
+
+}  // namespace candela
+
+namespace candela {
+
+/// A triangle's corners, as they are projected and as they are, and its normal.
+struct TriangleAttributes {
+    ProjectedVertex projected[3];
+    MeshVertex corner[3];
+    Vec3 face_normal;
+};
+
+/// What becomes of a fragment's place on its triangle.
+struct InterpolatedSpans {
+    Vec3Span barycentric, position, vertex_normal, face_normal;
+};
+
+/// Interpolates over `count` fragments of one triangle, at (x, y), and over what lies beyond them up to whole
+/// vectors.
+void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
+                 const InterpolatedSpans& points);
+
+/// A mesh and its vertices as they are projected.
+struct IndexedMesh {
+    const std::uint32_t* indices;
+    const ProjectedVertex* projected;
+    const MeshVertex* vertices;
+    ConstVec3Span face_normal;
+};
+
+/// Interpolates over `count` fragments of a triangle each, at (x, y), and over what lies beyond them up to
+/// whole vectors. The same numbers as interpolate().
+void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::uint32_t* triangle,
+                      const float* x, const float* y, const InterpolatedSpans& points);
+
+}  // namespace candela

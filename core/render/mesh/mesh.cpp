@@ -1,0 +1,317 @@
+module;
+
+#include "candela/multiversion.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+module candela.mesh;
+
+import candela.memory;
+import candela.parallel;
+import candela.shape;
+
+namespace candela {
+
+namespace {
+
+/// Metres. Squares of areas are floats, too.
+constexpr float k_farthest = 1e9f;
+
+/// Roughly what a mesh takes while it is made, checked and drawn.
+std::uint64_t memory_for(const MeshLayout& layout) {
+    const std::uint64_t vectors =
+        7u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) + (layout.has_derivatives ? 2u : 0u);
+    constexpr std::uint64_t k_vector = 3 * sizeof(float);
+    constexpr std::uint64_t k_triangle = 3 * sizeof(std::uint32_t) + k_vector + 40;  // projected
+    const std::uint64_t edges = layout.closedness == Closedness::closed ? 0 : 3 * 8;
+    return layout.vertices * vectors * k_vector + layout.triangles * (k_triangle + edges);
+}
+
+/// What a shape writes, before it is placed.
+class Collector final : public MeshSink {
+  public:
+    MeshSpans allocate(const MeshLayout& layout) override {
+        if (allocated_) throw std::logic_error("the shape asked for its arrays twice");
+        allocated_ = true;
+        constexpr std::size_t k_most = 0xffff'fff0u;
+        if (layout.vertices > k_most || layout.triangles > k_most / 3) {
+            throw std::invalid_argument(
+                fmt::format("{} triangles are more than can be numbered", layout.triangles));
+        }
+        require_memory(memory_for(layout), fmt::format("a shape of {} triangles", layout.triangles));
+        closedness = layout.closedness;
+        mesh.position.resize(layout.vertices);
+        mesh.indices.resize(3 * layout.triangles);
+        if (layout.has_normals) authored_normal.resize(layout.vertices);
+        if (layout.has_uv) {
+            mesh.u.resize(layout.vertices);
+            mesh.v.resize(layout.vertices);
+        }
+        if (layout.has_derivatives) {
+            mesh.dpdu.resize(layout.vertices);
+            mesh.dpdv.resize(layout.vertices);
+        }
+        if (layout.has_smooth_groups) smooth_group.resize(layout.vertices);
+        const auto optional = [](Vec3Arrays& arrays) { return arrays.empty() ? Vec3Span{} : arrays.span(); };
+        return {.position = mesh.position.span(),
+                .indices = mesh.indices,
+                .normal = optional(authored_normal),
+                .uv = mesh.u.empty() ? Vec2Span{} : Vec2Span{mesh.u.data(), mesh.v.data()},
+                .dpdu = optional(mesh.dpdu),
+                .dpdv = optional(mesh.dpdv),
+                .smooth_group = smooth_group};
+    }
+
+    Mesh mesh;
+    Vec3Arrays authored_normal;
+    AlignedVector<std::uint32_t> smooth_group;
+    Closedness closedness = Closedness::unknown;
+
+  private:
+    bool allocated_ = false;
+};
+
+/// As many numbers as stay in the cache.
+constexpr Eigen::Index k_stretch = 1024;
+using Stretch = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, k_stretch, 1>;
+using Rows = Eigen::Map<Eigen::ArrayXf>;
+
+/// Applies `linear` and then `offset` to every vector of the arrays.
+void transform(Vec3Arrays& arrays, const Eigen::Matrix3f& linear, const Eigen::Vector3f& offset) {
+    if (arrays.empty()) return;
+    const auto count = static_cast<Eigen::Index>(arrays.size());
+    for (Eigen::Index first = 0; first < count; first += k_stretch) {
+        const Eigen::Index some = std::min(k_stretch, count - first);
+        Rows x(arrays.x.data() + first, some), y(arrays.y.data() + first, some),
+            z(arrays.z.data() + first, some);
+        const Stretch a = linear(0, 0) * x + linear(0, 1) * y + linear(0, 2) * z + offset[0];
+        const Stretch b = linear(1, 0) * x + linear(1, 1) * y + linear(1, 2) * z + offset[1];
+        const Stretch c = linear(2, 0) * x + linear(2, 1) * y + linear(2, 2) * z + offset[2];
+        x = a;
+        y = b;
+        z = c;
+    }
+}
+
+void normalize(Vec3Arrays& arrays) {
+    const Vec3Span span = arrays.span();
+    for (std::size_t i = 0; i < arrays.size(); ++i) span.set(i, normalized(span[i]));
+}
+
+Eigen::Matrix3f linear_part(const Transform& transform) {
+    const auto turn = [](float degrees, const Eigen::Vector3f& axis) {
+        return Eigen::AngleAxisf(degrees * std::numbers::pi_v<float> / 180, axis);
+    };
+    const Eigen::Matrix3f rotation = (turn(transform.rotation.z, Eigen::Vector3f::UnitZ()) *
+                                      turn(transform.rotation.y, Eigen::Vector3f::UnitY()) *
+                                      turn(transform.rotation.x, Eigen::Vector3f::UnitX()))
+                                         .toRotationMatrix();
+    return rotation * Eigen::Vector3f(transform.scale.x, transform.scale.y, transform.scale.z).asDiagonal();
+}
+
+bool are_near(const AlignedVector<float>& coordinates) {
+    bool are = true;
+    for (const float x : coordinates) are &= std::abs(x) <= k_farthest;  // a NaN is not
+    return are;
+}
+
+void check_finite(const Mesh& mesh) {
+    if (are_near(mesh.position.x) && are_near(mesh.position.y) && are_near(mesh.position.z)) return;
+    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+        const Vec3 p = mesh.position.span()[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            throw std::invalid_argument(fmt::format("the position of vertex {} is not a finite number", i));
+        }
+        if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > k_farthest) {
+            throw std::invalid_argument(fmt::format(
+                "vertex {} at [{:g}, {:g}, {:g}] is farther away than {:g} m", i, p.x, p.y, p.z, k_farthest));
+        }
+    }
+}
+
+void check(const Collector& collected) {
+    const Mesh& mesh = collected.mesh;
+    if (mesh.indices.empty()) throw std::invalid_argument("the mesh has no triangles");
+    for (const std::uint32_t corner : mesh.indices) {
+        if (corner >= mesh.vertex_count()) {
+            throw std::invalid_argument(
+                fmt::format("a triangle's corner is vertex {}, but there are only {} vertices", corner,
+                            mesh.vertex_count()));
+        }
+    }
+    check_finite(mesh);
+    for (const std::uint32_t group : collected.smooth_group) {
+        if (group >= mesh.vertex_count()) {
+            throw std::invalid_argument(
+                fmt::format("smooth group {} is beyond the {} vertices", group, mesh.vertex_count()));
+        }
+    }
+}
+
+/// Triangles or vertices: enough to be worth a thread's while.
+constexpr std::size_t k_per_task = 16384;
+
+/// CA DD8, in double: the product of two short edges must not vanish.
+struct FaceNormalLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span position, const std::uint32_t* indices,
+                                       std::size_t count, Vec3Span normal) {
+        CANDELA_VECTORIZE
+// Wider than doubles ask for, as most of it is fetching floats.
+#pragma clang loop vectorize_width(16)
+        for (std::size_t t = 0; t < count; ++t) {
+            const Vec3 a = position[indices[3 * t]];
+            const Vec3 p = position[indices[3 * t + 1]] - a;
+            const Vec3 q = position[indices[3 * t + 2]] - a;
+            const double px = p.x, py = p.y, pz = p.z, qx = q.x, qy = q.y, qz = q.z;
+            const double x = py * qz - pz * qy, y = pz * qx - px * qz, z = px * qy - py * qx;
+            const double size = std::sqrt(x * x + y * y + z * z);
+            const double scale = size > 0 ? 1 / size : 0;
+            normal.x[t] = static_cast<float>(scale * x);
+            normal.y[t] = static_cast<float>(scale * y);
+            normal.z[t] = static_cast<float>(scale * z);
+        }
+    }
+};
+
+void make_face_normals(Mesh& mesh) {
+    mesh.face_normal.resize(mesh.triangle_count());
+    parallel_for(mesh.triangle_count(), k_per_task, [&](std::size_t begin, std::size_t end) {
+        const std::uint32_t* const indices = &mesh.indices[3 * begin];
+        multiversion<FaceNormalLoop>(std::as_const(mesh.position).span(), indices, end - begin,
+                                     mesh.face_normal.span().from(begin));
+    });
+}
+
+/// How many edges do not lie between two triangles that agree on what is outside. Vertices at one place count
+/// as one.
+std::size_t count_open_edges(const Mesh& mesh) {
+    const std::vector<std::uint32_t> place = welded(mesh.position.span(), mesh.vertex_count());
+    struct Edge {
+        std::uint32_t end;  // the higher place
+        std::int32_t direction;
+    };
+    const auto each_edge = [&](auto visit) {
+        for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) {
+            const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+            const std::uint32_t a = place[mesh.indices[corner]], b = place[mesh.indices[next]];
+            if (a != b) visit(std::min(a, b), Edge{std::max(a, b), a < b ? 1 : -1});
+        }
+    };
+    // By their lower place; `begin` moves to where the next one goes, and so to where its successor's begin.
+    std::vector<std::uint32_t> begin(mesh.vertex_count() + 1);
+    each_edge([&](std::uint32_t low, Edge) { ++begin[low + 1]; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<Edge> edges(begin.back());
+    each_edge([&](std::uint32_t low, Edge edge) { edges[begin[low]++] = edge; });
+    // Over a closed surface the directions of an edge add up to zero.
+    std::size_t open = 0, first = 0;
+    for (const std::size_t end : begin) {
+        std::ranges::sort(std::span(edges).subspan(first, end - first), {}, &Edge::end);
+        while (first < end) {
+            const std::uint32_t to = edges[first].end;
+            std::int64_t balance = 0;
+            for (; first < end && edges[first].end == to; ++first) balance += edges[first].direction;
+            if (balance != 0) ++open;
+        }
+    }
+    return open;
+}
+
+void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
+    Mesh& mesh = placed.mesh;
+    const std::size_t count = mesh.vertex_count();
+    const bool has_groups = !placed.smooth_group.empty();
+    AlignedVector<std::uint32_t> each_its_own;
+    if (!has_groups) {
+        each_its_own.resize(count);
+        std::iota(each_its_own.begin(), each_its_own.end(), 0u);
+    }
+    Vec3Arrays normal;
+    constexpr std::size_t k_guard = 16;
+    constexpr float k_mark = -1.2345e30f;
+    normal.resize(count + k_guard);
+    for (std::size_t i = count; i < count + k_guard; ++i) normal.span().set(i, {k_mark, k_mark, k_mark});
+    const MeshView view{.position = std::as_const(mesh.position).span(),
+                        .indices = mesh.indices,
+                        .face_normal = std::as_const(mesh.face_normal).span(),
+                        .smooth_group = has_groups ? placed.smooth_group : each_its_own,
+                        .vertex_count = count,
+                        .group_count = count,
+                        .authored_normal = placed.authored_normal.empty()
+                                               ? ConstVec3Span{}
+                                               : std::as_const(placed.authored_normal).span()};
+    shading.vertex_normals(view, normal.span());
+    for (std::size_t i = count; i < count + k_guard; ++i) {
+        if (normal.span()[i] != Vec3{k_mark, k_mark, k_mark})
+            throw std::invalid_argument("it writes more vertex normals than there are vertices");
+    }
+    mesh.vertices.resize(count);
+    const auto is_finite = [](Vec3 n) { return std::isfinite(n.x + n.y + n.z); };
+    std::atomic<bool> are_finite{true};
+    parallel_for(count, k_per_task, [&](std::size_t begin, std::size_t end) {
+        bool are = true;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vec3 n = std::as_const(normal).span()[has_groups ? placed.smooth_group[i] : i];
+            mesh.vertices[i] = {.position = std::as_const(mesh.position).span()[i], .normal = n};
+            are &= is_finite(n);
+        }
+        if (!are) are_finite = false;
+    });
+    if (are_finite) return;
+    // The first, whichever thread came upon which.
+    const auto first = std::ranges::find_if_not(mesh.vertices, is_finite, &MeshVertex::normal);
+    throw std::invalid_argument(
+        fmt::format("the normal that it gives vertex {} is no finite number", first - mesh.vertices.begin()));
+}
+
+}  // namespace
+
+PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& to_world) {
+    Collector collected;
+    shape.tessellate(request, collected);
+    check(collected);
+
+    Mesh mesh = std::move(collected.mesh);
+    const Eigen::Matrix3f linear = linear_part(to_world);
+    transform(mesh.position, linear, {to_world.position.x, to_world.position.y, to_world.position.z});
+    transform(mesh.dpdu, linear, Eigen::Vector3f::Zero());
+    transform(mesh.dpdv, linear, Eigen::Vector3f::Zero());
+    check_finite(mesh);
+    if (!collected.authored_normal.empty()) {
+        transform(collected.authored_normal, linear.inverse().transpose(), Eigen::Vector3f::Zero());
+        normalize(collected.authored_normal);
+    }
+    if (collected.closedness == Closedness::closed) {
+        mesh.closed = true;
+    } else {
+        mesh.open_edges = count_open_edges(mesh);
+        mesh.closed = mesh.open_edges == 0;
+    }
+    return {std::move(mesh), std::move(collected.authored_normal), std::move(collected.smooth_group)};
+}
+
+Mesh with_normals(PlacedShape placed, const ShadingModel& shading) {
+    make_face_normals(placed.mesh);
+    make_vertex_normals(placed, shading);
+    return std::move(placed.mesh);
+}
+
+Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Transform& transform,
+                const ShadingModel& shading) {
+    return with_normals(place(shape, request, transform), shading);
+}
+
+}  // namespace candela

@@ -1,0 +1,72 @@
+// The triangles of one object: what a shape plugin gave, placed in the world.
+module;
+
+#include "candela/api.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+export module candela.mesh;
+
+export import candela.arrays;
+import candela.math;
+import candela.shading;
+import candela.shape;
+import candela.transform;
+
+export namespace candela {
+
+/// What is read of a vertex wherever a triangle is seen, side by side: one line of the cache instead of six.
+struct alignas(32) MeshVertex {
+    Vec3 position;
+    float padding = 0;  // four floats are fetched at once
+    Vec3 normal;        // unit
+    float more_padding = 0;
+};
+
+/// Triangles in world space. Vertices are shared; corners of a triangle run counter-clockwise seen from
+/// outside.
+struct Mesh {
+    Vec3Arrays position;  // for loops over all vertices
+    AlignedVector<std::uint32_t> indices;
+    Vec3Arrays face_normal;  // a triangle each, unit; zero where it has no area
+    AlignedVector<MeshVertex> vertices;
+    AlignedVector<float> u, v;  // a vertex each, or empty
+    Vec3Arrays dpdu, dpdv;      // a vertex each, or empty
+    bool closed = false;        // else it is seen from both sides
+    std::size_t open_edges = 0;
+
+    inline std::size_t vertex_count() const { return position.size(); }
+    inline std::size_t triangle_count() const { return indices.size() / 3; }
+    inline Vec3Arrays vertex_normals() const {
+        Vec3Arrays normals;
+        normals.resize(vertices.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i) normals.span().set(i, vertices[i].normal);
+        return normals;
+    }
+};
+
+/// A mesh before it has normals, and what a shading model makes them from.
+struct PlacedShape {
+    Mesh mesh;
+    Vec3Arrays authored_normal;                 // a vertex each, unit, or empty
+    AlignedVector<std::uint32_t> smooth_group;  // a vertex each, or empty: each vertex is its own
+};
+
+/// Tessellates `shape` and places it in the world.
+/// Throws std::exception: what the shape throws; std::invalid_argument for a mesh without triangles, with a
+/// corner that is no vertex, or with a position that is no finite number.
+CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& transform);
+
+/// Gives a mesh its face normals, and the vertex normals of `shading`, with the threads that with_threads()
+/// allows. Throws what the shading model throws.
+CANDELA_API Mesh with_normals(PlacedShape placed, const ShadingModel& shading);
+
+/// Both in one.
+CANDELA_API Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Transform& transform,
+                            const ShadingModel& shading);
+
+}  // namespace candela

@@ -1,0 +1,117 @@
+// Rasterisation of triangles of a pixel or so, many at once: meshes finer than the picture consist of them.
+module;
+
+#include "candela/multiversion.h"
+
+#include <cstddef>
+#include <cstdint>
+
+module candela.raster;
+
+namespace candela {
+
+namespace {
+
+[[gnu::always_inline]] inline std::int32_t least(std::int32_t a, std::int32_t b, std::int32_t c) {
+    const std::int32_t ab = a < b ? a : b;
+    return ab < c ? ab : c;
+}
+[[gnu::always_inline]] inline std::int32_t most(std::int32_t a, std::int32_t b, std::int32_t c) {
+    const std::int32_t ab = a > b ? a : b;
+    return ab > c ? ab : c;
+}
+
+/// An edge from one corner to the next, as an edge function: >= 0 inside.
+struct Edge {
+    std::int32_t at_first, to_right, down;
+
+    /// All relative to the first sample; `one`: a pixel.
+    [[gnu::always_inline]] Edge(std::int32_t x, std::int32_t y, std::int32_t next_x, std::int32_t next_y,
+                                std::int32_t one) {
+        const std::int32_t dx = next_x - x, dy = next_y - y;
+        const bool owns_its_samples = (dy < 0) | ((dy == 0) & (dx > 0));  // a left or a top edge
+        at_first = dy * x - dx * y - (owns_its_samples ? 0 : 1);
+        to_right = -dy * one;
+        down = dx * one;
+    }
+};
+
+/// Four samples of a row, as bits.
+[[gnu::always_inline]] inline std::int32_t covered_of_row(const Edge& a, const Edge& b, const Edge& c,
+                                                          std::int32_t row) {
+    const std::int32_t ea = a.at_first + row * a.down, eb = b.at_first + row * b.down,
+                       ec = c.at_first + row * c.down;
+    const std::int32_t o0 = ea | eb | ec;
+    const std::int32_t o1 = (ea + a.to_right) | (eb + b.to_right) | (ec + c.to_right);
+    const std::int32_t o2 = (ea + 2 * a.to_right) | (eb + 2 * b.to_right) | (ec + 2 * c.to_right);
+    const std::int32_t o3 = (ea + 3 * a.to_right) | (eb + 3 * b.to_right) | (ec + 3 * c.to_right);
+    return ((o0 >= 0 ? 1 : 0) | (o1 >= 0 ? 2 : 0) | (o2 >= 0 ? 4 : 0) | (o3 >= 0 ? 8 : 0)) << (4 * row);
+}
+
+struct SmallLoop {
+    CANDELA_BATCH_LOOP static void run(const RasterTriangle* all, const std::uint32_t* numbers,
+                                       std::size_t count, int bits, SmallTriangles* out) {
+        for (std::size_t first = 0; first < count; first += k_lanes)
+            run_some(all, numbers, first, count, bits, out);
+    }
+
+  private:
+    /// Sixteen from `first` on; where there are fewer, the last again and again.
+    [[gnu::always_inline]] static void run_some(const RasterTriangle* all, const std::uint32_t* numbers,
+                                                std::size_t first, std::size_t count, int bits,
+                                                SmallTriangles* out) {
+        const auto triangle = [&](std::size_t lane) -> const RasterTriangle& {
+            return all[numbers[first + lane < count ? first + lane : count - 1]];
+        };
+        Columns begin, middle, end;  // of a triangle: overlapping
+        begin.gather([&](std::size_t i) { return &triangle(i).x[0]; });
+        middle.gather([&](std::size_t i) { return &triangle(i).y[1]; });
+        end.gather([&](std::size_t i) { return &triangle(i).depth[0]; });
+        const std::int32_t one = 1 << bits, half = one / 2;
+        CANDELA_VECTORIZE_SIXTEEN
+        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+            const std::size_t i = first + lane;
+            const std::int32_t ax = begin.integer(0, lane), bx = begin.integer(1, lane),
+                               cx = begin.integer(2, lane);
+            const std::int32_t ay = begin.integer(3, lane), by = middle.integer(0, lane),
+                               cy = middle.integer(1, lane);
+            const std::int32_t x0 = (least(ax, bx, cx) + half - 1) >> bits;
+            const std::int32_t y0 = (least(ay, by, cy) + half - 1) >> bits;
+            const std::int32_t x1 = (most(ax, bx, cx) - half) >> bits;
+            const std::int32_t y1 = (most(ay, by, cy) - half) >> bits;
+            const bool is_small = (x1 - x0 <= 3) & (y1 - y0 <= 3);
+
+            // Relative to the first sample; of a large triangle nothing, so that nothing overflows.
+            const std::int32_t sx = x0 * one + half, sy = y0 * one + half;
+            const std::int32_t ux = is_small ? ax - sx : 0, uy = is_small ? ay - sy : 0;
+            const std::int32_t vx = is_small ? bx - sx : 0, vy = is_small ? by - sy : 0;
+            const std::int32_t wx = is_small ? cx - sx : 0, wy = is_small ? cy - sy : 0;
+            const Edge a(ux, uy, vx, vy, one), b(vx, vy, wx, wy, one), c(wx, wy, ux, uy, one);
+            out->is_small[i] = is_small ? 1 : 0;
+            out->x[i] = x0;
+            out->y[i] = y0;
+            out->covered[i] = covered_of_row(a, b, c, 0) | covered_of_row(a, b, c, 1) |
+                              covered_of_row(a, b, c, 2) | covered_of_row(a, b, c, 3);
+
+            const float z = end.real[0][lane], zv = end.real[1][lane] - z, zw = end.real[2][lane] - z;
+            const auto dvx = static_cast<float>(vx - ux), dvy = static_cast<float>(vy - uy);
+            const auto dwx = static_cast<float>(wx - ux), dwy = static_cast<float>(wy - uy);
+            const float area = dvx * dwy - dwx * dvy;
+            const float inverse = 1 / (area > 0 ? area : 1.0f);
+            const float zx = (zv * dwy - zw * dvy) * inverse, zy = (zw * dvx - zv * dwx) * inverse;
+            out->depth[i] = z - zx * static_cast<float>(ux) - zy * static_cast<float>(uy);
+            out->to_right[i] = zx * static_cast<float>(one);
+            out->down[i] = zy * static_cast<float>(one);
+        }
+    }
+};
+
+}  // namespace
+
+void SmallTriangles::set_up(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count,
+                            int subpixel_bits) {
+    SmallTriangles* const out = this;
+    multiversion<SmallLoop>(all, numbers, count, subpixel_bits, out);
+}
+
+}  // namespace candela

@@ -1,0 +1,247 @@
+// Rasterisation of one tile: edge functions (Pineda 1988) in fixed point, and a depth test.
+module;
+
+#include "candela/multiversion.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+module candela.raster;
+
+namespace candela {
+
+namespace {
+
+constexpr int k_block = 16;  // pixels of a row that are tested at once
+
+/// One sample of each pixel of a tile, row by row.
+struct SamplePlane {
+    int stride;
+    float* depth;
+    std::uint32_t* triangle;
+};
+
+/// A triangle relative to the tile's first sample; pixels as steps.
+struct TileTriangle {
+    std::int32_t e[3];       // edge functions, >= 0 inside
+    std::int32_t ex[3];      // their steps to the right
+    std::int32_t ey[3];      // and down
+    float z, zx, zy;         // depth at the anchor, and its steps
+    int anchor_x, anchor_y;  // a pixel at the triangle, whatever the tile: rounding must not depend on tiles
+    std::uint32_t id;
+    int x0, x1, y0, y1;  // pixels that its box covers; x0 and x1 multiples of k_block
+};
+
+struct TriangleLoop {
+    CANDELA_BATCH_LOOP static void run(TileTriangle t, SamplePlane plane) {
+        for (int y = t.y0; y < t.y1; ++y) {
+            const std::int32_t row0 = t.e[0] + y * t.ey[0];
+            const std::int32_t row1 = t.e[1] + y * t.ey[1];
+            const std::int32_t row2 = t.e[2] + y * t.ey[2];
+            const float row_z = t.z + static_cast<float>(y - t.anchor_y) * t.zy;
+            const std::ptrdiff_t row = std::ptrdiff_t{y} * plane.stride;
+            float* const depth = plane.depth + row;
+            std::uint32_t* const triangle = plane.triangle + row;
+            for (int block = t.x0; block < t.x1; block += k_block) {
+                CANDELA_VECTORIZE_SIXTEEN
+                for (int x = block; x < block + k_block; ++x) {
+                    const std::int32_t outside =
+                        (row0 + x * t.ex[0]) | (row1 + x * t.ex[1]) | (row2 + x * t.ex[2]);
+                    const float z = row_z + static_cast<float>(x - t.anchor_x) * t.zx;
+                    const float old_z = depth[x];
+                    const std::uint32_t old_id = triangle[x];
+                    const bool wins = outside >= 0 && z > old_z;
+                    depth[x] = wins ? z : old_z;
+                    triangle[x] = wins ? t.id : old_id;
+                }
+            }
+        }
+    }
+};
+
+/// A tile's first sample in fixed point, and how far apart its pixels are.
+struct SampleGrid {
+    std::int64_t x, y;
+    int bits;
+    int width, height;
+};
+
+/// Sets up `t` for one sample of each pixel of the tile; false where the triangle misses them all.
+bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& result) {
+    const int bits = grid.bits;
+    const auto last_x = static_cast<std::int64_t>(grid.width - 1);
+    const auto last_y = static_cast<std::int64_t>(grid.height - 1);
+    // Pixels whose sample lies within the triangle's box.
+    const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
+    const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
+    const std::int64_t up = (std::int64_t{1} << bits) - 1;
+    const std::int64_t x0 = std::max<std::int64_t>((left - grid.x + up) >> bits, 0);
+    const std::int64_t x1 = std::min<std::int64_t>((right - grid.x) >> bits, last_x);
+    const std::int64_t y0 = std::max<std::int64_t>((top - grid.y + up) >> bits, 0);
+    const std::int64_t y1 = std::min<std::int64_t>((bottom - grid.y) >> bits, last_y);
+    if (x0 > x1 || y0 > y1) return false;
+    // What is tested are whole blocks.
+    const std::int64_t block0 = x0 / k_block * k_block;
+    const std::int64_t block1 = (x1 / k_block + 1) * k_block - 1;
+
+    for (int k = 0; k < 3; ++k) {
+        const int next = k == 2 ? 0 : k + 1;
+        const std::int64_t dx = t.x[next] - t.x[k];
+        const std::int64_t dy = t.y[next] - t.y[k];
+        const bool owns_its_samples = dy < 0 || (dy == 0 && dx > 0);  // a left or a top edge
+        const std::int64_t at_first =
+            dx * (grid.y - t.y[k]) - dy * (grid.x - t.x[k]) - (owns_its_samples ? 0 : 1);
+        // In steps of whole pixels: e + steps * 2^bits >= 0 is floor(e / 2^bits) + steps >= 0.
+        const std::int64_t e = at_first >> bits;
+        const std::int64_t to_right = -dy;
+        const std::int64_t down = dx;
+        const std::int64_t smallest =
+            e + std::min(to_right * block0, to_right * block1) + std::min(down * y0, down * y1);
+        const std::int64_t largest =
+            e + std::max(to_right * x0, to_right * x1) + std::max(down * y0, down * y1);
+        if (largest < 0) return false;
+        const bool crosses = smallest < 0;
+        result.e[k] = crosses ? static_cast<std::int32_t>(e) : 0;
+        result.ex[k] = crosses ? static_cast<std::int32_t>(to_right) : 0;
+        result.ey[k] = crosses ? static_cast<std::int32_t>(down) : 0;
+    }
+
+    const double x10 = t.x[1] - t.x[0], y10 = t.y[1] - t.y[0];
+    const double x20 = t.x[2] - t.x[0], y20 = t.y[2] - t.y[0];
+    const double z10 = static_cast<double>(t.depth[1]) - static_cast<double>(t.depth[0]);
+    const double z20 = static_cast<double>(t.depth[2]) - static_cast<double>(t.depth[0]);
+    const double area = x10 * y20 - x20 * y10;
+    const double zx = (z10 * y20 - z20 * y10) / area;
+    const double zy = (z20 * x10 - z10 * x20) / area;
+    const auto one = static_cast<double>(std::int64_t{1} << bits);
+    // The sample next to the first corner.
+    result.anchor_x = static_cast<int>((t.x[0] - grid.x) >> bits);
+    result.anchor_y = static_cast<int>((t.y[0] - grid.y) >> bits);
+    const std::int64_t to_anchor_x = grid.x + (std::int64_t{result.anchor_x} << bits) - t.x[0];
+    const std::int64_t to_anchor_y = grid.y + (std::int64_t{result.anchor_y} << bits) - t.y[0];
+    result.z =
+        static_cast<float>(static_cast<double>(t.depth[0]) + zx * static_cast<double>(to_anchor_x) +
+                           zy * static_cast<double>(to_anchor_y));
+    result.zx = static_cast<float>(zx * one);
+    result.zy = static_cast<float>(zy * one);
+    result.id = t.id;
+    result.x0 = static_cast<int>(block0);
+    result.x1 = static_cast<int>(block1 + 1);
+    result.y0 = static_cast<int>(y0);
+    result.y1 = static_cast<int>(y1) + 1;
+    return true;
+}
+
+void clear(TileVisibility& visibility) {
+    const std::size_t size = visibility.plane() * static_cast<std::size_t>(visibility.samples);
+    visibility.triangle.assign(size, k_no_triangle);
+    visibility.depth.assign(size, -std::numeric_limits<float>::infinity());
+}
+
+/// Sees one tile's triangles.
+class TileRaster {
+  public:
+    TileRaster(const ProjectedScene& scene, TileVisibility& visibility)
+        : scene_(scene), visibility_(visibility), pattern_(sample_pattern(scene.samples)) {}
+
+    void see(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count) {
+        if (scene_.samples > 1) {
+            for (std::size_t i = 0; i < count; ++i) see_large(all[numbers[i]]);
+            return;
+        }
+        for (std::size_t first = 0; first < count; first += SmallTriangles::k_size)
+            see_some(all, numbers + first, std::min(SmallTriangles::k_size, count - first));
+    }
+
+  private:
+    /// In their order, as of equally near ones the first is seen.
+    void see_some(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count) {
+        small_.set_up(all, numbers, count, scene_.subpixel_bits);
+        for (std::size_t i = 0; i < count; ++i) {
+            const RasterTriangle& triangle = all[numbers[i]];
+            if (small_.is_small[i] != 0) {
+                see_small(i, triangle.id);
+            } else {
+                see_large(triangle);
+            }
+        }
+    }
+
+    void see_small(std::size_t i, std::uint32_t id) {
+        const int x0 = small_.x[i] - visibility_.x0, y0 = small_.y[i] - visibility_.y0;
+        for (auto covered = static_cast<unsigned>(small_.covered[i]); covered != 0; covered &= covered - 1) {
+            const int bit = std::countr_zero(covered);
+            const int column = bit % 4, row = bit / 4;
+            const int x = x0 + column, y = y0 + row;
+            if (x < 0 || x >= visibility_.width || y < 0 || y >= visibility_.height) continue;
+            const std::size_t pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(visibility_.stride) +
+                static_cast<std::size_t>(x);
+            const float depth = small_.depth[i] + static_cast<float>(column) * small_.to_right[i] +
+                                    static_cast<float>(row) * small_.down[i];
+            if (!(depth > visibility_.depth[pixel])) continue;
+            visibility_.depth[pixel] = depth;
+            visibility_.triangle[pixel] = id;
+        }
+    }
+
+    void see_large(const RasterTriangle& triangle) {
+        const std::int64_t sixteenth = std::int64_t{1} << (scene_.subpixel_bits - 4);
+        for (std::size_t s = 0; s < pattern_.size(); ++s) {
+            const auto [sx, sy] = pattern_[s];
+            const SampleGrid grid{
+                .x = (std::int64_t{visibility_.x0} << scene_.subpixel_bits) + sx * sixteenth,
+                .y = (std::int64_t{visibility_.y0} << scene_.subpixel_bits) + sy * sixteenth,
+                .bits = scene_.subpixel_bits,
+                .width = visibility_.width,
+                .height = visibility_.height};
+            TileTriangle set;
+            if (!set_up(triangle, grid, set)) continue;
+            const std::size_t plane = s * visibility_.plane();
+            multiversion<TriangleLoop>(set,
+                                       SamplePlane{visibility_.stride, visibility_.depth.data() + plane,
+                                                   visibility_.triangle.data() + plane});
+        }
+    }
+
+    const ProjectedScene& scene_;
+    TileVisibility& visibility_;
+    std::span<const SamplePosition> pattern_;
+    SmallTriangles small_;
+};
+
+}  // namespace
+
+bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility) {
+    const int column = tile % scene.tile_columns;
+    const int row = tile / scene.tile_columns;
+    visibility.x0 = column * scene.tile_size;
+    visibility.y0 = row * scene.tile_size;
+    visibility.width = std::min(scene.tile_size, scene.camera.width - visibility.x0);
+    visibility.height = std::min(scene.tile_size, scene.camera.height - visibility.y0);
+    visibility.stride = scene.tile_size;
+    visibility.samples = scene.samples;
+
+    TileRaster raster(scene, visibility);
+    bool is_cleared = false;
+    for (const TriangleBin& bin : scene.bins) {
+        const int bin_column = column - bin.first_column;
+        const int bin_row = row - bin.first_row;
+        if (bin_column < 0 || bin_column >= bin.columns || bin_row < 0 || bin_row >= bin.rows) continue;
+        const std::size_t list = static_cast<std::size_t>(bin_row) * static_cast<std::size_t>(bin.columns) +
+                                 static_cast<std::size_t>(bin_column);
+        const std::size_t first = bin.start[list], end = bin.start[list + 1];
+        if (first == end) continue;
+        if (!is_cleared) clear(visibility);
+        is_cleared = true;
+        raster.see(bin.triangles.data(), bin.entries.data() + first, end - first);
+    }
+    return is_cleared;
+}
+
+}  // namespace candela

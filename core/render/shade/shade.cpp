@@ -1,0 +1,286 @@
+module;
+
+#include "candela/kernel.h"
+#include "candela/multiversion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+module candela.shade;
+
+import candela.diagnostics;
+import candela.library;
+import candela.registry;
+import candela.transform;
+
+namespace candela {
+
+namespace {
+
+using kernel::vec3;
+
+/// V: towards the eye, or against the view in an orthographic picture.
+struct ToObserverLoop {
+    CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count,
+                                       Vec3Span to_observer) {
+        const bool perspective = camera.projection == Projection::perspective;
+        const Vec3 against = -camera.forward;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 d = perspective ? camera.eye - position[i] : against;
+            const vec3 v = kernel::normalize(vec3(d.x, d.y, d.z));
+            to_observer.x[i] = v.x;
+            to_observer.y[i] = v.y;
+            to_observer.z[i] = v.z;
+        }
+    }
+};
+
+struct FlipLoop {
+    CANDELA_BATCH_LOOP static void run(const float* facing, std::size_t count, Vec3Span v) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            v.x[i] *= facing[i];
+            v.y[i] *= facing[i];
+            v.z[i] *= facing[i];
+        }
+    }
+};
+
+/// dp/du without its part along N (Gram-Schmidt).
+struct TangentLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span dpdu, ConstVec3Span normal, std::size_t count,
+                                       Vec3Span tangent) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const vec3 n(normal.x[i], normal.y[i], normal.z[i]);
+            const vec3 u(dpdu.x[i], dpdu.y[i], dpdu.z[i]);
+            const vec3 t = kernel::normalize(u - n * kernel::dot(n, u));
+            tangent.x[i] = t.x;
+            tangent.y[i] = t.y;
+            tangent.z[i] = t.z;
+        }
+    }
+};
+
+struct SumLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span d, ConstVec3Span s, std::size_t count,
+                                       Vec3Span sum) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            sum.x[i] = a.x[i] + d.x[i] + s.x[i];
+            sum.y[i] = a.y[i] + d.y[i] + s.y[i];
+            sum.z[i] = a.z[i] + d.z[i] + s.z[i];
+        }
+    }
+};
+
+/// The largest magnitude among many numbers; what is no finite number counts as larger than all that are.
+/// Without their sign, the bits of floats are integers in the same order, and integers have a maximum that is
+/// vectorised.
+struct LargestLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span v, std::size_t count, std::int32_t* bits) {
+        constexpr std::int32_t k_magnitude = 0x7fff'ffff;
+        std::int32_t largest = *bits;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int32_t x = std::bit_cast<std::int32_t>(v.x[i]) & k_magnitude;
+            const std::int32_t y = std::bit_cast<std::int32_t>(v.y[i]) & k_magnitude;
+            const std::int32_t z = std::bit_cast<std::int32_t>(v.z[i]) & k_magnitude;
+            const std::int32_t xy = x > y ? x : y;
+            const std::int32_t xyz = xy > z ? xy : z;
+            largest = largest > xyz ? largest : xyz;
+        }
+        *bits = largest;
+    }
+};
+
+float largest_of(ConstVec3Span v, std::size_t count) {
+    std::int32_t bits = 0;
+    std::int32_t* const result = &bits;
+    multiversion<LargestLoop>(v, count, result);
+    return std::bit_cast<float>(bits);
+}
+
+/// After the batch arrays' last element, a stretch that nobody may write to.
+constexpr std::size_t k_guard = 16;
+constexpr float k_mark = -1.2345e30f;
+
+void clear(const Vec3Span& span, std::size_t count) {
+    for (float* const channel : {span.x, span.y, span.z}) std::fill_n(channel, count, 0.0f);
+}
+
+/// How many points of a batch are lit: whole vectors, unless rays are followed from each of them.
+std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
+    return surface.reflection->shows_surroundings() ? points.count : points.filled;
+}
+
+/// What a plugin throws, as an error that names it.
+template <class Call>
+void guarded(PluginKind kind, const std::string& plugin, Call call) {
+    try {
+        call();
+    } catch (...) {
+        rethrow_as_plugin_error(kind, plugin);
+    }
+}
+
+}  // namespace
+
+PointNeeds SurfaceModels::needs() const {
+    const ShadingNeeds needs = shading->needs();
+    return {.uv = needs.uv, .derivatives = needs.derivatives || reflection->needs_tangent()};
+}
+
+void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {
+    const ShadingNeeds needs = surface.shading->needs();
+    const ShadingPointBatch batch{
+        .count = points.filled,
+        .face_normal = points.face_normal.span(),
+        .vertex_normal = points.vertex_normal.span(),
+        .barycentric = points.barycentric.span(),
+        .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
+        .dpdu = needs.derivatives ? points.dpdu.span() : ConstVec3Span{},
+        .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{}};
+    surface.shading->normals(batch, normal);
+}
+
+Lighting::Lighting() {
+    for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
+    for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard);
+    mark_ends();
+}
+
+Lighting::~Lighting() = default;
+
+void Lighting::begin(const LitScene& scene) {
+    scene_ = scene;
+    surroundings_.reset();
+}
+
+std::array<Vec3Arrays*, 7> Lighting::written_by_plugins() {
+    return {&normal_, &to_light_, &light_diffuse_, &light_specular_, &ambient_, &diffuse_, &specular_};
+}
+
+void Lighting::mark_ends() {
+    for (Vec3Arrays* const arrays : written_by_plugins()) {
+        for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
+            std::fill(array->begin() + k_batch_size, array->end(), k_mark);
+    }
+}
+
+bool Lighting::are_ends_intact() {
+    // All of them, without a way out in between: that is a vector loop.
+    std::uint32_t differing = 0;
+    for (const Vec3Arrays* const arrays : written_by_plugins()) {
+        for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) {
+            const float* const end = array->data() + k_batch_size;
+            for (std::size_t i = 0; i < k_guard; ++i)
+                differing |= std::bit_cast<std::uint32_t>(end[i]) ^ std::bit_cast<std::uint32_t>(k_mark);
+        }
+    }
+    return differing == 0;
+}
+
+void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
+                             std::initializer_list<const Vec3Arrays*> results) {
+    const auto fail = [&](const char* what) {
+        throw Error(ExitCode::failure, fmt::format("plugin {}/{} {}; candela plugin test tells more",
+                                                   name_of(kind), plugin, what));
+    };
+    if (!are_ends_intact()) {
+        mark_ends();
+        fail("writes beyond the batch that it is given");
+    }
+    for (const Vec3Arrays* arrays : results) {
+        if (!std::isfinite(largest_of(arrays->span(), count)))
+            fail("gives a result that is no finite number");
+    }
+}
+
+void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
+    guarded(PluginKind::shading, surface.shading_plugin,
+            [&] { shading_normals(surface, points, normal_.span()); });
+    if (points.any_from_behind) multiversion<FlipLoop>(points.facing.data(), points.filled, normal_.span());
+}
+
+float Lighting::light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+                      const Vec3Span& intensity) {
+    add_up(surface, interior, points, Scrutiny::none);
+    const std::size_t count = lit_of(surface, points);
+    multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
+                          std::as_const(specular_).span(), count, intensity);
+    const float largest = largest_of(ConstVec3Span(intensity), count);
+    if (!std::isfinite(largest) || !are_ends_intact()) add_up(surface, interior, points, Scrutiny::each_step);
+    return largest;
+}
+
+void Lighting::add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+                      Scrutiny scrutiny) {
+    const std::size_t count = lit_of(surface, points);
+    const auto look_at = [&](PluginKind kind, const std::string& plugin,
+                             std::initializer_list<const Vec3Arrays*> results) {
+        if (scrutiny == Scrutiny::each_step) require_sound(kind, plugin, count, results);
+    };
+    if (scrutiny == Scrutiny::each_step) mark_ends();
+    find_normals(surface, points);
+    look_at(PluginKind::shading, surface.shading_plugin, {&normal_});
+    const ConstVec3Span normal = std::as_const(normal_).span();
+    multiversion<ToObserverLoop>(scene_.camera, points.position.span(), count, to_observer_.span());
+    const bool needs_tangent = surface.reflection->needs_tangent();
+    if (needs_tangent) multiversion<TangentLoop>(points.dpdu.span(), normal, count, tangent_.span());
+
+    const ReceiverBatch receivers{.count = count, .position = points.position.span(), .normal = normal};
+    const SurfaceBatch batch{.count = count,
+                             .normal = normal,
+                             .to_observer = to_observer_.span(),
+                             .tangent = needs_tangent ? ConstVec3Span(tangent_.span()) : ConstVec3Span{},
+                             .color = surface.color,
+                             .position = points.position.span()};
+    const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
+    for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
+
+    for (const LitSource& source : scene_.lights) {
+        for (int sample = 0; sample < source.light->sample_count(); ++sample) {
+            guarded(PluginKind::light, source.plugin, [&] {
+                source.light->illuminate(sample, receivers,
+                                         {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
+            });
+            look_at(PluginKind::light, source.plugin, {&to_light_, &light_diffuse_, &light_specular_});
+            guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
+                surface.reflection->reflect(
+                    batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
+            });
+            look_at(PluginKind::reflection, surface.reflection_plugin, {&diffuse_, &specular_});
+        }
+        if (source.light->has_ambient()) {
+            guarded(PluginKind::light, source.plugin,
+                    [&] { source.light->illuminate_ambient(receivers, light_diffuse_.span()); });
+            look_at(PluginKind::light, source.plugin, {&light_diffuse_});
+            guarded(PluginKind::reflection, surface.reflection_plugin,
+                    [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
+            look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
+        }
+    }
+    if (surface.reflection->shows_surroundings()) {
+        if (surroundings_ == nullptr)
+            surroundings_ = std::make_unique<ObjectSurroundings>(*scene_.environment);
+        surroundings_->set_object(surface, interior);
+        guarded(PluginKind::reflection, surface.reflection_plugin,
+                [&] { surface.reflection->show_surroundings(batch, *surroundings_, reflected); });
+        look_at(PluginKind::reflection, surface.reflection_plugin, {&specular_});
+    }
+}
+
+}  // namespace candela

@@ -1,0 +1,59 @@
+// What an object's models see of the world around it.
+module;
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+module candela.shade;
+
+namespace candela {
+
+void ObjectSurroundings::look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const Rgb seen = environment_.seen(towards[i]);
+        intensity.set(i, {seen.r, seen.g, seen.b});
+    }
+}
+
+void ObjectSurroundings::leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                               const ExitBatch& exit) {
+    barycentric_.resize(k_batch_size);
+    normal_.resize(k_batch_size);
+    for (std::size_t first = 0; first < count; first += k_batch_size) {
+        leave_batch(std::min(k_batch_size, count - first), origin.from(first), direction.from(first),
+                    {exit.position.from(first), exit.normal.from(first), exit.distance + first});
+    }
+}
+
+void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& origin,
+                                     const ConstVec3Span& direction, const ExitBatch& exit) {
+    triangles_.clear();
+    rays_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto found =
+            interior_.tree != nullptr ? interior_.tree->exit_of(origin[i], direction[i]) : std::nullopt;
+        exit.distance[i] = found ? found->distance : -1;
+        if (!found) {
+            exit.position.set(i, origin[i]);
+            exit.normal.set(i, direction[i]);
+            continue;
+        }
+        barycentric_.span().set(triangles_.size(), found->barycentric);
+        triangles_.push_back(found->triangle);
+        rays_.push_back(static_cast<std::uint32_t>(i));
+    }
+    if (triangles_.empty()) return;
+    gather_places(*interior_.mesh, triangles_, std::as_const(barycentric_).span(), surface_->needs(),
+                  points_);
+    shading_normals(*surface_, points_, normal_.span());
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        exit.position.set(rays_[i], points_.position.span()[i]);
+        exit.normal.set(rays_[i], normal_.span()[i]);
+    }
+}
+
+}  // namespace candela

@@ -1,0 +1,273 @@
+// Several files, what they include, and the settings of the command line, as one document.
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.scene;
+
+import candela.diagnostics;
+import candela.toml;
+import candela.validation;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string place_text(const SourcePlace& place) {
+    return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+// Far beyond what people write; a program that writes scenes may go wrong.
+constexpr int k_deepest_include = 32;
+constexpr std::size_t k_most_files = 1000;
+constexpr std::size_t k_most_lights_or_objects = 100'000;
+
+void report_too_many(const TableNode& root, Diagnostics& diagnostics) {
+    for (const char* const kind : {"light", "object"}) {
+        const TableNode::Entry* const entry = root.find(kind);
+        const ArrayNode* const all = entry != nullptr ? entry->node.array() : nullptr;
+        if (all == nullptr || all->size() <= k_most_lights_or_objects) continue;
+        diagnostics.error((*all)[k_most_lights_or_objects].place,
+                          fmt::format("the scene has {} {}s; it may have at most {}", all->size(), kind,
+                                      k_most_lights_or_objects));
+    }
+}
+
+class Gatherer {
+  public:
+    explicit Gatherer(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+    void add_file(const fs::path& file, const SourcePlace* included_at) {
+        const std::string shown = file.string();
+        std::error_code problem;
+        fs::path canonical = fs::weakly_canonical(file, problem);
+        if (problem) canonical = file;
+        if (const auto seen = files_.find(canonical); seen != files_.end()) {
+            const SourcePlace place = included_at != nullptr ? *included_at : SourcePlace{shown, 0, 0, 0};
+            diagnostics_.error(
+                place, seen->second ? fmt::format("'{}' includes itself, directly or through others", shown)
+                                    : fmt::format("'{}' is read twice", shown));
+            return;
+        }
+        if (included_at != nullptr && !may_include(*included_at)) return;
+        files_[canonical] = true;
+        ++depth_;
+        if (included_at != nullptr && !fs::exists(file, problem)) {
+            diagnostics_.error(*included_at, fmt::format("there is no file '{}' to include", shown),
+                               file_suggestion(file));
+        } else if (auto table = read_document(file, shown, left_, diagnostics_)) {
+            add(std::move(*table), file.parent_path());
+        }
+        --depth_;
+        files_[canonical] = false;
+    }
+
+    void add_text(std::string_view text, const std::string& shown) {
+        if (auto table = parse_document(text, shown, diagnostics_)) add(std::move(*table), {});
+    }
+
+    TableNode take() { return std::move(root_); }
+
+  private:
+    bool may_include(const SourcePlace& place) {
+        if (depth_ > k_deepest_include) {
+            diagnostics_.error(place,
+                               fmt::format("files include one another more than {} deep", k_deepest_include),
+                               "include them from the scene's first file");
+            return false;
+        }
+        if (files_.size() < k_most_files) return true;
+        if (!too_many_files_) {
+            diagnostics_.error(place, fmt::format("the scene is of more than {} files", k_most_files),
+                               "put several into one");
+        }
+        too_many_files_ = true;
+        return false;
+    }
+
+    void add(TableNode table, const fs::path& directory) {
+        if (const TableNode::Entry* const include = table.find("include")) follow(include->node, directory);
+        for (TableNode::Entry& entry : table.entries) {
+            if (entry.key != "include") merge(std::move(entry));
+        }
+    }
+
+    void follow(const Node& list, const fs::path& directory) {
+        const ArrayNode* const files = list.array();
+        if (files == nullptr) {
+            diagnostics_.error(list.place,
+                               fmt::format("'include' is {}; expected a list of paths", description(list)));
+            return;
+        }
+        for (const Node& file : *files) {
+            if (too_many_files_) return;
+            if (const auto* path = std::get_if<std::string>(&file.value)) {
+                add_file(directory / *path, &file.place);
+            } else {
+                diagnostics_.error(file.place, fmt::format("'include' holds {}; expected a path in quotes",
+                                                           description(file)));
+            }
+        }
+    }
+
+    void merge(TableNode::Entry entry) {
+        const auto [known, is_new] = index_.try_emplace(entry.key, root_.entries.size());
+        if (is_new) {
+            root_.entries.push_back(std::move(entry));
+            return;
+        }
+        TableNode::Entry* const before = &root_.entries[known->second];
+        if (before->node.array() != nullptr && entry.node.array() != nullptr) {
+            ArrayNode& all = *before->node.array();
+            for (Node& node : *entry.node.array()) all.push_back(std::move(node));
+        } else if (entry.key != "version" || before->node.value.index() != entry.node.value.index() ||
+                   std::get_if<std::int64_t>(&before->node.value) == nullptr ||
+                   std::get<std::int64_t>(before->node.value) != std::get<std::int64_t>(entry.node.value)) {
+            diagnostics_.error(entry.key_place, fmt::format("'{}' is given twice; first at {}", entry.key,
+                                                            place_text(before->key_place)));
+        }
+    }
+
+    Diagnostics& diagnostics_;
+    TableNode root_;
+    std::unordered_map<std::string, std::size_t> index_;  // of the root's keys
+    std::map<fs::path, bool> files_;                      // whether it is being read
+    ReadingLimits left_;
+    int depth_ = 0;
+    bool too_many_files_ = false;
+};
+
+/// A setting's path, cut at its dots; "quoted parts" may hold dots.
+std::vector<std::string> parts_of(std::string_view path) {
+    std::vector<std::string> parts(1);
+    bool quoted = false;
+    for (const char c : path) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == '.' && !quoted) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+/// Applies one setting.
+class Setter {
+  public:
+    Setter(const Setting& setting, TableNode& root, Diagnostics& diagnostics)
+        : setting_(setting), place_{setting.flag, 0, 0, 0}, root_(root), diagnostics_(diagnostics) {}
+
+    void apply() {
+        auto value = parse_value(setting_.value, place_, diagnostics_);
+        if (!value) return;
+        const std::vector<std::string> parts = parts_of(setting_.path);
+        if (std::ranges::any_of(parts, [](const std::string& part) { return part.empty(); })) {
+            return fail("the path has an empty part");
+        }
+        if (parts.size() < 2) return fail("the path needs a table and a key, as in image.width");
+        TableNode* table = nullptr;
+        std::size_t next = 1;
+        if (parts[0] == "light" || parts[0] == "object") {
+            if (parts.size() < 3)
+                return fail(fmt::format("the path needs a key, as in {}.0.color", parts[0]));
+            table = element(parts[0], parts[1]);
+            next = 2;
+        } else {
+            table = table_in(root_, parts[0]);
+        }
+        for (; table != nullptr && next + 1 < parts.size(); ++next) table = table_in(*table, parts[next]);
+        if (table == nullptr) return;
+        if (TableNode::Entry* const entry = table->find(parts.back())) {
+            entry->key_place = place_;
+            entry->node = std::move(*value);
+        } else {
+            table->entries.push_back({parts.back(), place_, std::move(*value)});
+        }
+    }
+
+  private:
+    void fail(const std::string& message, const std::string& hint = {}) {
+        diagnostics_.error(place_, message, hint);
+    }
+
+    TableNode* table_in(TableNode& parent, const std::string& key) {
+        if (parent.find(key) == nullptr) parent.entries.push_back({key, place_, Node{place_, TableNode{}}});
+        TableNode* const table = parent.find(key)->node.table();
+        if (table == nullptr) fail(fmt::format("'{}' is no table", key));
+        return table;
+    }
+
+    /// The light or object of that name, or of that number from 0.
+    TableNode* element(const std::string& kind, const std::string& which) {
+        TableNode::Entry* const entry = root_.find(kind);
+        ArrayNode* const all = entry != nullptr ? entry->node.array() : nullptr;
+        if (all == nullptr || all->empty()) {
+            fail(fmt::format("the scene has no {}", kind));
+            return nullptr;
+        }
+        std::vector<std::string> names;
+        for (Node& node : *all) {
+            TableNode* const table = node.table();
+            const TableNode::Entry* const name = table != nullptr ? table->find("name") : nullptr;
+            const auto* const text = name != nullptr ? std::get_if<std::string>(&name->node.value) : nullptr;
+            if (text == nullptr) continue;
+            if (*text == which) return table;
+            names.push_back(*text);
+        }
+        std::size_t number = 0;
+        const auto [end, problem] = std::from_chars(which.data(), which.data() + which.size(), number);
+        if (problem == std::errc() && end == which.data() + which.size()) {
+            if (number < all->size()) return (*all)[number].table();
+            fail(fmt::format("there is no {} {}; they are numbered 0 to {}", kind, number, all->size() - 1));
+        } else {
+            fail(fmt::format("no {} is called '{}'", kind, which), suggestion(which, names));
+        }
+        return nullptr;
+    }
+
+    const Setting& setting_;
+    SourcePlace place_;
+    TableNode& root_;
+    Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics) {
+    Gatherer gatherer(diagnostics);
+    MergedDocument merged;
+    if (request.files.empty()) {
+        merged.place.file = "default scene";
+        gatherer.add_text(default_scene_text(), merged.place.file);
+    } else {
+        merged.place.file = request.files.front().string();
+        for (const fs::path& file : request.files) gatherer.add_file(file, nullptr);
+    }
+    // What cannot be read would only bring forth a heap of errors about what seems to be missing.
+    if (diagnostics.has_errors()) return std::nullopt;
+    merged.root = gatherer.take();
+    report_too_many(merged.root, diagnostics);
+    if (diagnostics.has_errors()) return std::nullopt;
+    for (const Setting& setting : request.settings) Setter(setting, merged.root, diagnostics).apply();
+    return merged;
+}
+
+}  // namespace candela

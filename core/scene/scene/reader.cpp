@@ -1,0 +1,273 @@
+// From one document to a checked scene.
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.scene;
+
+import candela.color;
+import candela.diagnostics;
+import candela.math;
+import candela.parameters;
+import candela.registry;
+import candela.text;
+import candela.toml;
+import candela.transform;
+import candela.validation;
+
+namespace candela {
+
+namespace {
+
+class Reader {
+  public:
+    Reader(const SceneRequest& request, const MergedDocument& document, Registry& registry,
+           Diagnostics& diagnostics)
+        : tables_(document, registry, diagnostics), request_(request), diagnostics_(diagnostics) {}
+
+    SceneDraft read() {
+        read_version();
+        std::vector<std::string> keys = names_in(top_schema().parameters);
+        for (const TableSchema& schema : scene_schema()) keys.push_back(schema.name);
+        report_unknown_keys(tables_.root(), keys, {"the scene", "", tables_.whole()}, diagnostics_);
+        draft_.has_room = is_clean([&] { read_room(); });
+        draft_.has_observer = is_clean([&] { read_observer(); });
+        read_image();
+        each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
+            read_light(table, place, i);
+        });
+        ModelChooser models(request_, tables_);
+        each("object", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
+            read_object(table, place, i, models);
+        });
+        warn_if_empty();
+        draft_.is_complete = !diagnostics_.has_errors();
+        return std::move(draft_);
+    }
+
+  private:
+    /// Whether `read` comes upon no error.
+    template <class Read>
+    bool is_clean(Read read) const {
+        const std::size_t before = diagnostics_.error_count();
+        read();
+        return diagnostics_.error_count() == before;
+    }
+
+    static const SourcePlace& place_of(const TableNode& table, std::string_view key,
+                                       const SourcePlace& otherwise) {
+        const TableNode::Entry* const entry = table.find(key);
+        return entry != nullptr ? entry->node.place : otherwise;
+    }
+
+    void read_version() {
+        const TableNode::Entry* const version = tables_.root().find("version");
+        if (version == nullptr) {
+            diagnostics_.error(tables_.whole(), "the scene has no version", "write: version = 1");
+            return;
+        }
+        const auto* const number = std::get_if<std::int64_t>(&version->node.value);
+        if (number == nullptr) {
+            diagnostics_.error(
+                version->node.place,
+                fmt::format("'version' is {}; expected the whole number 1", description(version->node)));
+        } else if (*number != 1) {
+            diagnostics_.error(
+                version->node.place,
+                fmt::format("version {} of the scene file is not known to this Candela", *number),
+                "this one reads version 1");
+        }
+    }
+
+    void read_room() {
+        const ParamSet values = tables_.read_plain("room");
+        scene_.room = {real(values, "height"), real(values, "width"), real(values, "depth")};
+    }
+
+    void read_observer() {
+        if (tables_.root().find("observer") == nullptr) {
+            diagnostics_.error(tables_.whole(), "the scene has no [observer]",
+                               "write: [observer] with position and look_at");
+            return;
+        }
+        const ParamSet values = tables_.read_plain("observer");
+        Observer& observer = scene_.observer;
+        // A unit vector stays as it is, to the last bit, so that a scene that was written is read as it was.
+        const Vec3 up = vector(values, "up");
+        observer.up = std::abs(length(up) - 1) < 1e-6f ? up : normalized(up);
+        observer.projection =
+            text(values, "projection") == "orthographic" ? Projection::orthographic : Projection::perspective;
+        observer.fov = real(values, "fov");
+        observer.height = real(values, "height");
+        const TableNode* const table = tables_.single("observer");
+        if (table == nullptr || !has(values, "position") || !has(values, "look_at")) return;
+        observer.position = vector(values, "position");
+        observer.look_at = vector(values, "look_at");
+        observer.position_place = table->find("position")->node.place;
+        check_view(*table);
+    }
+
+    /// Whether the observer sees something definite.
+    void check_view(const TableNode& table) {
+        const Observer& observer = scene_.observer;
+        const SourcePlace& look_at = table.find("look_at")->node.place;
+        const Vec3 view = normalized(observer.look_at - observer.position);
+        if (view == Vec3{}) {
+            diagnostics_.error(look_at, "the observer looks at the point where it is",
+                               "position and look_at must differ");
+        } else if (length(cross(view, observer.up)) < 1e-6f) {
+            const TableNode::Entry* const up = table.find("up");
+            diagnostics_.error(
+                up != nullptr ? up->node.place : look_at,
+                "'up' points the way the observer looks, so that no direction is up in the picture",
+                "choose another 'up', such as [0, 0, -1] when looking straight down");
+        }
+        const bool perspective = observer.projection == Projection::perspective;
+        if (const TableNode::Entry* const unused = table.find(perspective ? "height" : "fov")) {
+            diagnostics_.warning(unused->key_place,
+                                 fmt::format("'{}' has no effect in a{} view", unused->key,
+                                             perspective ? " perspective" : "n orthographic"));
+        }
+    }
+
+    void read_image() {
+        const ParamSet values = tables_.read_plain("image");
+        scene_.image = {.width = integer(values, "width"),
+                        .height = integer(values, "height"),
+                        .samples = integer(values, "samples"),
+                        .background = vector(values, "background"),
+                        .environment = text(values, "environment"),
+                        .color_management = text(values, "color_management") == "none" ? ColorEncoding::none
+                                                                                       : ColorEncoding::srgb};
+        const TableNode* const table = tables_.single("image");
+        const TableNode::Entry* const environment = table != nullptr ? table->find("environment") : nullptr;
+        if (environment == nullptr) return;
+        scene_.image.environment_place = environment->node.place;
+        if (const TableNode::Entry* const unused = table->find("background"))
+            diagnostics_.warning(unused->key_place,
+                                 "'background' has no effect where there is an environment");
+    }
+
+    template <class Visit>
+    void each(const std::string& name, Visit visit) {
+        const TableNode::Entry* const entry = tables_.root().find(name);
+        if (entry == nullptr) return;
+        const ArrayNode* const all = entry->node.array();
+        if (all == nullptr ||
+            !std::ranges::all_of(*all, [](const Node& node) { return node.table() != nullptr; })) {
+            diagnostics_.error(entry->key_place,
+                               fmt::format("'{}' is {}; expected tables, each headed {}", name,
+                                           description(entry->node), schema_of(name).title));
+            return;
+        }
+        for (std::size_t i = 0; i < all->size(); ++i) visit(*(*all)[i].table(), (*all)[i].place, i);
+    }
+
+    /// The name of a light or object for messages; reports where another of its kind has it.
+    std::string label_of(const std::string& kind, const TableNode& table, std::size_t index) {
+        const TableNode::Entry* const entry = table.find("name");
+        const auto* const name = entry != nullptr ? std::get_if<std::string>(&entry->node.value) : nullptr;
+        if (name == nullptr || name->empty()) return fmt::format("number {}", index);
+        const auto [before, is_new] = names_.try_emplace(kind + ' ' + *name, entry->node.place);
+        if (!is_new) {
+            const SourcePlace& first = before->second;
+            diagnostics_.error(entry->node.place, fmt::format("another {} is called '{}', at {}:{}:{}", kind,
+                                                              *name, first.file, first.line, first.column));
+        }
+        return fmt::format("'{}'", shortened(*name));
+    }
+
+    /// A plugin named by `type`, with its parameters, which stand beside the table's own keys.
+    std::optional<Model> read_typed(const std::string& table_name, PluginKind kind, const TableNode& table,
+                                    const ParamSet& own, TableContext context,
+                                    std::vector<std::string> more_keys) {
+        if (!has(own, "type")) return std::nullopt;
+        const PluginFile* const plugin =
+            tables_.known(kind, text(own, "type"), table.find("type")->node.place);
+        if (plugin == nullptr) return std::nullopt;
+        context.manual = "candela describe " + plugin->manifest.id();
+        const std::vector<std::string> keys = names_in(
+            plugin->manifest.parameters, names_in(schema_of(table_name).parameters, std::move(more_keys)));
+        report_unknown_keys(table, keys, context, diagnostics_);
+        return Model{plugin->manifest.name, tables_.read_plugin(table, *plugin, context)};
+    }
+
+    void read_light(const TableNode& table, const SourcePlace& place, std::size_t index) {
+        const std::string label = label_of("light", table, index);
+        const TableContext context{fmt::format("[[light]] {}", label), "candela list light", place};
+        std::optional<Model> model;
+        const bool clean = is_clean([&] {
+            const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
+            model = read_typed("light", PluginKind::light, table, own, context, {});
+        });
+        if (clean)
+            scene_.lights.push_back({label, std::move(*model), place, place_of(table, "position", place)});
+    }
+
+    void read_object(const TableNode& table, const SourcePlace& place, std::size_t index,
+                     ModelChooser& models) {
+        Object object;
+        object.label = label_of("object", table, index);
+        object.place = place;
+        const TableContext context{fmt::format("[[object]] {}", object.label), "candela list shape", place};
+        object.position_place = place_of(table, "position", place);
+        const bool clean = is_clean([&] {
+            const ParamSet own =
+                read_parameters(table, schema_of("object").parameters, context, diagnostics_);
+            object.transform = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
+            object.color = vector(own, "color");
+            if (auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"})) {
+                object.shape = std::move(*shape);
+            }
+        });
+        object.shading = models.shading_for(table);
+        object.reflection = models.reflection_for(table, object.label, place);
+        if (clean) scene_.objects.push_back(std::move(object));
+    }
+
+    void warn_if_empty() {
+        if (diagnostics_.has_errors()) return;
+        if (scene_.objects.empty()) {
+            diagnostics_.warning(tables_.whole(),
+                                 "the scene has no objects: the picture shows nothing but the background");
+        } else if (scene_.lights.empty()) {
+            diagnostics_.warning(tables_.whole(), "the scene has no lights: every object is black");
+        }
+    }
+
+    SceneTables tables_;
+    const SceneRequest& request_;
+    Diagnostics& diagnostics_;
+    SceneDraft draft_;
+    Scene& scene_ = draft_.scene;
+    std::map<std::string, SourcePlace> names_;
+};
+
+}  // namespace
+
+std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
+                                      Diagnostics& diagnostics) {
+    const auto document = merge_documents(request, diagnostics);
+    if (!document) return std::nullopt;
+    return Reader(request, *document, registry, diagnostics).read();
+}
+
+std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry, Diagnostics& diagnostics) {
+    auto draft = draft_scene(request, registry, diagnostics);
+    if (!draft || !draft->is_complete) return std::nullopt;
+    return std::move(draft->scene);
+}
+
+}  // namespace candela

@@ -1,0 +1,213 @@
+// From a scene back to one file.
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.scene;
+
+import candela.color;
+import candela.diagnostics;
+import candela.math;
+import candela.parameters;
+import candela.toml;
+import candela.transform;
+
+namespace candela {
+
+namespace {
+
+[[noreturn]] void cannot_say(const std::string& what) {
+    throw Error(ExitCode::failure, "the scene cannot be written as a file: " + what);
+}
+
+std::string vector_text(Vec3 v) {
+    return fmt::format("[{}, {}, {}]", toml_text(v.x), toml_text(v.y), toml_text(v.z));
+}
+
+std::string color_text(Vec3 color) {
+    for (const float channel : {color.x, color.y, color.z}) {
+        if (channel != std::floor(channel))
+            cannot_say(fmt::format("{} in a colour is no whole number", channel));
+    }
+    return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", color.x, color.y, color.z);
+}
+
+std::string rgb_text(Vec3 v) { return v.x == v.y && v.y == v.z ? toml_text(v.x) : vector_text(v); }
+
+std::string value_text(const Value& value, ParamType type) {
+    if (const auto* const boolean = std::get_if<bool>(&value)) return *boolean ? "true" : "false";
+    if (const auto* const integer = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *integer);
+    if (const auto* const real = std::get_if<double>(&value)) return toml_text(*real);
+    if (const auto* const text = std::get_if<std::string>(&value)) return toml_text(*text);
+    const Vec3 v = std::get<Vec3>(value);
+    return type == ParamType::color    ? color_text(v)
+           : type == ParamType::rgb ? rgb_text(v)
+                                       : vector_text(v);
+}
+
+/// A label that says a name, not a number, has that name.
+std::optional<std::string> name_of(const std::string& label, std::size_t index) {
+    if (label.size() > 2 && label.starts_with('\'') && label.ends_with('\'')) {
+        return label.substr(1, label.size() - 2);
+    }
+    if (label != fmt::format("number {}", index)) {
+        cannot_say(fmt::format("{} is neither a name in quotes nor 'number {}'", label, index));
+    }
+    return std::nullopt;
+}
+
+/// Whether the parameters are those of a model that is named and told nothing.
+bool is_plain(const Model& model) { return model.parameters == ParamSet(model.parameters.schema()); }
+
+/// The model that most objects have, so that few need to name one.
+const Model& most_common(const std::vector<Object>& objects, Model Object::* model) {
+    const auto count = [&](const Object& object) {
+        return std::ranges::count_if(
+            objects, [&](const Object& o) { return (o.*model).name == (object.*model).name; });
+    };
+    return (*std::ranges::max_element(objects, {}, count)).*model;
+}
+
+class Writer {
+  public:
+    std::string write(const Scene& scene) {
+        text_ = "version = 1\n";
+        write_room(scene.room);
+        write_observer(scene.observer);
+        write_image(scene.image);
+        if (!scene.objects.empty()) {
+            shading_ = shared_shading(scene.objects);
+            reflection_ = most_common(scene.objects, &Object::reflection).name;
+            begin("[shading]");
+            add("model", toml_text(shading_.name));
+            add_parameters(shading_.parameters, "[shading]");
+            end();
+            begin("[reflection]");
+            add("model", toml_text(reflection_));
+            end();
+        }
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) write_light(scene.lights[i], i);
+        for (std::size_t i = 0; i < scene.objects.size(); ++i) write_object(scene.objects[i], i);
+        return std::move(text_);
+    }
+
+  private:
+    void begin(std::string_view title) { text_ += fmt::format("\n{}\n", title); }
+    void add(std::string_view key, std::string value) {
+        entries_.emplace_back(toml_key(key), std::move(value));
+    }
+    /// Writes what was added, the equals signs below one another.
+    void end() {
+        std::size_t longest = 0;
+        for (const auto& [key, value] : entries_) longest = std::max(longest, key.size());
+        for (const auto& [key, value] : entries_) text_ += fmt::format("{:<{}} = {}\n", key, longest, value);
+        entries_.clear();
+    }
+
+    void add_parameters(const ParamSet& values, const std::string& where) {
+        for (std::size_t i = 0; i < values.schema().size(); ++i) {
+            const Parameter& p = values.schema()[i];
+            const std::optional<Value>& value = values.get(i);
+            if (!value) cannot_say(fmt::format("{}: '{}' has no value", where, p.name));
+            add(p.name, value_text(*value, p.type));
+        }
+    }
+
+    void write_room(const Room& room) {
+        begin("[room]");
+        add("height", toml_text(room.height));
+        add("width", toml_text(room.width));
+        add("depth", toml_text(room.depth));
+        end();
+    }
+
+    void write_observer(const Observer& observer) {
+        const Observer standard;
+        const bool perspective = observer.projection == Projection::perspective;
+        begin("[observer]");
+        add("position", vector_text(observer.position));
+        add("look_at", vector_text(observer.look_at));
+        add("up", vector_text(observer.up));
+        add("projection", perspective ? "\"perspective\"" : "\"orthographic\"");
+        // What has no effect draws a warning; but if it was said, it is said again.
+        if (perspective || observer.fov != standard.fov) add("fov", toml_text(observer.fov));
+        if (!perspective || observer.height != standard.height) add("height", toml_text(observer.height));
+        end();
+    }
+
+    void write_image(const ImageSettings& image) {
+        begin("[image]");
+        add("width", fmt::format("{}", image.width));
+        add("height", fmt::format("{}", image.height));
+        add("samples", fmt::format("{}", image.samples));
+        add("background", color_text(image.background));
+        if (!image.environment.empty()) add("environment", toml_text(image.environment));
+        add("color_management", image.color_management == ColorEncoding::srgb ? "\"srgb\"" : "\"none\"");
+        end();
+    }
+
+    /// The model of [shading]. Only there can a file say parameters of a shading model: an object that names
+    /// a model gets it with its defaults.
+    static Model shared_shading(const std::vector<Object>& objects) {
+        const Object* told = nullptr;
+        for (const Object& object : objects) {
+            if (is_plain(object.shading)) continue;
+            if (told == nullptr) told = &object;
+            if (told->shading != object.shading) {
+                cannot_say(fmt::format(
+                    "objects {} and {} have shading models with different parameters, and only one "
+                    "can stand in [shading]",
+                    told->label, object.label));
+            }
+        }
+        return told != nullptr ? told->shading : most_common(objects, &Object::shading);
+    }
+
+    void write_light(const LightSource& light, std::size_t index) {
+        begin("[[light]]");
+        if (const auto name = name_of(light.label, index)) add("name", toml_text(*name));
+        add("type", toml_text(light.model.name));
+        add_parameters(light.model.parameters, light.label);
+        end();
+    }
+
+    void write_object(const Object& object, std::size_t index) {
+        begin("[[object]]");
+        if (const auto name = name_of(object.label, index)) add("name", toml_text(*name));
+        add("type", toml_text(object.shape.name));
+        add_parameters(object.shape.parameters, object.label);
+        add("position", vector_text(object.transform.position));
+        add("rotation", vector_text(object.transform.rotation));
+        add("scale", rgb_text(object.transform.scale));
+        add("color", color_text(object.color));
+        if (object.shading != shading_) add("shading", toml_text(object.shading.name));
+        if (object.reflection.name != reflection_) add("reflection", toml_text(object.reflection.name));
+        end();
+        if (object.reflection.parameters.schema().empty()) return;
+        text_ += "[object.material]\n";
+        add_parameters(object.reflection.parameters, object.label);
+        end();
+    }
+
+    std::string text_;
+    std::vector<std::pair<std::string, std::string>> entries_;  // of the table that is being written
+    Model shading_;
+    std::string reflection_;
+};
+
+}  // namespace
+
+std::string scene_text(const Scene& scene) { return Writer().write(scene); }
+
+}  // namespace candela

@@ -1,0 +1,134 @@
+// How deep a text nests and how much it holds, found out before a parser, and all that walks its tree, goes
+// down there by recursion.
+module;
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+module candela.toml;
+
+import candela.diagnostics;
+
+namespace candela {
+
+namespace {
+
+/// Far more than any scene has: object.material.kd is three parts long, its value one list deep.
+constexpr int k_most_parts = 32;
+constexpr int k_most_brackets = 32;
+
+/// Goes through a text, over strings and comments. In a text that is no TOML it may take a string for
+/// something else; but only after the place at which the parser stops.
+class Scan {
+  public:
+    Scan(std::string_view text, std::string shown_name, std::size_t& values_left)
+        : text_(text), place_{std::move(shown_name), 1, 1, 1}, values_left_(values_left) {}
+
+    std::optional<Excess> run() {
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == ',' || c == '=' || c == '[' || c == '{') {
+                if (values_left_ == 0) {
+                    return Excess{
+                        at_, place_,
+                        fmt::format("here the scene has more than {} values", ReadingLimits::k_most_values)};
+                }
+                --values_left_;
+            }
+            switch (c) {
+                case '#':
+                    while (at_ < text_.size() && text_[at_] != '\n') advance();
+                    continue;
+                case '"':
+                case '\'':
+                    skip_string(c);
+                    continue;
+                case '[':
+                case '{':
+                    parts_ = 1;
+                    if (++brackets_ > k_most_brackets) {
+                        return Excess{at_, place_,
+                                      fmt::format("this is nested more than {} deep", k_most_brackets)};
+                    }
+                    break;
+                case ']':
+                case '}':
+                    parts_ = 1;
+                    if (brackets_ > 0) --brackets_;
+                    break;
+                case '.':
+                    if (++parts_ > k_most_parts) {
+                        return Excess{at_, place_,
+                                      fmt::format("this key has more than {} parts", k_most_parts)};
+                    }
+                    break;
+                case '\n':
+                case '=':
+                case ',':
+                    parts_ = 1;
+                    break;
+                default:
+                    break;
+            }
+            advance();
+        }
+        return std::nullopt;
+    }
+
+  private:
+    /// Over one byte; the bytes of one character are in one column.
+    void advance() {
+        if (text_[at_] == '\n') {
+            ++place_.line;
+            place_.column = 1;
+        } else if ((static_cast<unsigned char>(text_[at_]) & 0xc0) != 0x80) {
+            ++place_.column;
+        }
+        ++at_;
+    }
+    void advance(std::size_t count) {
+        for (; count > 0 && at_ < text_.size(); --count) advance();
+    }
+
+    /// "…", '…', """…""" and '''…'''; only the first and third know escapes.
+    void skip_string(char quote) {
+        const std::string_view three = text_.substr(at_, 3);
+        const bool many_lines = three == std::string(3, quote);
+        advance(many_lines ? 3 : 1);
+        while (at_ < text_.size()) {
+            if (text_[at_] == '\\' && quote == '"') {
+                advance(2);
+            } else if (many_lines && text_.substr(at_, 3) == three) {
+                // Up to two more quotes belong to the text.
+                while (at_ < text_.size() && text_[at_] == quote) advance();
+                return;
+            } else if (!many_lines && (text_[at_] == quote || text_[at_] == '\n')) {
+                if (text_[at_] == quote) advance();
+                return;
+            } else {
+                advance();
+            }
+        }
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    SourcePlace place_;
+    std::size_t& values_left_;
+    int brackets_ = 0;
+    int parts_ = 1;  // of the key or value that is being read
+};
+
+}  // namespace
+
+std::optional<Excess> first_excess(std::string_view text, const std::string& shown_name,
+                                   std::size_t& values_left) {
+    return Scan(text, shown_name, values_left).run();
+}
+
+}  // namespace candela

@@ -1,0 +1,167 @@
+// Syntax errors in words for those who have not read the TOML specification.
+module;
+
+#include <fmt/args.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+module candela.toml;
+
+import candela.diagnostics;
+import candela.text;
+
+namespace candela {
+
+namespace {
+
+/// `while_reading` and `says` are parts of what toml++ says: "Error while parsing <while_reading>: <…says…>".
+/// In `message` and `hint`, {word} is what stands at the problem's place up to the next space or separator,
+/// {found} its first {character} or what else is there, {quoted} what toml++ put in quotes.
+struct Rule {
+    std::string_view while_reading;
+    std::string_view says;
+    std::string_view message;
+    std::string_view hint;
+};
+
+constexpr std::array k_rules = {
+    // Texts
+    Rule{"string", "encountered end-of-file", "the file ends within a text: its closing quote is missing",
+         ""},
+    Rule{"string", "control characters", "{control}",
+         R"(a text ends with the quote that it begins with; one of several lines stands in """)"},
+    Rule{"string", "unknown escape sequence", "\\{character} means nothing in a text",
+         "a backslash is written \\\\, or the text stands in 'single quotes'"},
+    // Numbers and words
+    Rule{"integer", "not representable", "{word} is too large for a whole number",
+         "with a point, as in 1.0e20, it is a real number"},
+    Rule{"integer", "leading zeroes", "{word} is no number, because it begins with 0", ""},
+    Rule{"integer", "", "{word} is no number", "numbers are written 12, 0.5 or 2e-3, without a unit"},
+    Rule{"floating-point", "expected 'nan'", "{word} is no value", "a text stands in quotes"},
+    Rule{"floating-point", "expected 'inf'", "{word} is no value", "a text stands in quotes"},
+    Rule{"floating-point", "", "{word} is no number",
+         "numbers are written 12, 0.5 or 2e-3: digits stand on both sides of the point"},
+    Rule{"boolean", "", "{word} is no value", "write true or false, or a text in quotes"},
+    Rule{"value", "could not determine", "{word} is no value",
+         "a value is a number, a text in \"straight quotes\", true, false or a [list, of, them]"},
+    // Lists and inline tables
+    Rule{"array", "encountered end-of-file", "the file ends within a list: its closing ] is missing", ""},
+    Rule{"array", "expected comma", "expected ',' or ']' in this list, found {found}",
+         "commas stand between the values of a list"},
+    Rule{"inline table", "encountered end-of-file", "the file ends within a table: its closing }} is missing",
+         ""},
+    Rule{"inline table", "dangling comma", "a comma before the closing }} is not allowed", ""},
+    Rule{"inline table", "", "expected a key, ',' or '}}' in this table, found {found}",
+         "a table in braces stands on one line"},
+    // Headers
+    Rule{"table header", "blank bare keys", "a header without a name", "write [image], for example"},
+    Rule{"table header", "expected ']'", "the header's closing ] is missing", ""},
+    Rule{"table header", "encountered end-of-file", "the file ends within a header: its closing ] is missing",
+         ""},
+    Rule{"table header", "expected a comment or whitespace",
+         "expected the end of the line after the header, found {found}", "keys stand on lines of their own"},
+    Rule{"table header", "as array-of-tables", "{quoted} was a table or a value before; here it is a list",
+         "each header of a list has two brackets, [[light]], all others have one, [image]"},
+    Rule{"table header", "redefine existing array", "{quoted} was a list before; here it is a table",
+         "each header of a list has two brackets, [[light]], all others have one, [image]"},
+    Rule{"table header", "redefine existing", "{quoted} is already there",
+         "all keys of a table stand below one header"},
+    Rule{"table header", "cannot insert", "{quoted} cannot be added to what stands in braces", ""},
+    // Lines
+    Rule{"key", "redefine existing", "{quoted} is given twice in one table", ""},
+    Rule{"key", "encountered end-of-file", "the file ends where '=' and a value are missing", ""},
+    Rule{"key-value pair", "expected '='", "expected '=' after the key, found {found}",
+         "write: key = value; a key of anything but A-Z, a-z, 0-9, _ and - stands in quotes"},
+    Rule{"key-value pair", "expected value", "there is no value after '='", ""},
+    Rule{"key-value pair", "expected a comment or whitespace",
+         "expected the end of the line after the value, found {found}",
+         "one value a line; a decimal point is no comma; units are left out; a text stands in quotes"},
+    Rule{"root table", "expected keys", "expected a key or a [table], found {found}",
+         "comments begin with #; a scene is TOML, not JSON, YAML or XML"},
+    Rule{"", "after '\\r'", "a line ends with a carriage return alone",
+         "save the file with the line ends of Unix or Windows"},
+    Rule{"comment", "control characters", "{control}", ""},
+};
+
+std::string quoted(std::string_view text) { return fmt::format("'{}'", shortened(text)); }
+
+/// The byte at which column `column` begins.
+std::size_t offset_of(std::string_view line, int column) {
+    std::size_t at = 0;
+    for (int i = 1; i < column && at < line.size(); ++i) {
+        do {
+            ++at;
+        } while (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80);
+    }
+    return at;
+}
+
+/// Empty at the line's end.
+std::string_view character_at(std::string_view line, std::size_t at) {
+    std::size_t end = std::min(at + 1, line.size());
+    while (end < line.size() && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80) ++end;
+    return line.substr(std::min(at, end), end - std::min(at, end));
+}
+
+/// What a person would take for one word or number around the place.
+std::string word_at(std::string_view line, std::size_t at) {
+    const auto ends = [](char c) {
+        return std::string_view(" \t,=[]{}#\"").find(c) != std::string_view::npos;
+    };
+    std::size_t begin = std::min(at, line.size());
+    while (begin > 0 && !ends(line[begin - 1])) --begin;
+    std::size_t end = begin;
+    while (end < line.size() && !ends(line[end])) ++end;
+    if (begin == end && begin < line.size()) ++end;
+    return begin == end ? "this" : quoted(line.substr(begin, end - begin));
+}
+
+/// What toml++ itself puts into quotes; the last such.
+std::string quoted_in(std::string_view description) {
+    const std::size_t end = description.rfind('\'');
+    const std::size_t begin =
+        end == std::string_view::npos || end == 0 ? end : description.rfind('\'', end - 1);
+    if (begin == std::string_view::npos || begin >= end) return "this";
+    return quoted(description.substr(begin + 1, end - begin - 1));
+}
+
+}  // namespace
+
+SyntaxProblem syntax_problem(std::string_view description, std::string_view line, int column) {
+    constexpr std::string_view k_prefix = "Error while parsing ";
+    std::string_view scope;
+    std::string_view reason = description;
+    if (reason.starts_with(k_prefix)) {
+        reason.remove_prefix(k_prefix.size());
+        const std::size_t colon = reason.find(": ");
+        if (colon != std::string_view::npos) {
+            scope = reason.substr(0, colon);
+            reason.remove_prefix(colon + 2);
+        }
+    }
+    const std::size_t at = offset_of(line, column);
+    const std::string_view character = character_at(line, at);
+    const std::string found = character.empty() ? "the end of the line" : fmt::format("'{}'", character);
+    const std::string control = character.empty() ? "this text has no closing quote on its line"
+                                                  : "a control character, which no text may hold";
+    for (const Rule& rule : k_rules) {
+        if (scope.find(rule.while_reading) == std::string_view::npos ||
+            reason.find(rule.says) == std::string_view::npos)
+            continue;
+        const auto filled = [&](std::string_view pattern) {
+            return fmt::format(fmt::runtime(pattern), fmt::arg("word", word_at(line, at)),
+                               fmt::arg("found", found), fmt::arg("character", character),
+                               fmt::arg("control", control), fmt::arg("quoted", quoted_in(description)));
+        };
+        return {filled(rule.message), std::string(rule.hint)};
+    }
+    return {scope.empty() ? std::string(reason) : fmt::format("this is no {}: {}", scope, reason), ""};
+}
+
+}  // namespace candela

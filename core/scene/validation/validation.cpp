@@ -1,0 +1,211 @@
+module;
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.validation;
+
+import candela.diagnostics;
+import candela.math;
+import candela.parameters;
+import candela.text;
+import candela.toml;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A number; a whole number where only those count.
+std::optional<double> number(const Node& node, bool whole_only) {
+    if (const auto* i = std::get_if<std::int64_t>(&node.value)) return static_cast<double>(*i);
+    if (const auto* d = std::get_if<double>(&node.value); d != nullptr && !whole_only) return *d;
+    return std::nullopt;
+}
+
+/// Too large for a float becomes infinity, which the range check then reports with the rest.
+std::optional<Vec3> three_numbers(const Node& node, bool whole_only) {
+    const ArrayNode* const array = node.array();
+    if (array == nullptr || array->size() != 3) return std::nullopt;
+    std::array<float, 3> v{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto x = number((*array)[i], whole_only);
+        if (!x) return std::nullopt;
+        v[i] = static_cast<float>(*x);
+    }
+    return Vec3{v[0], v[1], v[2]};
+}
+
+std::optional<Value> as_value(const Node& node, const Parameter& p) {
+    switch (p.type) {
+        case ParamType::real:
+            if (const auto x = number(node, false)) return *x;
+            return std::nullopt;
+        case ParamType::integer:
+            if (const auto* i = std::get_if<std::int64_t>(&node.value)) return *i;
+            return std::nullopt;
+        case ParamType::boolean:
+            if (const auto* b = std::get_if<bool>(&node.value)) return *b;
+            return std::nullopt;
+        case ParamType::choice:
+        case ParamType::text:
+        case ParamType::file:
+            if (const auto* s = std::get_if<std::string>(&node.value)) return *s;
+            return std::nullopt;
+        case ParamType::rgb:
+            if (const auto x = number(node, false)) {
+                const auto f = static_cast<float>(*x);
+                return Vec3{f, f, f};
+            }
+            [[fallthrough]];
+        default:
+            if (const auto v = three_numbers(node, p.type == ParamType::color)) return *v;
+            return std::nullopt;
+    }
+}
+
+/// What is wrong within a list, when three numbers were expected: "its second value is a string, …".
+std::string found(const Node& node, const Parameter& p) {
+    const ArrayNode* const array = node.array();
+    const bool takes_three = p.type >= ParamType::vector;
+    if (array == nullptr || array->size() != 3 || !takes_three) return description(node);
+    constexpr std::array<std::string_view, 3> k_ordinals = {"first", "second", "third"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!number((*array)[i], p.type == ParamType::color)) {
+            return fmt::format("a list whose {} value is {}", k_ordinals[i], description((*array)[i]));
+        }
+    }
+    return description(node);
+}
+
+std::string joined(const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? a + b : a + "  " + b;
+}
+
+/// Checks that a file is there; its absolute path.
+std::optional<std::string> existing_file(const std::string& written, const SourcePlace& place,
+                                         Diagnostics& diagnostics) {
+    // What comes from the command line (line 0) is relative to where the command runs.
+    const fs::path base = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
+    std::error_code problem;
+    const fs::path file = fs::absolute(base / written, problem).lexically_normal();
+    const fs::file_status status = fs::status(file, problem);
+    if (status.type() == fs::file_type::regular) return file.string();
+    const char* const what = status.type() == fs::file_type::directory   ? "is a directory, not a file"
+                             : status.type() == fs::file_type::not_found ? "does not exist"
+                                                                         : "is no ordinary file";
+    diagnostics.error(
+        place, fmt::format("'{}' {}", written, what),
+        status.type() == fs::file_type::not_found
+            ? joined(file_suggestion(base / written), fmt::format("(looked for {})", file.string()))
+            : "");
+    return std::nullopt;
+}
+
+std::string manual_hint(const TableContext& context) {
+    return context.manual.empty() ? "" : fmt::format("({})", context.manual);
+}
+
+}  // namespace
+
+std::string suggestion(std::string_view name, std::span<const std::string> candidates) {
+    const auto near = closest(name, candidates);
+    return near ? fmt::format("did you mean '{}'?", *near) : "";
+}
+
+std::optional<Value> typed_value(const Node& node, const Parameter& parameter, Diagnostics& diagnostics) {
+    auto value = as_value(node, parameter);
+    if (!value) {
+        diagnostics.error(node.place, fmt::format("'{}' is {}; expected {}", parameter.name,
+                                                  found(node, parameter), constraint_text(parameter)));
+    }
+    return value;
+}
+
+ParamSet read_parameters(const TableNode& table, SharedSchema schema, const TableContext& context,
+                         Diagnostics& diagnostics) {
+    ParamSet values(std::move(schema));
+    for (std::size_t i = 0; i < values.schema().size(); ++i) {
+        const Parameter& p = values.schema()[i];
+        const TableNode::Entry* const entry = table.find(p.name);
+        if (entry == nullptr) {
+            if (!p.default_value) {
+                diagnostics.error(context.place,
+                                  fmt::format("{} has no '{}': {}", context.where, p.name, constraint_text(p)),
+                                  joined(p.meaning, manual_hint(context)));
+            }
+            continue;
+        }
+        auto value = typed_value(entry->node, p, diagnostics);
+        if (!value) continue;
+        if (const auto wrong = validation_error(p, *value)) {
+            std::string hint;
+            if (p.type == ParamType::choice) hint = suggestion(std::get<std::string>(*value), p.choices);
+            diagnostics.error(entry->node.place, fmt::format("'{}': {}", p.name, *wrong), hint);
+            continue;
+        }
+        if (p.type == ParamType::color) {
+            auto& color = std::get<Vec3>(*value);
+            if (color.x > 255 || color.y > 255 || color.z > 255) {
+                diagnostics.warning(entry->node.place,
+                                    fmt::format("'{}': 256 counts as 255, the largest 8-bit number", p.name));
+                color = {std::min(color.x, 255.0f), std::min(color.y, 255.0f), std::min(color.z, 255.0f)};
+            }
+        }
+        if (p.type == ParamType::file) {
+            const auto file = existing_file(std::get<std::string>(*value), entry->node.place, diagnostics);
+            if (!file) continue;
+            value = *file;
+        }
+        values.set(i, std::move(*value));
+    }
+    return values;
+}
+
+ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, const TableContext& context,
+                         Diagnostics& diagnostics) {
+    return read_parameters(table, std::make_shared<const std::vector<Parameter>>(std::move(schema)), context,
+                           diagnostics);
+}
+
+void report_unknown_keys(const TableNode& table, std::span<const std::string> known,
+                         const TableContext& context, Diagnostics& diagnostics) {
+    for (const TableNode::Entry& entry : table.entries) {
+        if (std::ranges::find(known, entry.key) != known.end()) continue;
+        diagnostics.error(entry.key_place, fmt::format("unknown key '{}' in {}", entry.key, context.where),
+                          joined(suggestion(entry.key, known), manual_hint(context)));
+    }
+}
+
+void check_relations(const TableNode& table, const ParamSet& values, std::span<const Relation> relations,
+                     const TableContext& context, Diagnostics& diagnostics) {
+    for (const Relation& relation : relations) {
+        const auto wrong = validation_error(relation, values);
+        if (!wrong) continue;
+        const TableNode::Entry* entry = table.find(relation.left);
+        if (entry == nullptr) entry = table.find(relation.right);
+        const SourcePlace place = entry != nullptr ? entry->node.place : context.place;
+        if (relation.only_warns) {
+            diagnostics.warning(place, fmt::format("{}: {}", context.where, *wrong));
+        } else {
+            diagnostics.error(place, fmt::format("{}: {}", context.where, *wrong));
+        }
+    }
+}
+
+}  // namespace candela
