@@ -1,4 +1,3 @@
-// Diagnostics as text for people and as JSON for programs.
 module;
 
 #include <fmt/format.h>
@@ -29,14 +28,15 @@ std::string location(const SourcePlace& place) {
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
-/// How many bytes a UTF-8 character has that begins so; 0 where none does.
+/// The number of bytes of a UTF-8 character with this first byte; 0 if there is none.
 std::size_t size_by(unsigned char first) {
     if (first < 0x80) return 1;
     if (first < 0xc2) return 0;
     return first < 0xe0 ? 2 : (first < 0xf0 ? 3 : (first < 0xf5 ? 4 : 0));
 }
 
-/// Characters of a line. What a terminal would obey or cannot show is a question mark; tabs stay.
+/// The characters of a line. Control characters and what a terminal cannot show become question marks; tabs
+/// stay.
 std::vector<std::string> characters_of(std::string_view line) {
     std::vector<std::string> result;
     for (std::size_t i = 0; i < line.size();) {
@@ -55,8 +55,8 @@ std::vector<std::string> characters_of(std::string_view line) {
     return result;
 }
 
-/// A sentence, which may quote what somebody wrote: on one line, without commands to the terminal, and not
-/// longer than anybody reads.
+/// A sentence that may quote user input: on one line, without terminal control sequences, and no longer than
+/// anybody reads.
 std::string sentence(std::string_view text) {
     constexpr std::size_t k_longest = 1000;
     std::string result;
@@ -68,8 +68,8 @@ std::string sentence(std::string_view text) {
     return result;
 }
 
-/// A line, or as much of it as a person can look at, and marks below the place. Tabs stay tabs, so that the
-/// marks stand under their text whatever a tab's width.
+/// A line, or as much of it as is readable, and marks below the position. Tabs stay tabs, so that the marks
+/// line up whatever the width of a tab.
 std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& place) {
     constexpr std::size_t k_widest = 160;
     constexpr std::size_t k_before = 60;

@@ -1,4 +1,3 @@
-// Things that are made once and lent to one thread at a time.
 module;
 
 #include <memory>
@@ -10,12 +9,12 @@ export module candela.pool;
 
 export namespace candela {
 
-/// Things that work in a range needs one of, and that take longer to make than to use again.
+/// Objects of which each range of a parallel loop needs one, and which cost more to create than to reuse.
 template <class Thing>
 class Pool {
   public:
-    /// Calls `use(thing)` with one that nobody else has; `make()` makes another, as a std::unique_ptr, where
-    /// all are in use. One that an exception came out of is not used again. Any thread.
+    /// Calls `use(thing)` with one that no other thread is using; if all are in use, `make()` creates another
+    /// as a std::unique_ptr. One whose use ended in an exception is not reused. Any thread.
     template <class Make, class Use>
     void with(Make make, Use use) {
         std::unique_ptr<Thing> thing = take();
@@ -25,7 +24,7 @@ class Pool {
         free_.push_back(std::move(thing));
     }
 
-    /// Calls `visit(thing)` for each, while none is in use.
+    /// Calls `visit(thing)` for each while none is in use.
     template <class Visit>
     void each(Visit visit) {
         for (const std::unique_ptr<Thing>& thing : free_) visit(*thing);

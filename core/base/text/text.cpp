@@ -15,7 +15,7 @@ namespace candela {
 std::string shortened(std::string_view text) {
     constexpr std::size_t k_longest = 40;
     std::string result(text.substr(0, k_longest));
-    // No half character at the end.
+    // Do not cut a character in half.
     while (text.size() > k_longest && !result.empty() &&
            (static_cast<unsigned char>(text[result.size()]) & 0xc0) == 0x80) {
         result.pop_back();
