@@ -39,7 +39,7 @@ std::optional<Enum> enum_named(const std::array<std::string_view, count>& names,
 
 Vec3 vec3_of(const ParamValue& value) { return {value.number[0], value.number[1], value.number[2]}; }
 
-/// A float in as few digits as name it exactly: 0.1, not 0.10000000149011612.
+/// The shortest decimal that identifies a float: 0.1, not 0.10000000149011612.
 double shortest(float x) {
     return std::isfinite(x) ? std::stod(fmt::format("{}", x)) : static_cast<double>(x);
 }
@@ -80,7 +80,7 @@ bool holds(const Value& value, ParamType type) {
     }
 }
 
-/// All components of a value that has numbers; one for a scalar.
+/// All components of a numeric value; one for a scalar.
 std::vector<double> numbers_of(const Value& value) {
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*whole)};
     if (const auto* real = std::get_if<double>(&value)) return {*real};
@@ -88,8 +88,7 @@ std::vector<double> numbers_of(const Value& value) {
     return {};
 }
 
-// A bound that is excluded is excluded for the float that comes of the number, too: 1e-50 is not greater than
-// 0.
+// An excluded bound is also excluded for the resulting float: 1e-50 is not greater than 0.
 bool below(double x, const Parameter& p) {
     return x < shortest(p.minimum) || (p.minimum_excluded && static_cast<float>(x) <= p.minimum);
 }
@@ -348,7 +347,7 @@ std::optional<std::string> validation_error(const Relation& relation, const Para
                 if (!(left[i] <= right[i])) return sentence("not exceed");
                 break;
             case RelationType::sum_at_most_one:
-                // A hair of tolerance: 0.7 + 0.3 is a float above one.
+                // A small tolerance: as floats, 0.7 + 0.3 exceeds one.
                 if (left[i] + right[i] > 1 + 1e-6) {
                     return fmt::format("{} + {} is {:.6g}, more than 1: {}", relation.left, relation.right,
                                        left[i] + right[i], relation.meaning);
