@@ -1,4 +1,4 @@
-// A scene: read from files, checked, immutable.
+// A scene: read from files, validated, immutable.
 module;
 
 #include "candela/api.h"
@@ -41,10 +41,10 @@ struct Observer {
     Vec3 up{0, 1, 0};
     Projection projection = Projection::perspective;
     float fov = 40;    // perspective: full vertical angle, degrees
-    float height = 4;  // orthographic: metres that fit the picture's height
+    float height = 4;  // orthographic: height of the view, metres
     SourcePlace position_place{};
 
-    /// Wherever it stands in its file.
+    /// Ignores where it is in its file.
     friend inline bool operator==(const Observer& a, const Observer& b) {
         return a.position == b.position && a.look_at == b.look_at && a.up == b.up &&
                a.projection == b.projection && a.fov == b.fov && a.height == b.height;
@@ -56,11 +56,11 @@ struct ImageSettings {
     int height = 512;
     int samples = 1;
     Vec3 background;            // 0-255
-    std::string environment{};  // absolute path of a picture all around; empty: the background
+    std::string environment{};  // absolute path of an equirectangular environment map; empty: the background
     SourcePlace environment_place{};
     ColorEncoding color_management = ColorEncoding::srgb;
 
-    /// Wherever it stands in its file.
+    /// Ignores where they are in their file.
     friend inline bool operator==(const ImageSettings& a, const ImageSettings& b) {
         return a.width == b.width && a.height == b.height && a.samples == b.samples &&
                a.background == b.background && a.environment == b.environment &&
@@ -68,7 +68,7 @@ struct ImageSettings {
     }
 };
 
-/// A plugin, and values for its parameters.
+/// A plugin with values for its parameters.
 struct Model {
     std::string name;
     ParamSet parameters;
@@ -77,12 +77,12 @@ struct Model {
 };
 
 struct LightSource {
-    std::string label;  // 'lamp', as the scene's author calls it, or number 2
+    std::string label;  // 'lamp', as the scene's author calls it, or an index
     Model model;
     SourcePlace place;
     SourcePlace position_place{};  // of its 'position', or of the whole light
 
-    /// Wherever they stand in their files.
+    /// Ignores where they are in their files.
     friend inline bool operator==(const LightSource& a, const LightSource& b) {
         return a.label == b.label && a.model == b.model;
     }
@@ -98,15 +98,15 @@ struct Object {
     SourcePlace place;
     SourcePlace position_place{};  // of its 'position', or of the whole object
 
-    /// Wherever they stand in their files.
+    /// Ignores where they are in their files.
     friend inline bool operator==(const Object& a, const Object& b) {
         return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
                a.shading == b.shading && a.reflection == b.reflection;
     }
 };
 
-/// Every value has been checked; every plugin named is installed (none is loaded). What only triangles can
-/// tell, who is inside of what, comes later: candela.constraints.
+/// Every value has been checked; every plugin named is installed (none is loaded). Constraints that only
+/// triangles can decide come later: candela.constraints.
 struct Scene {
     Room room;
     Observer observer;
@@ -117,42 +117,42 @@ struct Scene {
     friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// A value given on the command line: it goes before what the files say.
+/// A value given on the command line, which overrides the files.
 struct Setting {
     std::string flag;   // as in diagnostics: "--width", "--set object.box.size"
     std::string path;   // "image.width", "light.lamp.intensity", "object.0.material.kd"
-    std::string value;  // as it would stand in the file; bare words are strings
+    std::string value;  // as it would be written in the file; bare words are strings
 };
 
 struct SceneRequest {
     std::vector<std::filesystem::path> files;  // merged; none: the default scene
     std::vector<Setting> settings;
-    std::optional<std::string> shading;                    // for every object, whatever the files say
+    std::optional<std::string> shading;                    // for every object, overriding the files
     std::optional<std::string> reflection;                 // likewise
-    bool use_defaults = false;                             // where no shading or reflection model is named
-    std::function<bool(const std::string& question)> ask;  // asked instead of failing then; may be empty
+    bool use_defaults = false;                             // if no shading or reflection model is named
+    std::function<bool(const std::string& question)> ask;  // called instead of failing then; may be empty
 };
 
-/// A scene as far as it was understood, so that what remains can be checked, too.
+/// A scene as far as it was understood, so that the rest can be checked as well.
 struct SceneDraft {
-    Scene scene;  // without the lights and objects in which there were errors
+    Scene scene;  // without the lights and objects that have errors
     bool has_room = true;
     bool has_observer = true;
     bool is_complete = true;  // there were no errors
 };
 
-/// Reads, merges and checks. Reports all that is wrong; returns nothing where a file cannot be read as TOML.
+/// Reads, merges and validates. Reports all problems; returns nothing if a file cannot be read as TOML.
 CANDELA_API std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
                                                   Diagnostics& diagnostics);
 
-/// The same; returns the scene if nothing but warnings were found.
+/// Same, but returns the scene only if nothing worse than warnings was found.
 CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
                                             Diagnostics& diagnostics);
 
-/// A scene as one file; read again, it is the same scene. All that a scene holds is said, defaults too, and
-/// the paths of files are absolute. Throws Error (failure) where the format has no words for a scene that no
-/// file has brought about: texts that are not UTF-8, colours between whole numbers, labels that are no names
-/// in quotes, parameters of shading models that differ from object to object.
+/// A scene as one file, which reads back as the same scene: all defaults filled in, absolute paths. Throws
+/// Error (failure) if the format cannot express a scene that did not come from a file: texts that are not
+/// UTF-8, fractional colours, labels that are not quoted names, shading parameters that differ between
+/// objects.
 CANDELA_API std::string scene_text(const Scene& scene);
 
 /// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection
@@ -163,18 +163,18 @@ CANDELA_API std::string_view default_scene_text() noexcept;
 struct PluginKey {
     std::string key;  // "type"
     PluginKind kind = PluginKind::light;
-    /// Where in the table the plugin's parameters stand: beside the key (""), or in a table within it
+    /// Where in the table the plugin's parameters are: beside the key (""), or in a nested table
     /// ("material"). Nothing: not in this table.
     std::optional<std::string> parameters_in{};
 };
 
-/// What a table of the scene file may hold, beside what plugins declare.
+/// What a table of the scene file may contain, apart from what plugins declare.
 struct TableSchema {
     std::string name;   // "image", "light"
     std::string title;  // as written in a file: "[image]", "[[light]]"
     std::string meaning;
     std::vector<Parameter> parameters;
-    bool repeated = false;             // as many as one likes
+    bool repeated = false;             // may occur any number of times
     std::vector<PluginKey> plugins{};  // which of the parameters name plugins
     std::vector<std::string> lists{};  // which of the parameters are lists of such values
 };
@@ -182,7 +182,7 @@ struct TableSchema {
 /// The tables of the scene file, in the order in which people write them.
 CANDELA_API std::span<const TableSchema> scene_schema();
 
-/// The keys that stand before all tables; without a name.
+/// The keys before all tables; its name is empty.
 CANDELA_API const TableSchema& top_schema();
 
 }  // namespace candela
@@ -190,10 +190,10 @@ CANDELA_API const TableSchema& top_schema();
 // What this module's own units share.
 namespace candela {
 
-/// What the files, the includes and the settings say together.
+/// The contents of the files, the includes and the settings combined.
 struct MergedDocument {
     SourcePlace place;  // of the first file
-    TableNode root;     // as if all stood in one file, `include` followed
+    TableNode root;     // as if everything were in one file, `include` followed
 };
 
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics);
@@ -204,14 +204,14 @@ const TableSchema& schema_of(std::string_view table);
 /// `keys`, and the names of the parameters.
 std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys = {});
 
-// Values of a set that has them, by name.
+// Values of a set, by name; they must be set.
 float real(const ParamSet& set, std::string_view name);
 int integer(const ParamSet& set, std::string_view name);
 Vec3 vector(const ParamSet& set, std::string_view name);
 const std::string& text(const ParamSet& set, std::string_view name);
 bool has(const ParamSet& set, std::string_view name);
 
-/// The tables of a document, and what is asked of all of them.
+/// The tables of a document, and what applies to all of them.
 class SceneTables {
   public:
     SceneTables(const MergedDocument& document, Registry& registry, Diagnostics& diagnostics);
@@ -221,15 +221,15 @@ class SceneTables {
     Registry& registry() { return registry_; }
     Diagnostics& diagnostics() { return diagnostics_; }
 
-    /// A table that may stand once; null where it is missing or is something else, which is reported the
-    /// first time.
+    /// A table that may occur once; null if it is missing or is not a table, which is reported the first
+    /// time.
     const TableNode* single(const std::string& name);
     TableContext context_of(const std::string& name) const;
-    /// All values of a table that has no plugin behind it.
+    /// All values of a table without a plugin.
     ParamSet read_plain(const std::string& name);
     /// The installed plugin of that name, or null, with a message at `place`.
     const PluginFile* known(PluginKind kind, const std::string& name, const SourcePlace& place);
-    /// A plugin's parameters, and what must hold between them.
+    /// A plugin's parameters, including the relations between them.
     ParamSet read_plugin(const TableNode& table, const PluginFile& plugin, const TableContext& context);
 
   private:
@@ -240,18 +240,18 @@ class SceneTables {
     std::map<std::string, const TableNode*> singles_;
 };
 
-/// Which shading and which reflection model each object gets: the command line's, its own, the scene's, or
-/// (R12, R13) the default, if somebody agrees.
+/// Which shading and reflection model each object gets: the command line's, its own, the scene's, or (R12,
+/// R13) the default, if the user agrees.
 class ModelChooser {
   public:
     ModelChooser(const SceneRequest& request, SceneTables& tables);
 
-    /// Without a name where there is none, which has been reported.
+    /// The name is empty if there is none, which has been reported.
     Model shading_for(const TableNode& object);
     Model reflection_for(const TableNode& object, const std::string& label, const SourcePlace& place);
 
   private:
-    /// A model that is named somewhere.
+    /// A model named somewhere.
     struct Named {
         std::string name;
         SourcePlace place;

@@ -1,4 +1,4 @@
-// The scene file's own keys, typed in the same way as the parameters of plugins.
+// The scene file's own keys, typed in the same way as plugins' parameters.
 module;
 
 #include <array>

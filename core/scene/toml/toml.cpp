@@ -71,7 +71,6 @@ Node plain(const toml::node& node, const std::string& file) {
     return result;
 }
 
-/// The line of a place.
 std::string_view line_of(std::string_view text, int number) {
     for (; number > 1 && !text.empty(); --number) {
         const std::size_t end = text.find('\n');
@@ -86,14 +85,14 @@ void report(const toml::parse_error& problem, std::string_view text, const std::
             Diagnostics& diagnostics) {
     SourcePlace place = place_of(problem.source(), shown_name);
     const std::string_view line = line_of(text, place.line);
-    // At the end of the file toml++ counts the last line's end as a character.
+    // At the end of the file toml++ counts the last line ending as a character.
     const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
     place.column = std::min(place.column, 1 + static_cast<int>(std::ranges::count_if(line, is_first_byte)));
     SyntaxProblem said = syntax_problem(problem.description(), line, place.column);
     diagnostics.error(std::move(place), std::move(said.message), std::move(said.hint));
 }
 
-/// Whether toml++ may see the text at all; reports where not.
+/// Whether toml++ can parse the text safely; reports if not.
 bool can_be_parsed(std::string_view text, const std::string& shown_name, std::size_t& values_left,
                    Diagnostics& diagnostics) {
     if (const auto place = first_invalid_character(text, shown_name)) {
@@ -102,7 +101,7 @@ bool can_be_parsed(std::string_view text, const std::string& shown_name, std::si
     }
     const auto excess = first_excess(text, shown_name, values_left);
     if (!excess) return true;
-    // It may be too deep only because a bracket was not closed before.
+    // It may be too deep only because an earlier bracket was not closed.
     constexpr std::size_t k_worth_parsing = 1u << 20;
     try {
         if (excess->offset < k_worth_parsing) {

@@ -1,4 +1,3 @@
-// Values as TOML.
 module;
 
 #include <fmt/format.h>
@@ -20,7 +19,7 @@ namespace candela {
 
 namespace {
 
-/// How many bytes the character at the start of `text` has; nothing where it is not UTF-8 (Unicode 15, table
+/// The number of bytes of the character at the start of `text`; nothing if it is not UTF-8 (Unicode 15, table
 /// 3-7).
 std::optional<std::size_t> character_size(std::string_view text) {
     const auto byte = [&](std::size_t i) {
@@ -33,7 +32,7 @@ std::optional<std::size_t> character_size(std::string_view text) {
                              : first >= 0xf0 && first <= 0xf4 ? 4
                                                               : 0;
     if (size == 0) return std::nullopt;
-    // Not longer than need be, no surrogates, nothing beyond U+10FFFF.
+    // No overlong forms, no surrogates, nothing beyond U+10FFFF.
     const unsigned low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
     const unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
     if (byte(1) < low || byte(1) > high) return std::nullopt;
@@ -66,7 +65,7 @@ std::string escaped(char c) {
     }
 }
 
-/// 2 would be a whole number.
+/// 2 would be an integer.
 std::string as_real(std::string digits) {
     return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
 }
@@ -96,7 +95,7 @@ std::string toml_text(double x) {
 std::string toml_text(float x) {
     require_finite(static_cast<double>(x));
     const std::string digits = fmt::format("{}", x);
-    // TOML's numbers are doubles: in rare cases, rounding twice leads to the float's neighbour.
+    // TOML's numbers are doubles: in rare cases, rounding twice yields the float's neighbour.
     double read = 0;
     std::from_chars(digits.data(), digits.data() + digits.size(), read);
     return static_cast<float>(read) == x ? as_real(digits) : toml_text(static_cast<double>(x));
