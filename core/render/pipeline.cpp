@@ -34,7 +34,7 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// All samples of a tile's visibility should fit the second-level cache.
+/// All samples of a tile's visibility should fit into the second-level cache.
 int tile_size_for(int samples) { return samples <= 4 ? 64 : 32; }
 
 }  // namespace
@@ -47,7 +47,7 @@ Camera camera_of(const Observer& observer, int width, int height) {
 
 namespace {
 
-/// A scene as far as what is seen of it depends on it.
+/// The parts of a scene that visibility depends on.
 struct SeenScene {
     explicit SeenScene(const CompiledScene& scene, const Film& film, int size_of_tiles)
         : observer(scene.observer),
@@ -85,8 +85,8 @@ int tile_size_of(const CompiledScene& scene, const RenderOptions& options) {
     return options.tile_size > 0 ? options.tile_size : tile_size_for(scene.image.samples);
 }
 
-/// What one thread takes for a picture, if all of it is to be lit: what a point in one light and a triangle
-/// take on the processors of 2020.
+/// What one thread takes to shade a whole picture: the times per point and light, and per triangle, on
+/// processors of 2020.
 double rough_milliseconds(const CompiledScene& scene, const Film& film) {
     double triangles = 0;
     for (const SolidObject& object : scene.objects)
@@ -117,11 +117,11 @@ struct Renderer::Kept {
     Keep what;
     ProjectedScene projected;
     Pool<TileWorker> workers;
-    std::vector<SeenTile> tiles;    // where visibility is kept
-    std::optional<SeenScene> seen;  // what the tiles are of, once they are whole
-    bool is_first = true;           // picture
+    std::vector<SeenTile> tiles;    // if visibility is kept
+    std::optional<SeenScene> seen;  // what the complete tiles show
+    bool is_first = true;           // whether this is the first picture
 
-    /// The stages from projection on, or from light on.
+    /// Runs the stages from projection on, or from shading on if `is_seen`.
     RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options,
                             bool is_seen) {
         RenderStatistics statistics;
@@ -171,7 +171,7 @@ void Renderer::forget() noexcept { kept_->seen.reset(); }
 RenderStatistics Renderer::render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
     SeenScene to_see(scene, film, tile_size_of(scene, options));
     const bool is_seen = kept_->what == Keep::visibility && kept_->seen == to_see;
-    // Until the tiles are whole, they are of nothing: something may throw.
+    // Until they are complete, the tiles show nothing: something may throw.
     if (!is_seen) kept_->seen.reset();
     RenderStatistics statistics;
     with_threads(

@@ -33,12 +33,12 @@ struct SolidObject {
     std::string label;
     Mesh mesh;
     SurfaceModels surface;
-    std::optional<TriangleTree> tree{};  // of the mesh, where the reflection model shows its surroundings
+    std::optional<TriangleTree> tree{};  // of the mesh, if the reflection model shows its surroundings
 };
 
-/// A scene with its plugins loaded and its objects tessellated: what is the same for every picture of it. Not
-/// changed by rendering; between pictures its observer, lights, colours and models may be replaced at will
-/// (one that shows its surroundings wants its object's tree).
+/// A scene with its plugins loaded and its objects tessellated: what all pictures of it share. Rendering does
+/// not change it; between pictures its observer, lights, colours and models may be replaced at will (a
+/// reflection model that shows its surroundings needs its object's tree).
 struct CompiledScene {
     Observer observer;
     ImageSettings image;
@@ -47,36 +47,36 @@ struct CompiledScene {
     std::vector<SolidObject> objects;
 };
 
-/// Loads what the scene names, and nothing else, tessellates its objects and checks what only triangles can
-/// tell. Reports what fails, with the light or object that wanted it, and returns nothing then, or where
-/// errors were reported before; reports meshes that are not closed. `threads`: as in RenderOptions.
+/// Loads what the scene names, and nothing else, tessellates its objects and checks the constraints that only
+/// triangles can decide. Reports failures with the light or object concerned, and then returns nothing, as it
+/// does if errors were reported before; warns about meshes that are not closed. `threads`: as in
+/// RenderOptions.
 CANDELA_API std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
                                                  Diagnostics& diagnostics, int threads = 0);
 CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
                                                  Diagnostics& diagnostics, int threads = 0);
 
 struct RenderOptions {
-    int threads = 0;  // 0: all, but one for a first picture that is done before others would start
-    int tile_size =
-        0;  // pixels, a power of two from 16 on; 0: chosen. The picture is the same whatever it is.
+    int threads = 0;    // 0: all, but one for a first picture that takes less time than starting the others
+    int tile_size = 0;  // pixels, a power of two from 16 on; 0: chosen. The picture does not depend on it.
     std::function<void(std::size_t done, std::size_t all)>
         progress{};  // tiles; called by any thread, by several at once
 };
 
 struct RenderStatistics {
     std::size_t triangles = 0;
-    std::size_t pixels_shaded = 0;  // that show an object
+    std::size_t pixels_shaded = 0;  // pixels that show an object
     std::size_t points_lit = 0;     // faces, vertices and fragments at which light was evaluated
     float brightest = 0;            // the largest intensity of a channel at those points
     double seconds_projecting = 0;  // vertices, clipping, sorting into tiles
     double seconds_on_tiles = 0;    // visibility, light, reflection, pixels
 };
 
-/// Renders one picture. The same bytes for any number of threads and any tile size. Throws Error.
+/// Renders one picture: the same bytes for any number of threads and any tile size. Throws Error.
 CANDELA_API RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
 
-/// Renders pictures one after another, the same ones as candela::render(), and keeps from each to the next
-/// what the next can use. One thread at a time.
+/// Renders a sequence of pictures, each identical to that of candela::render(), and keeps from one to the
+/// next what can be reused. One thread at a time.
 class CANDELA_API Renderer {
   public:
     enum class Keep {
@@ -90,7 +90,7 @@ class CANDELA_API Renderer {
     Renderer& operator=(Renderer&&) noexcept;
     ~Renderer();
 
-    /// Forgets what is seen. To be called where a mesh has changed in place; all else is noticed.
+    /// Forgets visibility. Call it when a mesh has been changed in place; all other changes are detected.
     void forget() noexcept;
 
     RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
@@ -100,9 +100,9 @@ class CANDELA_API Renderer {
     std::unique_ptr<Kept> kept_;
 };
 
-/// Why a picture shows no light on any object, as the end of the sentence "nothing in the picture is lit: …",
-/// and what to do; empty where something is lit, or where the scene has no objects or no lights, which
-/// reading it has reported.
+/// Why a picture shows no light on any object, and what to do, as the end of the sentence "nothing in the
+/// picture is lit: …". Empty if something is lit, or if the scene has no objects or no lights, which reading
+/// it has reported.
 CANDELA_API std::string why_black(const CompiledScene& scene, const Film& film,
                                   const RenderStatistics& statistics);
 
@@ -113,7 +113,7 @@ namespace candela {
 /// The observer's camera for a picture of that size.
 Camera camera_of(const Observer& observer, int width, int height);
 
-/// What one tile sees.
+/// What is visible in one tile.
 struct SeenTile {
     int x0 = 0, y0 = 0, width = 0, height = 0, stride = 0;  // as in TileVisibility
     bool is_empty = true;                                   // nothing but the background
@@ -122,7 +122,7 @@ struct SeenTile {
     std::size_t plane() const { return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride); }
 };
 
-/// Finds what a tile sees. Holds a tile's arrays: one for each thread.
+/// Finds what a tile sees. Owns a tile's arrays: use one per thread.
 class TileViewer {
   public:
     void look(const ProjectedScene& projected, int tile, SeenTile& seen);
@@ -131,11 +131,11 @@ class TileViewer {
     TileVisibility visibility_;
 };
 
-/// Numbers different indices in the order in which they come: a sparse set (Briggs, Torczon 1993), which is
-/// emptied at no cost.
+/// Numbers distinct indices in order of arrival: a sparse set (Briggs, Torczon 1993), which is cleared at no
+/// cost.
 class SparseSet {
   public:
-    /// Forgets all; indices to come are below `count`.
+    /// Clears the set; indices to come are below `count`.
     void begin(std::size_t count) {
         if (number_.size() < count) number_.resize(count);
         indices_.clear();
@@ -158,15 +158,15 @@ class SparseSet {
     std::vector<std::uint32_t> indices_;
 };
 
-/// Turns what a tile sees into intensities. Holds a tile's arrays: one for each thread.
+/// Turns what a tile sees into intensities. Owns a tile's arrays: use one per thread.
 class TileShader {
   public:
     TileShader();
 
-    /// The scene that the calls to come are about; counts anew.
+    /// Sets the scene for the following calls and resets the counts.
     void begin(const CompiledScene& scene, const ProjectedScene& projected);
 
-    /// Lights what is seen, and stores it.
+    /// Shades what is visible and stores it.
     void run(const SeenTile& seen, Film& film);
 
     std::size_t pixels_shaded() const { return pixels_shaded_; }
@@ -186,7 +186,7 @@ class TileShader {
     const ProjectedScene* projected_ = nullptr;
     Lighting lighting_;
     SurfacePoints points_;
-    SparseSet sparse_set_;               // of a tile's faces, or sides of vertices
+    SparseSet sparse_set_;              // of a tile's faces, or sides of vertices
     std::vector<VertexSide> vertices_;  // in the order of their numbers
     Vec3Arrays batch_;                  // intensities of one batch
     Vec3Arrays places_;                 // of a tile's faces or vertices

@@ -1,4 +1,3 @@
-// One tile, from visibility to pixels.
 module;
 
 #include "candela/multiversion.h"
@@ -28,7 +27,7 @@ namespace candela {
 
 namespace {
 
-/// Adds the intensities of runs of fragments, one after the other, to the pixels that they are of.
+/// Adds the intensities of consecutive runs of fragments to their pixels.
 struct AddLoop {
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, ConstVec3Span intensity,
                                        Vec3Span pixels) {
@@ -43,8 +42,8 @@ struct AddLoop {
                 ++run;
                 continue;
             }
-            // Nothing else is seen there, and nothing stands there. The small triangles of a fine mesh are
-            // neighbours: their runs make one long one.
+            // Nothing else is visible there, and nothing has been written yet. The small triangles of a fine
+            // mesh are neighbours: their runs form one long run.
             std::uint32_t length = 0;
             do {
                 length += run->count;
@@ -61,7 +60,7 @@ struct AddLoop {
     }
 };
 
-/// A side of a vertex as an index.
+/// A vertex side as an index.
 std::uint32_t index_of(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t k, bool is_back) {
     return 2 * mesh.mesh.indices[3 * std::size_t{triangle} + k] + (is_back ? 1 : 0);
 }
@@ -100,8 +99,8 @@ void TileShader::run(const SeenTile& seen, Film& film) {
     film.store(seen.x0, seen.y0, seen.width, seen.height, std::as_const(pixels_).span(), seen.stride);
 }
 
-/// What is seen beside the objects, as much of each pixel as shows it. Leaves out the pixels that are one
-/// fragment's alone.
+/// Fills in the background, weighted by how much of each pixel shows it. Skips the pixels that belong to a
+/// single fragment.
 void TileShader::fill_background(const SeenTile& seen) {
     const Vec3Span pixels = pixels_.span();
     const bool is_uniform = scene_->environment.is_uniform();
@@ -155,7 +154,7 @@ void TileShader::add(std::span<const FragmentRun> runs, const ConstVec3Span& int
     multiversion<AddLoop>(runs.data(), runs.size(), intensity, pixels_.span());
 }
 
-/// Light at every fragment.
+/// Evaluates light at every fragment.
 void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const PointNeeds needs = scene_->objects[fragments.object].surface.needs();
     FragmentBatches batches(fragments);
@@ -166,7 +165,7 @@ void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& 
     }
 }
 
-/// Light once a face that the tile sees.
+/// Evaluates light once per visible face of the tile.
 void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
     sparse_set_.begin(mesh.mesh.triangle_count());
@@ -192,7 +191,7 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
     }
 }
 
-/// Light once a vertex of a face that the tile sees, and once a side of it; interpolated in between.
+/// Evaluates light once per vertex of the tile's visible faces, and per side; interpolates in between.
 void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments) {
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
     sparse_set_.begin(2 * mesh.mesh.vertex_count());

@@ -30,7 +30,7 @@ namespace {
 
 using kernel::vec3;
 
-/// V: towards the eye, or against the view in an orthographic picture.
+/// V: towards the eye, or against the view direction in an orthographic picture.
 struct ToObserverLoop {
     CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count,
                                        Vec3Span to_observer) {
@@ -86,9 +86,8 @@ struct SumLoop {
     }
 };
 
-/// The largest magnitude among many numbers; what is no finite number counts as larger than all that are.
-/// Without their sign, the bits of floats are integers in the same order, and integers have a maximum that is
-/// vectorised.
+/// The largest magnitude among many numbers; a non-finite number counts as larger than all finite ones.
+/// Without their sign, the bits of floats are in the same order as integers, whose maximum is vectorised.
 struct LargestLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span v, std::size_t count, std::int32_t* bits) {
         constexpr std::int32_t k_magnitude = 0x7fff'ffff;
@@ -113,7 +112,7 @@ float largest_of(ConstVec3Span v, std::size_t count) {
     return std::bit_cast<float>(bits);
 }
 
-/// After the batch arrays' last element, a stretch that nobody may write to.
+/// A stretch after the batch arrays' last element that nobody may write to.
 constexpr std::size_t k_guard = 16;
 constexpr float k_mark = -1.2345e30f;
 
@@ -126,7 +125,7 @@ std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
     return surface.reflection->shows_surroundings() ? points.count : points.filled;
 }
 
-/// What a plugin throws, as an error that names it.
+/// Turns what a plugin throws into an error that names it.
 template <class Call>
 void guarded(PluginKind kind, const std::string& plugin, Call call) {
     try {
@@ -181,7 +180,7 @@ void Lighting::mark_ends() {
 }
 
 bool Lighting::are_ends_intact() {
-    // All of them, without a way out in between: that is a vector loop.
+    // All of them, without an early exit: that is a vector loop.
     std::uint32_t differing = 0;
     for (const Vec3Arrays* const arrays : written_by_plugins()) {
         for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) {

@@ -1,5 +1,5 @@
-// Light on points of a surface: normals from the shading plugin, light from the light plugins, colour from
-// the reflection plugin.
+// Shading of surface points: normals from the shading plugin, light from the light plugins, reflected light
+// from the reflection plugin.
 module;
 
 #include "candela/api.h"
@@ -28,13 +28,13 @@ import candela.shading;
 
 export namespace candela {
 
-/// A light that shines, and the plugin that it comes from.
+/// A light, and the plugin it comes from.
 struct LitSource {
     std::string plugin;
     std::unique_ptr<Light> light;
 };
 
-/// How an object's surface looks.
+/// The look of an object's surface.
 struct SurfaceModels {
     Rgb color;
     std::string shading_plugin;
@@ -45,7 +45,7 @@ struct SurfaceModels {
     PointNeeds needs() const;
 };
 
-/// An object's inside, for a model that light goes through.
+/// The inside of an object, for a transparent model.
 struct Interior {
     const Mesh* mesh = nullptr;
     const TriangleTree* tree =
@@ -54,30 +54,30 @@ struct Interior {
 
 class ObjectSurroundings;
 
-/// What shines on a scene, and from where it is looked at.
+/// The lights of a scene, and the view of it.
 struct LitScene {
     std::span<const LitSource> lights;
     const Environment* environment = nullptr;
     Camera camera;
 };
 
-/// Evaluates light, batch by batch. Holds the batch's arrays: one for each thread.
+/// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
 class CANDELA_API Lighting {
   public:
     Lighting();
     ~Lighting();
 
-    /// The scene that the calls to come are about.
+    /// Sets the scene for the following calls.
     void begin(const LitScene& scene);
 
-    /// Writes the intensity that `points` send to the observer: I_a + sum of I_d + I_s over the lights (CA
-    /// DD6), into arrays with room for `points.filled`. Returns the largest of them. Throws Error, naming the
-    /// plugin, where one throws, gives what is no finite number, or writes beyond its batch.
+    /// Writes the intensity that `points` send to the observer, I_a + the sum of I_d + I_s over the lights
+    /// (CA DD6), into arrays with room for `points.filled`. Returns the largest intensity. Throws Error,
+    /// naming the plugin, if one throws, yields a non-finite number, or writes beyond its batch.
     float light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 const Vec3Span& intensity);
 
   private:
-    /// Looks at what each plugin gave right after its turn, instead of once at the end.
+    /// Checks the results of each plugin right after its turn, instead of once at the end.
     enum class Scrutiny : bool { none, each_step };
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 Scrutiny scrutiny);
@@ -89,7 +89,7 @@ class CANDELA_API Lighting {
                        std::initializer_list<const Vec3Arrays*> results);
 
     LitScene scene_;
-    std::unique_ptr<ObjectSurroundings> surroundings_;  // once a model asks
+    std::unique_ptr<ObjectSurroundings> surroundings_;  // created when a model asks
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;
     Vec3Arrays ambient_, diffuse_, specular_;
@@ -99,15 +99,15 @@ class CANDELA_API Lighting {
 
 namespace candela {
 
-/// The normals that an object's shading model finds, on the side that triangles are seen from the front.
+/// The normals from an object's shading model, on the side from which triangles are seen from the front.
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
 
-/// What one object's models see of the world around it.
+/// What the models of one object see of the world around it.
 class ObjectSurroundings final : public Surroundings {
   public:
     explicit ObjectSurroundings(const Environment& environment) : environment_(environment) {}
 
-    /// The object that the calls to come are about.
+    /// Sets the object for the following calls.
     void set_object(const SurfaceModels& surface, const Interior& interior) {
         surface_ = &surface;
         interior_ = interior;

@@ -1,4 +1,3 @@
-// What an object's models see of the world around it.
 module;
 
 #include <algorithm>
