@@ -3,7 +3,7 @@
 //     Incident x_illuminate(XLight light, Receiver r)     what a light with one direction sends
 //     vec3 x_illuminate_ambient(XLight light, Receiver r) what an ambient light sends
 //
-// A source that is modelled by several samples, which add up:
+// A source modelled by several samples, which add up:
 //
 //     int x_sample_count(XLight light)                          at least 1
 //     Incident x_illuminate(XLight light, Receiver r, int index) what sample `index` sends, 0 to the count
@@ -51,7 +51,7 @@ CANDELA_KERNEL_INLINE void put(const Vec3Span& span, std::size_t i, vec3 v) {
 
 template <class Params, auto illuminate>
 struct IlluminateLoop {
-    /// `index` is the number of the sample where the kernel function asks for it.
+    /// Passes `index`, the number of the sample, if the kernel function takes it.
     template <class... Index>
     CANDELA_BATCH_LOOP static void run(Params light, ReceiverBatch receivers, IncidentBatch incident,
                                        Index... index) {
@@ -127,7 +127,7 @@ class KernelAmbientLight final : public Light {
     CANDELA_KERNEL_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), \
                           prefix, Params, fields, __VA_ARGS__)
 
-/// A plugin from the kernel functions `prefix_illuminate` and `prefix_sample_count` of a source of several
+/// A plugin from the kernel functions `prefix_illuminate` and `prefix_sample_count` of a source with several
 /// samples; `Params` is their first argument.
 #define CANDELA_SAMPLED_LIGHT_PLUGIN(prefix, Params, fields, ...)                                          \
     CANDELA_KERNEL_PLUGIN(light,                                                                           \

@@ -1,8 +1,8 @@
-// What every plugin needs: its parameters, tied to the members of a struct, and its two exported functions.
+// What every plugin needs: its parameters, mapped to the members of a struct, and its two exported functions.
 //
-// A plugin's source includes the header of its kind (light_plugin.h, reflection_plugin.h, shading_plugin.h,
-// shape_plugin.h, image_plugin.h), which includes this one, and ends with that header's macro.
-// CANDELA_PLUGIN_NAME and CANDELA_PLUGIN_VERSION come from candela_add_plugin().
+// A plugin's source includes the header of its kind (light_plugin.h, reflection_plugin.h, …), which includes
+// this one, and ends with that header's macro. CANDELA_PLUGIN_NAME and CANDELA_PLUGIN_VERSION come from
+// candela_add_plugin().
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ struct Field {
         if (text != nullptr) params.*text = value.text;
     }
 
-    // The rest of the declaration, after the kind of value: real(...).at_least(0).unit("m").
+    // The rest of the declaration, after the type of value: real(...).minimum(0).unit("m").
 
     constexpr Field minimum(float low) const {
         return with([&](ParamSpec& s) { s.minimum = low; });
@@ -78,7 +78,7 @@ struct Field {
     }
 };
 
-// Declarations. `meaning` is one sentence; a default is written as a person writes it in a scene: degrees,
+// Declarations. `meaning` is one sentence; a default is given as a person writes it in a scene: degrees,
 // colours 0-255.
 
 template <class P>
@@ -86,7 +86,7 @@ constexpr Field<P> real(float P::* member, const char* name, float default_value
     return {.spec = {.name = name, .type = ParamType::real, .meaning = meaning, .default_value = {{default_value}}},
             .real = member};
 }
-/// In degrees for the scene, in radians for the plugin.
+/// In degrees in the scene, in radians for the plugin.
 template <class P>
 constexpr Field<P> angle(float P::* member, const char* name, float default_value, const char* meaning) {
     return real(member, name, default_value, meaning).unit("deg");
@@ -100,7 +100,7 @@ constexpr Field<P> integer(std::int32_t P::* member, const char* name, std::int3
                      .default_value = {.integer = default_value}},
             .integer = member};
 }
-/// One of `words`; the member receives its index, the default is the first.
+/// One of `words`; the member receives its index, and the default is the first.
 template <class P>
 constexpr Field<P> choice(std::int32_t P::* member, const char* name, std::span<const char* const> words,
                           const char* meaning) {
@@ -154,7 +154,7 @@ Params params_from(const std::array<Field<Params>, count>& fields, std::span<con
     return params;
 }
 
-/// What a plugin says of itself beyond its parameters.
+/// What a plugin says about itself, apart from its parameters.
 struct About {
     const char* title = "";
     const char* summary = "";
@@ -169,7 +169,8 @@ struct About {
 struct NoParams {};
 inline constexpr std::array<Field<NoParams>, 0> k_no_fields{};
 
-/// What a descriptor says of a plugin's kernel; `parameters` is the name of `Params`, as its author wrote it.
+/// The descriptor's entry for a plugin's kernel; `parameters` is the name of `Params`, as its author wrote
+/// it.
 template <class Params>
 KernelText kernel_text(const char* prefix, const char* parameters) {
     const std::string_view qualified = parameters;
@@ -190,7 +191,7 @@ constexpr auto fields(Fields... all) {
     return std::array<std::common_type_t<Fields...>, sizeof...(Fields)>{all...};
 }
 
-/// Calls a kernel function with the parameters first, or without them where it takes none.
+/// Calls a kernel function with the parameters first, or without them if it takes none.
 template <auto function, class Params, class... Arguments>
 CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
     if constexpr (std::is_invocable_v<decltype(function), Params, Arguments...>) {
@@ -204,8 +205,8 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 
 #define CANDELA_EXPORT __attribute__((visibility("default")))
 
-/// Exports a plugin of `kind_` whose instances are made by `new Model(params)`, `params` filled through
-/// `fields_`, an array of candela::sdk::Field. The rest is a candela::sdk::About.
+/// Exports a plugin of `kind_` whose instances are created by `new Model(params)`, with `params` filled
+/// according to `fields_`, an array of candela::sdk::Field. The rest is a candela::sdk::About.
 #define CANDELA_PLUGIN(kind_, Model, fields_, ...) \
     CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::KernelText{}, __VA_ARGS__)
 

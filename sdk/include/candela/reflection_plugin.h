@@ -3,7 +3,7 @@
 //     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
 //     vec3 x_reflect_ambient(XMaterial m, Surface s)
 //
-// They answer what a light's intensities and ambient intensity are multiplied by.
+// They return the factors for a light's intensities and for the ambient intensity.
 #pragma once
 
 #include "candela/multiversion.h"
