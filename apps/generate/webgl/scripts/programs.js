@@ -1,10 +1,9 @@
-// Shader programs: one for each pair of a shading and a reflection model, and the passes that cover the whole picture.
-
 const HEADER = "#version 300 es\nprecision highp float;\nprecision highp int;\n";
 
+/** `detail` holds what the graphics driver says. */
 class ShaderError extends Error {
-    constructor(text, log) {
-        super(text);
+    constructor(message, log) {
+        super(message);
         this.detail = log;
     }
 }
@@ -17,19 +16,19 @@ class Program {
         this.shaders = [
             [gl.VERTEX_SHADER, vertexSource],
             [gl.FRAGMENT_SHADER, fragmentSource],
-        ].map(([kind, source]) => {
-            const shader = gl.createShader(kind);
+        ].map(([type, source]) => {
+            const shader = gl.createShader(type);
             gl.shaderSource(shader, HEADER + source);
             gl.compileShader(shader);
             gl.attachShader(this.handle, shader);
             return shader;
         });
         gl.linkProgram(this.handle);
-        this.places = new Map();
+        this.locations = new Map();
         this.isChecked = false;
     }
 
-    /// Apart from the constructor, so that a browser may compile many at once.
+    /** Apart from the constructor, since asking for the status waits: until then a browser may compile many at once. */
     check() {
         const { gl } = this;
         if (this.isChecked || gl.isContextLost()) return this;
@@ -43,45 +42,48 @@ class Program {
         return this;
     }
 
-    place(name) {
-        if (!this.places.has(name)) this.places.set(name, this.gl.getUniformLocation(this.handle, name));
-        return this.places.get(name);
+    location(name) {
+        if (!this.locations.has(name)) this.locations.set(name, this.gl.getUniformLocation(this.handle, name));
+        return this.locations.get(name);
     }
 
-    set(name, { kind, value }) {
-        const { gl } = this, place = this.place(name);
-        if (place === null) return;
-        if (kind === "int") gl.uniform1i(place, value);
-        else if (kind === "float") gl.uniform1f(place, value);
-        else if (kind === "vec3") gl.uniform3f(place, value[0], value[1], value[2]);
-        else gl.uniformMatrix4fv(place, false, value);
+    /** Of the program in use. A uniform that the compiler removed is passed over. */
+    setUniform(name, { kind, value }) {
+        const { gl } = this, at = this.location(name);
+        if (at === null) return;
+        if (kind === "int") gl.uniform1i(at, value);
+        else if (kind === "float") gl.uniform1f(at, value);
+        else if (kind === "vec3") gl.uniform3f(at, value[0], value[1], value[2]);
+        else gl.uniformMatrix4fv(at, false, value);
     }
 }
 
-class Programs {
+/** Shader programs by what they draw, each compiled once. */
+export class ProgramCache {
     constructor(gl, scene) {
         this.gl = gl;
         this.scene = scene;
-        this.cache = new Map();
+        this.programs = new Map();
     }
 
-    /// Starts to compile what is not there yet.
-    lit(shading, reflection, isClosed) {
+    /** The program for a pair of models; it may still be compiling (Program.check waits). */
+    lighting(shading, reflection, isClosed) {
         const key = `${shading} ${reflection} ${isClosed}`;
-        if (!this.cache.has(key)) {
+        if (!this.programs.has(key)) {
             const { shaders, shading_models, reflection_models } = this.scene;
             const s = shading_models[shading], r = reflection_models[reflection];
             const common =
                 (isClosed ? "" : "#define TWO_SIDED\n") + [shaders.prelude, shaders.lights, r.glsl, s.glsl, ""].join("\n");
             const title = `${r.title} with the shading model ${s.title}`;
-            this.cache.set(key, new Program(this.gl, title, common + shaders.vertex, common + shaders.fragment));
+            this.programs.set(key, new Program(this.gl, title, common + shaders.vertex, common + shaders.fragment));
         }
-        return this.cache.get(key);
+        return this.programs.get(key);
     }
 
+    /** The program of a pass over all pixels, compiled. */
     pass(name) {
         const { screen, [name]: fragment } = this.scene.shaders;
-        if (!this.cache.has(name)) this.cache.set(name, new Program(this.gl, `its pass "${name}"`, screen, fragment));
-        return this.cache.get(name).check();
+        if (!this.programs.has(name)) this.programs.set(name, new Program(this.gl, `its pass "${name}"`, screen, fragment));
+        return this.programs.get(name).check();
     }
 }

@@ -1,10 +1,12 @@
-// Hands on the picture: dragging, pinching, the wheel, keys.
+import { orbit, zoom } from "./camera.js";
+import { length, subtract } from "./vectors.js";
 
-const KEY_TURN = Math.PI / 36;
-const KEY_ZOOM = 1.1;
+const KEY_ANGLE = Math.PI / 36;
+const KEY_FACTOR = 1.1;
 
-class Gestures {
-    /// `onReset`: what 0 and Home do.
+/** Orbits and zooms by dragging, pinching, the wheel and keys. */
+export class Gestures {
+    /** `onReset`: called for the keys 0 and Home. */
     constructor(canvas, settings, onReset) {
         this.canvas = canvas;
         this.settings = settings;
@@ -17,15 +19,15 @@ class Gestures {
         canvas.addEventListener("keydown", (event) => this.key(event));
     }
 
-    turn(turn, rise) {
-        this.settings.moveObserver(orbited(this.settings.observer(), turn, rise));
+    orbit(azimuth, elevation) {
+        this.settings.moveObserver(orbit(this.settings.observer(), azimuth, elevation));
     }
 
-    /// Not so near or far that nothing would be left to see.
+    /** Within limits, beyond which nothing would be left to see. */
     zoom(factor) {
-        const own = this.settings.scene.observer, moved = zoomed(this.settings.observer(), factor);
-        const sizeOf = (o) => (o.projection === "orthographic" ? o.height : lengthOf(subtract(o.position, o.look_at)));
-        const ratio = sizeOf(moved) / sizeOf(own);
+        const initial = this.settings.scene.observer, moved = zoom(this.settings.observer(), factor);
+        const viewSize = (o) => (o.projection === "orthographic" ? o.height : length(subtract(o.position, o.look_at)));
+        const ratio = viewSize(moved) / viewSize(initial);
         if (ratio > 0.005 && ratio < 200) this.settings.moveObserver(moved);
     }
 
@@ -36,7 +38,7 @@ class Gestures {
         this.canvas.classList.add("held");
     }
 
-    spread() {
+    pointerDistance() {
         const [[ax, ay], [bx, by]] = this.pointers.values();
         return Math.hypot(ax - bx, ay - by);
     }
@@ -44,13 +46,13 @@ class Gestures {
     move(event) {
         const from = this.pointers.get(event.pointerId);
         if (!from) return;
-        const spread = this.pointers.size === 2 ? this.spread() : 0;
+        const distance = this.pointers.size === 2 ? this.pointerDistance() : 0;
         this.pointers.set(event.pointerId, [event.clientX, event.clientY]);
         if (this.pointers.size === 1) {
-            const perPixel = Math.PI / Math.min(this.canvas.clientWidth, this.canvas.clientHeight);
-            this.turn((from[0] - event.clientX) * perPixel, (event.clientY - from[1]) * perPixel);
-        } else if (spread > 0) {
-            this.zoom(spread / Math.max(this.spread(), 1));
+            const anglePerPixel = Math.PI / Math.min(this.canvas.clientWidth, this.canvas.clientHeight);
+            this.orbit((from[0] - event.clientX) * anglePerPixel, (event.clientY - from[1]) * anglePerPixel);
+        } else if (distance > 0) {
+            this.zoom(distance / Math.max(this.pointerDistance(), 1));
         }
     }
 
@@ -67,21 +69,21 @@ class Gestures {
 
     key(event) {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
-        const turn = event.shiftKey ? KEY_TURN / 5 : KEY_TURN;
-        const deeds = {
-            ArrowLeft: () => this.turn(-turn, 0),
-            ArrowRight: () => this.turn(turn, 0),
-            ArrowUp: () => this.turn(0, turn),
-            ArrowDown: () => this.turn(0, -turn),
-            "+": () => this.zoom(1 / KEY_ZOOM),
-            "=": () => this.zoom(1 / KEY_ZOOM),
-            "-": () => this.zoom(KEY_ZOOM),
+        const angle = event.shiftKey ? KEY_ANGLE / 5 : KEY_ANGLE;
+        const actions = new Map(Object.entries({
+            ArrowLeft: () => this.orbit(-angle, 0),
+            ArrowRight: () => this.orbit(angle, 0),
+            ArrowUp: () => this.orbit(0, angle),
+            ArrowDown: () => this.orbit(0, -angle),
+            "+": () => this.zoom(1 / KEY_FACTOR),
+            "=": () => this.zoom(1 / KEY_FACTOR),
+            "-": () => this.zoom(KEY_FACTOR),
             "0": this.onReset,
             Home: this.onReset,
-        };
-        const deed = member(deeds, event.key);
-        if (!deed) return;
+        }));
+        const action = actions.get(event.key);
+        if (!action) return;
         event.preventDefault();
-        deed();
+        action();
     }
 }

@@ -1,57 +1,65 @@
-// A control for a setting. Each is an element of class "setting" with a method `refresh`, which shows the setting's value.
+import { fromHex, toHex } from "./colors.js";
+import { element, isolated, newId } from "./elements.js";
+import { sliderRange } from "./sliders.js";
+import { isNumber, roundToFloat } from "./values.js";
 
 const AXES = ["x", "y", "z"];
 const CHANNELS = ["red", "green", "blue"];
 
-class Controls {
-    constructor(settings, reach) {
+/** Makes a control for a setting: an element of class "setting" whose method `refresh` shows the setting's value. */
+export class Controls {
+    /** `extent`: the box that points move in, { low, high } by axis. */
+    constructor(settings, extent) {
         this.settings = settings;
-        this.reach = reach;
+        this.extent = extent;
     }
 
-    /// Wraps inputs: a name, what it means, what is wrong with what was put in.
+    /** Inputs with a caption, an explanation and a place for errors. */
     row(path, title, inputs, { refresh, isGroup = false }) {
         const { parameter } = this.settings.find(path);
-        const problem = element("p", { class: "wrong", id: newId("wrong"), role: "alert" });
+        const message = element("p", { class: "wrong", id: newId("wrong"), role: "alert" });
         const meaning = element("p", { class: "meaning", id: newId("meaning") }, parameter.meaning);
-        const caption = element(isGroup ? "div" : "label", { class: "name", id: newId("name") }, label(title));
+        const caption = element(isGroup ? "div" : "label", { class: "name", id: newId("name") }, isolated(title));
         if (parameter.unit !== "") caption.append(element("span", { class: "unit" }, parameter.unit));
         const result = element(
             "div",
-            { class: `setting ${parameter.type}`, "data-path": path, role: isGroup ? "group" : null, "aria-labelledby": isGroup ? caption.id : null },
-            caption, ...inputs, parameter.meaning === "" ? null : meaning, problem,
+            {
+                class: `setting ${parameter.type}`, "data-path": path,
+                role: isGroup ? "group" : null, "aria-labelledby": isGroup ? caption.id : null,
+            },
+            caption, ...inputs, parameter.meaning === "" ? null : meaning, message,
         );
-        const named = [...result.querySelectorAll("input, select")];
+        const fields = [...result.querySelectorAll("input, select")];
         if (!isGroup) {
-            named[0].id ||= newId("input");
-            caption.htmlFor = named[0].id;
+            fields[0].id ||= newId("input");
+            caption.htmlFor = fields[0].id;
         }
-        for (const input of named) {
-            if (parameter.meaning !== "") input.setAttribute("aria-describedby", `${meaning.id} ${problem.id}`);
-            else input.setAttribute("aria-describedby", problem.id);
+        for (const input of fields) {
+            if (parameter.meaning !== "") input.setAttribute("aria-describedby", `${meaning.id} ${message.id}`);
+            else input.setAttribute("aria-describedby", message.id);
         }
         result.refresh = () => {
-            problem.textContent = "";
-            for (const input of named) input.removeAttribute("aria-invalid");
+            message.textContent = "";
+            for (const input of fields) input.removeAttribute("aria-invalid");
             refresh(this.settings.get(path));
             result.classList.toggle("changed", this.settings.changes.has(path));
         };
         result.take = (value, input) => {
-            const wrong = this.settings.change(path, value);
-            problem.textContent = wrong === null ? "" : `${title} ${wrong}.`;
-            wrong === null ? input.removeAttribute("aria-invalid") : input.setAttribute("aria-invalid", "true");
+            const error = this.settings.change(path, value);
+            message.textContent = error === null ? "" : `${title} ${error}.`;
+            error === null ? input.removeAttribute("aria-invalid") : input.setAttribute("aria-invalid", "true");
             result.classList.toggle("changed", this.settings.changes.has(path));
         };
         result.refresh();
         return result;
     }
 
-    /// A slider and a number field that show one number; `take` gets it. The first input is the number field.
+    /** A number field and a slider that show the same number; `take` gets what is entered, and in which of them. */
     numberPair(parameter, { low, high, step }, name, take) {
         const number = element("input", {
             type: "number", step: parameter.type === "integer" ? "1" : "any", inputMode: "decimal", "aria-label": name,
-            min: parameter.minimum === null ? "" : tidy(parameter.minimum),
-            max: parameter.maximum === null ? "" : tidy(parameter.maximum),
+            min: parameter.minimum === null ? "" : roundToFloat(parameter.minimum),
+            max: parameter.maximum === null ? "" : roundToFloat(parameter.maximum),
         });
         const slider = element("input", { type: "range", min: low, max: high, step, "aria-label": name && `${name}, slider` });
         const fill = () => slider.style.setProperty("--filled", `${(100 * (slider.value - low)) / (high - low)}%`);
@@ -62,10 +70,10 @@ class Controls {
             take(value, number);
         });
         slider.addEventListener("input", () => {
-            number.value = tidy(Number(slider.value));
+            number.value = roundToFloat(Number(slider.value));
             number.removeAttribute("aria-invalid");
             fill();
-            take(tidy(Number(slider.value)), slider);
+            take(roundToFloat(Number(slider.value)), slider);
         });
         const show = (value) => {
             number.value = slider.value = value;
@@ -75,21 +83,24 @@ class Controls {
     }
 
     scalar(path, title) {
-        const { parameter, own } = this.settings.find(path);
-        const pair = this.numberPair(parameter, sliderRange(parameter, own), null, (value, input) => row.take(value, input));
+        const { parameter, initial } = this.settings.find(path);
+        const pair = this.numberPair(parameter, sliderRange(parameter, initial), null, (value, input) => row.take(value, input));
         const row = this.row(path, title, [pair.number, pair.slider], { refresh: pair.show });
         pair.slider.setAttribute("aria-label", `${title}, slider`);
         return row;
     }
 
-    /// Three numbers below one another.
+    /** A line for each of three numbers. */
     vector(path, title, names) {
-        const { parameter, own } = this.settings.find(path);
+        const { parameter, initial } = this.settings.find(path);
         const pairs = names.map((name, axis) =>
-            this.numberPair(parameter, sliderRange(parameter, own, axis, this.reach), `${title} ${name}`, (value, input) =>
+            this.numberPair(parameter, sliderRange(parameter, initial, axis, this.extent), `${title} ${name}`, (value, input) =>
                 row.take(this.settings.get(path).with(axis, value), input)));
         const lines = pairs.map(({ number, slider }, axis) =>
-            element("div", { class: `line ${names[axis]}` }, element("span", { class: "axis", "aria-hidden": "true" }, names[axis][0]), number, slider));
+            element(
+                "div", { class: `line ${names[axis]}` },
+                element("span", { class: "axis", "aria-hidden": "true" }, names[axis][0]), number, slider,
+            ));
         const row = this.row(path, title, lines, {
             isGroup: true,
             refresh: (value) => pairs.forEach((pair, axis) => pair.show(value[axis])),
@@ -97,37 +108,36 @@ class Controls {
         return row;
     }
 
-    /// One number for all channels, until somebody wants three or the scene has three.
-    triple(path, title) {
-        const { parameter, own } = this.settings.find(path);
-        const isGrey = ([r, g, b]) => r === g && g === b;
-        const holder = element("div", { class: "triple-holder" });
+    /** One number for all channels, until someone asks for three or they differ. */
+    rgb(path, title) {
+        const { parameter, initial } = this.settings.find(path);
+        const isGray = ([r, g, b]) => r === g && g === b;
+        const holder = element("div");
         const split = element("button", { type: "button", class: "split", "aria-label": `${title}: one number for each channel` }, "rgb");
-        const build = (isOne) => {
-            const pair = (name, take) => this.numberPair(parameter, sliderRange(parameter, own), name, take);
+        const build = (isSingle) => {
+            const pair = (name, take) => this.numberPair(parameter, sliderRange(parameter, initial), name, take);
             let row;
-            if (isOne) {
+            if (isSingle) {
                 const one = pair(null, (value, input) => row.take([value, value, value], input));
                 row = this.row(path, title, [one.number, one.slider], { refresh: ([value]) => one.show(value) });
                 one.slider.setAttribute("aria-label", `${title}, slider`);
             } else {
                 row = this.vector(path, title, CHANNELS);
             }
-            const showsOne = isOne;
             const refresh = row.refresh;
-            row.refresh = () => (showsOne && !isGrey(this.settings.get(path)) ? build(false) : refresh());
-            split.setAttribute("aria-pressed", String(!isOne));
+            row.refresh = () => (isSingle && !isGray(this.settings.get(path)) ? build(false) : refresh());
+            split.setAttribute("aria-pressed", String(!isSingle));
             row.querySelector(".name").after(split);
             holder.replaceChildren(row);
         };
         split.addEventListener("click", () => {
-            const isOne = split.getAttribute("aria-pressed") === "true";
+            const isSingle = split.getAttribute("aria-pressed") === "true";
             const [first] = this.settings.get(path);
-            if (isOne && !isGrey(this.settings.get(path))) this.settings.change(path, [first, first, first]);
-            build(isOne);
+            if (isSingle && !isGray(this.settings.get(path))) this.settings.change(path, [first, first, first]);
+            build(isSingle);
             split.focus();
         });
-        build(isGrey(this.settings.get(path)));
+        build(isGray(this.settings.get(path)));
         return holder;
     }
 
@@ -135,12 +145,12 @@ class Controls {
         const input = element("input", { type: "color" });
         const numbers = element("output", { class: "numbers" });
         input.addEventListener("input", () => {
-            row.take(colorOf(input.value), input);
-            numbers.textContent = colorOf(input.value).join(" ");
+            row.take(fromHex(input.value), input);
+            numbers.textContent = fromHex(input.value).join(" ");
         });
         const row = this.row(path, title, [input, numbers], {
             refresh: (value) => {
-                input.value = hexOf(value);
+                input.value = toHex(value);
                 numbers.textContent = value.join(" ");
             },
         });
@@ -163,7 +173,7 @@ class Controls {
         return row;
     }
 
-    /// The control for what stands at a path, by its type; null where there is nothing.
+    /** The control for a path, as its parameter's type asks; null if there is no such setting. */
     of(path, title) {
         const found = this.settings.find(path);
         if (found === null) return null;
@@ -172,10 +182,13 @@ class Controls {
             case "integer":
                 return this.scalar(path, title);
             case "boolean":
+                return this.boolean(path, title);
             case "choice":
+                return this.choice(path, title);
             case "color":
+                return this.color(path, title);
             case "rgb":
-                return this[found.parameter.type](path, title);
+                return this.rgb(path, title);
             default:
                 return this.vector(path, title, AXES);
         }

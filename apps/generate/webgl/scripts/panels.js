@@ -1,9 +1,11 @@
-// What stands beside the picture: models and their formulas, objects, lights, the observer.
+import { toHex } from "./colors.js";
+import { element, isolated } from "./elements.js";
+import { displayName } from "./scene.js";
 
-const OPEN_AT_FIRST = 2;
+const INITIALLY_OPEN = 2;
 
-/// A part that folds. Its contents are made when it is first opened, since scenes may have many.
-function folded(summary, isOpen, contents) {
+/** A <details> whose contents are made when it is first opened, since scenes may have many. */
+function disclosure(summary, isOpen, contents) {
     const body = element("div", { class: "body" });
     const details = element("details", { open: isOpen }, element("summary", {}, ...summary), body);
     const fill = () => {
@@ -18,31 +20,32 @@ function folded(summary, isOpen, contents) {
     return details;
 }
 
-class Panels {
+/** The controls beside the picture: models and their formulas, objects, lights, the observer. */
+export class Panels {
     constructor(settings, controls) {
         this.settings = settings;
         this.scene = settings.scene;
         this.controls = controls;
-        this.folds = [];
-        settings.listeners.push((path, byHand) => this.changed(path, byHand));
+        this.sections = [];
+        settings.listeners.push((path, isFromControl) => this.changed(path, isFromControl));
     }
 
     build() {
         this.fillModels(document.getElementById("models"));
         this.fillFormulas();
-        this.fill("objects", this.scene.objects, (object, i) => this.objectFold(object, i));
-        this.fill("lights", this.scene.lights, (light, i) => this.lightFold(light, i));
+        this.fill("objects", this.scene.objects, (object, i) => this.objectSection(object, i));
+        this.fill("lights", this.scene.lights, (light, i) => this.lightSection(light, i));
         const observer = this.settings.observerParameters();
         document.getElementById("observer").append(
-            folded([element("span", { class: "title" }, "Observer")], false, () =>
+            disclosure([element("span", { class: "title" }, "Observer")], false, () =>
                 observer.map(({ name }) => this.controls.of(`observer.${name}`, name))));
     }
 
-    fill(id, things, make) {
+    fill(id, items, make) {
         const section = document.getElementById(id);
-        section.hidden = things.length === 0;
-        section.querySelector(".count").textContent = things.length > 1 ? String(things.length) : "";
-        section.append(...things.map(make));
+        section.hidden = items.length === 0;
+        section.querySelector(".count").textContent = items.length > 1 ? String(items.length) : "";
+        section.append(...items.map(make));
     }
 
     modelTitle(kind, name) {
@@ -57,7 +60,7 @@ class Panels {
         section.append(select("shading", "Shading model"), select("reflection", "Reflection model"));
     }
 
-    /// Every model in force, once; those of the most objects first.
+    /** The names of all models in force, by the number of objects that use them, most first. */
     modelsInForce(kind) {
         const uses = new Map();
         for (const object of this.scene.objects) {
@@ -75,7 +78,7 @@ class Panels {
                 line.style.setProperty("--indent", text.search(/\S|$/) + 4);
                 return line;
             });
-            return folded(
+            return disclosure(
                 [element("span", { class: "title" }, model.title), element("span", { class: "tag" }, kind)],
                 isOpen,
                 () => [
@@ -92,13 +95,13 @@ class Panels {
         );
     }
 
-    objectFold(object, i) {
+    objectSection(object, i) {
         const { settings, controls } = this;
         const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
         const models = element("span", { class: "tag" });
-        const fold = folded(
-            [swatch, element("span", { class: "title" }, label(shownLabel(object.label, "object", i))), models],
-            i < OPEN_AT_FIRST && this.scene.objects.length <= 3 * OPEN_AT_FIRST,
+        const section = disclosure(
+            [swatch, element("span", { class: "title" }, isolated(displayName(object.label, "object", i))), models],
+            i < INITIALLY_OPEN && this.scene.objects.length <= 3 * INITIALLY_OPEN,
             () => {
                 const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
                 const of = (kind, model, values) => this.scene[`${kind}_models`][model].parameters.map(({ name }) =>
@@ -110,57 +113,57 @@ class Panels {
                 ].filter((control) => control !== null);
             },
         );
-        fold.show = () => {
-            swatch.style.backgroundColor = hexOf(settings.get(`object.${i}.color`));
+        section.show = () => {
+            swatch.style.backgroundColor = toHex(settings.get(`object.${i}.color`));
             models.textContent = ["reflection", "shading"]
                 .map((kind) => this.scene[`${kind}_models`][settings.modelOf(object, kind)].title).join(" · ");
         };
-        return this.named(fold, shownLabel(object.label, "object", i), `object.${i}.`);
+        return this.register(section, displayName(object.label, "object", i), `object.${i}.`);
     }
 
-    lightFold(light, i) {
+    lightSection(light, i) {
         const { settings, controls } = this;
         const model = this.scene.light_models[light.model];
-        const name = shownLabel(light.label, "light", i);
+        const name = displayName(light.label, "light", i);
         const color = model.parameters.find(({ type }) => type === "color");
         const swatch = element("span", { class: "swatch round", "aria-hidden": "true" });
-        const fold = folded(
-            [swatch, element("span", { class: "title" }, label(name)), element("span", { class: "tag" }, model.title)],
-            i < OPEN_AT_FIRST && this.scene.lights.length <= 3 * OPEN_AT_FIRST,
+        const section = disclosure(
+            [swatch, element("span", { class: "title" }, isolated(name)), element("span", { class: "tag" }, model.title)],
+            i < INITIALLY_OPEN && this.scene.lights.length <= 3 * INITIALLY_OPEN,
             () => model.parameters.map((p) => controls.of(`light.${i}.value.${p.name}`, p.name)).filter((control) => control !== null),
         );
-        // Beside the summary, not in it: a control inside of a control cannot be reached by everybody.
-        const isLit = controls.boolean(`light.${i}.on`, `${name} is on`);
-        isLit.classList.add("switch");
-        fold.show = () => {
+        // Beside the summary, not in it: assistive technology cannot reach a control within a control.
+        const lightSwitch = controls.boolean(`light.${i}.on`, `${name} is on`);
+        lightSwitch.classList.add("switch");
+        section.show = () => {
             const path = `light.${i}.value.${color?.name}`;
-            if (color && settings.find(path)) swatch.style.backgroundColor = hexOf(settings.get(path));
-            fold.classList.toggle("dark", !settings.get(`light.${i}.on`));
+            if (color && settings.find(path)) swatch.style.backgroundColor = toHex(settings.get(path));
+            section.classList.toggle("dark", !settings.get(`light.${i}.on`));
         };
-        return element("div", { class: "light" }, isLit, this.named(fold, name, `light.${i}.`));
+        return element("div", { class: "light" }, lightSwitch, this.register(section, name, `light.${i}.`));
     }
 
-    /// `prefix`: of the paths of its settings.
-    named(fold, name, prefix) {
-        fold.querySelector(".body").setAttribute("role", "group");
-        fold.querySelector(".body").setAttribute("aria-label", name);
-        this.folds.push({ fold, prefix });
-        fold.show();
-        return fold;
+    /** `prefix`: what the paths of the section's settings begin with. */
+    register(section, name, prefix) {
+        section.querySelector(".body").setAttribute("role", "group");
+        section.querySelector(".body").setAttribute("aria-label", name);
+        this.sections.push({ section, prefix });
+        section.show();
+        return section;
     }
 
-    changed(path, byHand) {
-        const isOfModels = path === null || path === "shading" || path === "reflection";
-        for (const { fold, prefix } of this.folds) {
-            // Other models have other parameters; the select that chose them is elsewhere and keeps the focus.
-            if (isOfModels && prefix.startsWith("object.")) fold.refill();
-            if (isOfModels || path.startsWith(prefix)) fold.show();
+    changed(path, isFromControl) {
+        const isModelChange = path === null || path === "shading" || path === "reflection";
+        for (const { section, prefix } of this.sections) {
+            // Other models have other parameters. The select that chose the model is elsewhere, so it keeps the focus.
+            if (isModelChange && prefix.startsWith("object.")) section.refill();
+            if (isModelChange || path.startsWith(prefix)) section.show();
         }
-        if (isOfModels) this.fillFormulas();
-        if (byHand) return;
-        const isTouched = (control) => path === null || control.dataset.path.startsWith(path);
+        if (isModelChange) this.fillFormulas();
+        if (isFromControl) return;
+        const isAffected = (control) => path === null || control.dataset.path.startsWith(path);
         for (const control of document.querySelectorAll(".setting")) {
-            if (isTouched(control)) control.refresh();
+            if (isAffected(control)) control.refresh();
         }
     }
 }
