@@ -8,6 +8,8 @@ module;
 
 module candela.fragments;
 
+import :interpolation;
+
 namespace candela {
 
 namespace {

@@ -8,6 +8,9 @@ module;
 
 module candela.raster;
 
+import :small_triangles;
+import candela.arrays;
+
 namespace candela {
 
 namespace {
