@@ -8,6 +8,8 @@
 #include "command_line.h"
 #include "verbs.h"
 
+import candela.schema;
+
 namespace po = boost::program_options;
 using candela::Error;
 using candela::ExitCode;

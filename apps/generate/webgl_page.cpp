@@ -1,9 +1,7 @@
 // The page: a template, the scene as JSON, and the scripts that read it.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -77,7 +75,7 @@ Json mesh_json(const ExportedScene& scene, const WorldMesh& world) {
     const candela::Mesh& mesh = world.mesh;
     return {{"vertices", mesh.vertex_count()},
             {"triangles", mesh.triangle_count()},
-            {"corners", packed(mesh.indices)},
+            {"indices", packed(mesh.indices)},
             {"position", packed(mesh.position)},
             {"normals", std::move(normals)},
             {"normals_of", std::move(normals_of)},
@@ -166,18 +164,6 @@ Json scene_json(const ExportedScene& scene, const Templates& templates, candela:
             {"objects", std::move(objects)}};
 }
 
-/// All scripts, in the order of their names.
-std::string scripts(const Templates& templates) {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(templates.directory / "webgl")) {
-        if (entry.path().extension() == ".js") names.push_back(entry.path().filename().string());
-    }
-    std::ranges::sort(names);
-    std::string all;
-    for (const std::string& name : names) all += templates.text("webgl/" + name) + "\n";
-    return all;
-}
-
 }  // namespace
 
 std::vector<GeneratedFile> webgl_page(const ExportedScene& scene, const Templates& templates,
@@ -186,7 +172,7 @@ std::vector<GeneratedFile> webgl_page(const ExportedScene& scene, const Template
                                   {{"TITLE", html_text(scene.title)},
                                    {"STYLE", templates.text("webgl/page.css")},
                                    {"SCENE", script_json(scene_json(scene, templates, registry))},
-                                   {"SCRIPT", scripts(templates)}})}};
+                                   {"SCRIPT", templates.text("webgl/page.js")}})}};
 }
 
 }  // namespace generate

@@ -17,6 +17,7 @@ import candela.color;
 import candela.constraints;
 import candela.diagnostics;
 import candela.environment;
+import candela.fragments;
 import candela.library;
 import candela.light;
 import candela.mesh;

@@ -11,6 +11,7 @@ module;
 
 module candela.render;
 
+import :tile;
 import candela.color;
 import candela.containment;
 import candela.film;

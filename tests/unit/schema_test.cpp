@@ -5,6 +5,7 @@
 #include <vector>
 
 import candela.core;
+import candela.schema;
 
 using candela::Manifest;
 using candela::Parameter;

@@ -49,7 +49,7 @@ struct FragmentRun {
     std::uint32_t pixel;     // the first: row * stride + column of the tile
     std::uint32_t count;
     float x,
-        y;  // of the first, in pixels of the picture; the others follow to the right
+        y;         // of the first, in pixels of the picture; the others follow to the right
     float weight;  // the fraction of a pixel's samples that see the triangle
 };
 
@@ -160,39 +160,5 @@ CANDELA_API void gather_vertices(const ProjectedMesh& mesh, std::span<const Vert
 /// Fills `points` with points on triangles, given their barycentric coordinates; all are seen from the front.
 CANDELA_API void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles,
                                ConstVec3Span barycentric, PointNeeds needs, SurfacePoints& points);
-
-}  // namespace candela
-
-namespace candela {
-
-/// A triangle's vertices, projected and in world space, and its normal.
-struct TriangleAttributes {
-    ProjectedVertex projected[3];
-    MeshVertex corner[3];
-    Vec3 face_normal;
-};
-
-/// What is interpolated at a fragment.
-struct InterpolatedSpans {
-    Vec3Span barycentric, position, vertex_normal, face_normal;
-};
-
-/// Interpolates over `count` fragments of one triangle, at (x, y), and writes whole vectors, beyond `count`
-/// if need be.
-void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
-                 const InterpolatedSpans& points);
-
-/// A mesh with its projected vertices.
-struct IndexedMesh {
-    const std::uint32_t* indices;
-    const ProjectedVertex* projected;
-    const MeshVertex* vertices;
-    ConstVec3Span face_normal;
-};
-
-/// Interpolates over `count` fragments of one triangle each, at (x, y), and writes whole vectors, beyond
-/// `count` if need be. Yields the same numbers as interpolate().
-void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::uint32_t* triangle,
-                      const float* x, const float* y, const InterpolatedSpans& points);
 
 }  // namespace candela

@@ -13,6 +13,8 @@ module;
 
 module candela.fragments;
 
+import :interpolation;
+
 namespace candela {
 
 namespace {
@@ -88,7 +90,7 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
 
 /// Evaluates point `i` of a batch, a position on a triangle.
 void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
-               SurfacePoints& points) {
+                    SurfacePoints& points) {
     const Indices vertices = corners_of(mesh, triangle);
     const MeshVertex &a = mesh.vertices[vertices[0]], &b = mesh.vertices[vertices[1]],
                      &c = mesh.vertices[vertices[2]];

@@ -7,6 +7,8 @@ module;
 
 module candela.fragments;
 
+import :interpolation;
+
 namespace candela {
 
 namespace {

@@ -10,6 +10,9 @@ module;
 
 module candela.raster;
 
+import :binning;
+import candela.transform;
+
 namespace candela {
 
 namespace {
@@ -17,15 +20,13 @@ namespace {
 /// A vertex in homogeneous pixels: on the screen at (x / w, y / w).
 struct ClipVertex {
     float x, y, w;
-    float ahead;  // distance in front of the near plane
-    float
-        depth_w;  // depth times w: 1 in perspective (1/w), minus the distance in an orthographic view
+    float ahead;    // distance in front of the near plane
+    float depth_w;  // depth times w: 1 in perspective (1/w), minus the distance in an orthographic view
 };
 
 ClipVertex between(const ClipVertex& a, const ClipVertex& b, float t) {
     const auto mix = [t](float from, float to) { return from + t * (to - from); };
-    return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.ahead, b.ahead),
-            mix(a.depth_w, b.depth_w)};
+    return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.ahead, b.ahead), mix(a.depth_w, b.depth_w)};
 }
 
 /// Twice the signed area in homogeneous pixels, times the product of the w: its sign is the triangle's
@@ -177,8 +178,7 @@ class Binner {
                   std::abs(py - 0.5f * height_) <= 1.01f * height_))
                 return;
             indices[k++] = {static_cast<std::int32_t>(std::lrint(px * one_)),
-                            static_cast<std::int32_t>(std::lrint(py * one_)), corner->depth_w * inverse,
-                            0};
+                            static_cast<std::int32_t>(std::lrint(py * one_)), corner->depth_w * inverse, 0};
         }
         emit(indices[0], indices[1], indices[2], id, two_sided);
     }

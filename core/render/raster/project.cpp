@@ -14,7 +14,10 @@ module;
 
 module candela.raster;
 
+import :binning;
+import candela.math;
 import candela.parallel;
+import candela.transform;
 
 namespace candela {
 

@@ -9,6 +9,9 @@ module;
 
 module candela.raster;
 
+import :small_triangles;
+import candela.arrays;
+
 namespace candela {
 
 namespace {

@@ -13,6 +13,8 @@ module;
 
 module candela.raster;
 
+import :small_triangles;
+
 namespace candela {
 
 namespace {
@@ -119,14 +121,13 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
     const double zx = (z10 * y20 - z20 * y10) / area;
     const double zy = (z20 * x10 - z10 * x20) / area;
     const auto one = static_cast<double>(std::int64_t{1} << bits);
-    // The sample next to the first corner.
+    // The sample next to the first vertex.
     result.anchor_x = static_cast<int>((t.x[0] - grid.x) >> bits);
     result.anchor_y = static_cast<int>((t.y[0] - grid.y) >> bits);
     const std::int64_t to_anchor_x = grid.x + (std::int64_t{result.anchor_x} << bits) - t.x[0];
     const std::int64_t to_anchor_y = grid.y + (std::int64_t{result.anchor_y} << bits) - t.y[0];
-    result.z =
-        static_cast<float>(static_cast<double>(t.depth[0]) + zx * static_cast<double>(to_anchor_x) +
-                           zy * static_cast<double>(to_anchor_y));
+    result.z = static_cast<float>(static_cast<double>(t.depth[0]) + zx * static_cast<double>(to_anchor_x) +
+                                  zy * static_cast<double>(to_anchor_y));
     result.zx = static_cast<float>(zx * one);
     result.zy = static_cast<float>(zy * one);
     result.id = t.id;
@@ -183,7 +184,7 @@ class TileRaster {
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(visibility_.stride) +
                 static_cast<std::size_t>(x);
             const float depth = small_.depth[i] + static_cast<float>(column) * small_.to_right[i] +
-                                    static_cast<float>(row) * small_.down[i];
+                                static_cast<float>(row) * small_.down[i];
             if (!(depth > visibility_.depth[pixel])) continue;
             visibility_.depth[pixel] = depth;
             visibility_.triangle[pixel] = id;
@@ -203,9 +204,8 @@ class TileRaster {
             TileTriangle set;
             if (!set_up(triangle, grid, set)) continue;
             const std::size_t plane = s * visibility_.plane();
-            multiversion<TriangleLoop>(set,
-                                       SamplePlane{visibility_.stride, visibility_.depth.data() + plane,
-                                                   visibility_.triangle.data() + plane});
+            multiversion<TriangleLoop>(set, SamplePlane{visibility_.stride, visibility_.depth.data() + plane,
+                                                        visibility_.triangle.data() + plane});
         }
     }
 

@@ -19,9 +19,13 @@ module;
 
 module candela.shade;
 
+import :surroundings;
 import candela.diagnostics;
 import candela.library;
+import candela.light;
+import candela.raster;
 import candela.registry;
+import candela.shading;
 import candela.transform;
 
 namespace candela {
@@ -155,31 +159,31 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
     surface.shading->normals(batch, normal);
 }
 
-Lighting::Lighting() {
+SurfaceShader::SurfaceShader() {
     for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
     for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard);
     mark_ends();
 }
 
-Lighting::~Lighting() = default;
+SurfaceShader::~SurfaceShader() = default;
 
-void Lighting::begin(const LitScene& scene) {
+void SurfaceShader::begin(const LitScene& scene) {
     scene_ = scene;
     surroundings_.reset();
 }
 
-std::array<Vec3Arrays*, 7> Lighting::written_by_plugins() {
+std::array<Vec3Arrays*, 7> SurfaceShader::written_by_plugins() {
     return {&normal_, &to_light_, &light_diffuse_, &light_specular_, &ambient_, &diffuse_, &specular_};
 }
 
-void Lighting::mark_ends() {
+void SurfaceShader::mark_ends() {
     for (Vec3Arrays* const arrays : written_by_plugins()) {
         for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
             std::fill(array->begin() + k_batch_size, array->end(), k_mark);
     }
 }
 
-bool Lighting::are_ends_intact() {
+bool SurfaceShader::are_ends_intact() {
     // All of them, without an early exit: that is a vector loop.
     std::uint32_t differing = 0;
     for (const Vec3Arrays* const arrays : written_by_plugins()) {
@@ -192,8 +196,8 @@ bool Lighting::are_ends_intact() {
     return differing == 0;
 }
 
-void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
-                             std::initializer_list<const Vec3Arrays*> results) {
+void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
+                                  std::initializer_list<const Vec3Arrays*> results) {
     const auto fail = [&](const char* what) {
         throw Error(ExitCode::failure, fmt::format("plugin {}/{} {}; candela plugin test tells more",
                                                    name_of(kind), plugin, what));
@@ -208,14 +212,14 @@ void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::si
     }
 }
 
-void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
+void SurfaceShader::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
     guarded(PluginKind::shading, surface.shading_plugin,
             [&] { shading_normals(surface, points, normal_.span()); });
     if (points.any_from_behind) multiversion<FlipLoop>(points.facing.data(), points.filled, normal_.span());
 }
 
-float Lighting::light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
-                      const Vec3Span& intensity) {
+float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interior,
+                           const SurfacePoints& points, const Vec3Span& intensity) {
     add_up(surface, interior, points, Scrutiny::none);
     const std::size_t count = lit_of(surface, points);
     multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
@@ -225,8 +229,8 @@ float Lighting::light(const SurfaceModels& surface, const Interior& interior, co
     return largest;
 }
 
-void Lighting::add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
-                      Scrutiny scrutiny) {
+void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interior,
+                           const SurfacePoints& points, Scrutiny scrutiny) {
     const std::size_t count = lit_of(surface, points);
     const auto look_at = [&](PluginKind kind, const std::string& plugin,
                              std::initializer_list<const Vec3Arrays*> results) {

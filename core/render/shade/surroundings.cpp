@@ -9,6 +9,8 @@ module;
 
 module candela.shade;
 
+import :surroundings;
+
 namespace candela {
 
 void ObjectSurroundings::look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) {

@@ -1,0 +1,49 @@
+import { element } from "./elements.js";
+import { fragmentOf } from "./link.js";
+import { announce, showError, showNotice } from "./messages.js";
+
+async function copyToClipboard(text) {
+    try {
+        await navigator.clipboard.writeText(text);
+        return true;
+    } catch {
+        return false;
+    }
+}
+
+/** Rows of RGBA bytes as a PNG file in a data: URL. */
+export function pngUrl(pixels, width, height) {
+    const canvas = element("canvas", { width, height });
+    canvas.getContext("2d").putImageData(new ImageData(pixels, width, height), 0, 0);
+    return canvas.toDataURL("image/png");
+}
+
+/** Connects the buttons below the picture. `render`: gets a width and a height, resolves to rows of RGBA bytes. */
+export function connectActions(settings, render) {
+    const onClick = (id, action) => document.getElementById(id).addEventListener("click", action);
+    onClick("reset-view", () => {
+        settings.resetView();
+        announce("The view is as the scene says.");
+    });
+    onClick("reset-all", () => {
+        settings.reset();
+        showNotice("");
+        history.replaceState(null, "", location.pathname + location.search);
+        announce("All is as the scene says.");
+    });
+    onClick("copy-link", async () => {
+        history.replaceState(null, "", fragmentOf(settings) || location.pathname + location.search);
+        const isCopied = await copyToClipboard(location.href);
+        announce(isCopied ? "The link is copied." : "The link is in the address bar.");
+    });
+    onClick("save-picture", async () => {
+        const { width, height } = settings.scene.image;
+        try {
+            const href = pngUrl(await render(width, height), width, height);
+            element("a", { href, download: `${settings.scene.title}.png` }).click();
+            announce("The picture is saved.");
+        } catch (error) {
+            showError(error);
+        }
+    });
+}

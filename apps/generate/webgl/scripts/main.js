@@ -1,0 +1,23 @@
+import { element } from "./elements.js";
+import { showError } from "./messages.js";
+import { Page } from "./page.js";
+
+const page = new Page();
+const ready = (async () => page.start())();
+
+/** For scripts: `ready` settles when the page works, or says why it does not; `render` resolves to rows of RGBA bytes. */
+window.candela = {
+    ready,
+    render: async (width, height) => {
+        await ready;
+        return page.pixels(width, height);
+    },
+};
+
+ready.catch((error) => {
+    document.body.classList.add("failed");
+    showError(error);
+    // Read by `candela verify`.
+    const text = [error.message, error.detail].filter(Boolean).join("\n");
+    document.body.append(element("pre", { id: "problem", hidden: true }, text));
+});

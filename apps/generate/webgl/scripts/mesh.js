@@ -1,0 +1,134 @@
+import { decodeFloats, decodeIndices } from "./base64.js";
+import { cross, normalize, subtract } from "./vectors.js";
+
+/** The vertex shader's inputs, in the order of their locations. */
+const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", "uv", "dpdu", "dpdv", "barycentric"];
+
+function boundsOf(positions) {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < positions.length; ++i) {
+        low[i % 3] = Math.min(low[i % 3], positions[i]);
+        high[i % 3] = Math.max(high[i % 3], positions[i]);
+    }
+    return { low, high };
+}
+
+function expandIndexed(values, indices, size) {
+    const result = new Float32Array(indices.length * size);
+    for (let i = 0; i < indices.length; ++i) {
+        for (let k = 0; k < size; ++k) result[i * size + k] = values[indices[i] * size + k];
+    }
+    return result;
+}
+
+/** Each triangle's three values replaced by their mean. */
+function averagePerTriangle(values, size) {
+    const result = new Float32Array(values.length);
+    for (let i = 0; i < values.length; i += 3 * size) {
+        for (let k = 0; k < size; ++k) {
+            const mean = (values[i + k] + values[i + size + k] + values[i + 2 * size + k]) / 3;
+            result[i + k] = result[i + size + k] = result[i + 2 * size + k] = mean;
+        }
+    }
+    return result;
+}
+
+function faceNormals(positions) {
+    const result = new Float32Array(positions.length);
+    const vertex = (i) => [positions[i], positions[i + 1], positions[i + 2]];
+    for (let i = 0; i < positions.length; i += 9) {
+        const normal = normalize(cross(subtract(vertex(i + 3), vertex(i)), subtract(vertex(i + 6), vertex(i))));
+        for (let k = 0; k < 9; ++k) result[i + k] = normal[k % 3];
+    }
+    return result;
+}
+
+/**
+ * An object's triangles on the GPU. Triangles share no vertices, so that what is lit once per face can differ between
+ * them. Buffers are filled when a shading model first asks for them.
+ */
+export class Mesh {
+    constructor(gl, mesh) {
+        this.gl = gl;
+        this.mesh = mesh;
+        this.indices = decodeIndices(mesh.indices);
+        this.vertexCount = this.indices.length;
+        const positions = decodeFloats(mesh.position);
+        this.bounds = boundsOf(positions);
+        this.positions = expandIndexed(positions, this.indices, 3);
+        this.buffers = new Map();
+        this.vertexArrays = new Map();
+    }
+
+    /** For each attribute the name of its buffer, or three numbers where it is the same everywhere. */
+    attributeSources(rate, normalSet) {
+        const { uv, dpdu, dpdv } = this.mesh;
+        const mean = rate === "face" ? " mean" : "";
+        const normals = `normals ${normalSet}${mean}`;
+        return {
+            position: "position",
+            place: `position${mean}`,
+            vertex_normal: normals,
+            face_normal: rate === "vertex" ? normals : "face normals",
+            uv: uv === null ? [0, 0, 0] : `uv${mean}`,
+            dpdu: dpdu === null ? [0, 0, 0] : `dpdu${mean}`,
+            dpdv: dpdv === null ? [0, 0, 0] : `dpdv${mean}`,
+            barycentric: { face: [1 / 3, 1 / 3, 1 / 3], vertex: [1, 0, 0], fragment: "barycentric" }[rate],
+        };
+    }
+
+    bufferValues(name) {
+        if (name.endsWith(" mean")) {
+            const base = name.slice(0, -" mean".length);
+            return averagePerTriangle(this.bufferValues(base), base === "uv" ? 2 : 3);
+        }
+        if (name === "position") return this.positions;
+        if (name === "face normals") return faceNormals(this.positions);
+        if (name === "barycentric") return Float32Array.from({ length: 3 * this.vertexCount }, (_, i) => (i % 9) % 4 === 0);
+        if (name.startsWith("normals ")) {
+            const normalSet = Number(name.slice("normals ".length));
+            return expandIndexed(decodeFloats(this.mesh.normals[normalSet]), this.indices, 3);
+        }
+        return expandIndexed(decodeFloats(this.mesh[name]), this.indices, name === "uv" ? 2 : 3);
+    }
+
+    buffer(name) {
+        if (!this.buffers.has(name)) {
+            const buffer = this.gl.createBuffer();
+            this.gl.bindBuffer(this.gl.ARRAY_BUFFER, buffer);
+            this.gl.bufferData(this.gl.ARRAY_BUFFER, this.bufferValues(name), this.gl.STATIC_DRAW);
+            this.buffers.set(name, buffer);
+        }
+        return this.buffers.get(name);
+    }
+
+    vertexArray(sources, key) {
+        if (this.vertexArrays.has(key)) return this.vertexArrays.get(key);
+        const { gl } = this;
+        const vertexArray = gl.createVertexArray();
+        gl.bindVertexArray(vertexArray);
+        ATTRIBUTES.forEach((attribute, i) => {
+            if (typeof sources[attribute] !== "string") return;
+            const buffer = this.buffer(sources[attribute]);
+            gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+            gl.enableVertexAttribArray(i);
+            gl.vertexAttribPointer(i, attribute === "uv" ? 2 : 3, gl.FLOAT, false, 0, 0);
+        });
+        this.vertexArrays.set(key, vertexArray);
+        return vertexArray;
+    }
+
+    /** `rate`: how often the shading model evaluates light, per "face", "vertex" or "fragment". */
+    draw(rate, shading) {
+        const { gl } = this;
+        const normalSet = this.mesh.normals_of[shading];
+        const sources = this.attributeSources(rate, normalSet);
+        gl.bindVertexArray(this.vertexArray(sources, `${rate} ${normalSet}`));
+        // Constant attributes are state of the context, not of the vertex array.
+        ATTRIBUTES.forEach((attribute, i) => {
+            if (typeof sources[attribute] !== "string") gl.vertexAttrib3f(i, ...sources[attribute]);
+        });
+        gl.drawArrays(gl.TRIANGLES, 0, this.vertexCount);
+        gl.bindVertexArray(null);
+    }
+}

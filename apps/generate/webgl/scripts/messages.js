@@ -1,0 +1,21 @@
+/** For screen readers; what it says can be seen anyway. */
+export function announce(text) {
+    document.getElementById("status").textContent = text;
+}
+
+/** Null hides the error shown before. */
+export function showError(error) {
+    const box = document.getElementById("problem-box");
+    box.hidden = error === null;
+    if (error === null) return;
+    document.getElementById("problem-text").textContent = error.message;
+    document.getElementById("problem-detail").textContent = error.detail ?? "";
+    document.getElementById("problem-more").hidden = !error.detail;
+    document.getElementById("problem-more").open = document.body.classList.contains("failed");
+}
+
+/** An empty text hides the notice. */
+export function showNotice(text) {
+    document.getElementById("notice").textContent = text;
+    document.getElementById("notice").hidden = text === "";
+}

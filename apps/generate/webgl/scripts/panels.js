@@ -1,0 +1,169 @@
+import { toHex } from "./colors.js";
+import { element, isolated } from "./elements.js";
+import { displayName } from "./scene.js";
+
+const INITIALLY_OPEN = 2;
+
+/** A <details> whose contents are made when it is first opened, since scenes may have many. */
+function disclosure(summary, isOpen, contents) {
+    const body = element("div", { class: "body" });
+    const details = element("details", { open: isOpen }, element("summary", {}, ...summary), body);
+    const fill = () => {
+        if (details.open && body.childElementCount === 0) body.append(...contents());
+    };
+    details.addEventListener("toggle", fill);
+    details.refill = () => {
+        body.replaceChildren();
+        fill();
+    };
+    fill();
+    return details;
+}
+
+/** The controls beside the picture: models and their formulas, objects, lights, the observer. */
+export class Panels {
+    constructor(settings, controls) {
+        this.settings = settings;
+        this.scene = settings.scene;
+        this.controls = controls;
+        this.sections = [];
+        settings.listeners.push((path, isFromControl) => this.changed(path, isFromControl));
+    }
+
+    build() {
+        this.fillModels(document.getElementById("models"));
+        this.fillFormulas();
+        this.fill("objects", this.scene.objects, (object, i) => this.objectSection(object, i));
+        this.fill("lights", this.scene.lights, (light, i) => this.lightSection(light, i));
+        const observer = this.settings.observerParameters();
+        document.getElementById("observer").append(
+            disclosure([element("span", { class: "title" }, "Observer")], false, () =>
+                observer.map(({ name }) => this.controls.of(`observer.${name}`, name))));
+    }
+
+    fill(id, items, make) {
+        const section = document.getElementById(id);
+        section.hidden = items.length === 0;
+        section.querySelector(".count").textContent = items.length > 1 ? String(items.length) : "";
+        section.append(...items.map(make));
+    }
+
+    modelTitle(kind, name) {
+        const own = new Set(this.scene.objects.map((object) => object[kind]));
+        const models = this.scene[`${kind}_models`];
+        if (name !== "") return models[name].title;
+        return own.size === 1 ? `As the scene says (${models[[...own][0]].title})` : "As the scene says";
+    }
+
+    fillModels(section) {
+        const select = (kind, title) => this.controls.choice(kind, title, (name) => this.modelTitle(kind, name));
+        section.append(select("shading", "Shading model"), select("reflection", "Reflection model"));
+    }
+
+    /** The names of all models in force, by the number of objects that use them, most first. */
+    modelsInForce(kind) {
+        const uses = new Map();
+        for (const object of this.scene.objects) {
+            const name = this.settings.modelOf(object, kind);
+            uses.set(name, (uses.get(name) ?? 0) + 1);
+        }
+        return [...uses.keys()].sort((a, b) => uses.get(b) - uses.get(a));
+    }
+
+    fillFormulas() {
+        const formula = (kind, name, isOpen) => {
+            const model = this.scene[`${kind}_models`][name];
+            const lines = model.formula.split("\n").map((text) => {
+                const line = element("span", { class: "formula-line" }, text + "\n");
+                line.style.setProperty("--indent", text.search(/\S|$/) + 4);
+                return line;
+            });
+            return disclosure(
+                [element("span", { class: "title" }, model.title), element("span", { class: "tag" }, kind)],
+                isOpen,
+                () => [
+                    element("p", { class: "about" }, model.summary),
+                    model.formula === "" ? null : element("pre", { class: "formula" }, ...lines),
+                    model.reference === "" ? null : element("p", { class: "reference" }, model.reference),
+                ].filter((part) => part !== null),
+            );
+        };
+        const shadings = this.modelsInForce("shading"), reflections = this.modelsInForce("reflection");
+        document.getElementById("formulas").replaceChildren(
+            ...reflections.map((name, i) => formula("reflection", name, i === 0)),
+            ...shadings.map((name) => formula("shading", name, false)),
+        );
+    }
+
+    objectSection(object, i) {
+        const { settings, controls } = this;
+        const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
+        const models = element("span", { class: "tag" });
+        const section = disclosure(
+            [swatch, element("span", { class: "title" }, isolated(displayName(object.label, "object", i))), models],
+            i < INITIALLY_OPEN && this.scene.objects.length <= 3 * INITIALLY_OPEN,
+            () => {
+                const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
+                const of = (kind, model, values) => this.scene[`${kind}_models`][model].parameters.map(({ name }) =>
+                    controls.of(`object.${i}.${values}.${model}.${name}`, name));
+                return [
+                    controls.of(`object.${i}.color`, "color"),
+                    ...of("reflection", reflection, "material"),
+                    ...of("shading", shading, "shading"),
+                ].filter((control) => control !== null);
+            },
+        );
+        section.show = () => {
+            swatch.style.backgroundColor = toHex(settings.get(`object.${i}.color`));
+            models.textContent = ["reflection", "shading"]
+                .map((kind) => this.scene[`${kind}_models`][settings.modelOf(object, kind)].title).join(" · ");
+        };
+        return this.register(section, displayName(object.label, "object", i), `object.${i}.`);
+    }
+
+    lightSection(light, i) {
+        const { settings, controls } = this;
+        const model = this.scene.light_models[light.model];
+        const name = displayName(light.label, "light", i);
+        const color = model.parameters.find(({ type }) => type === "color");
+        const swatch = element("span", { class: "swatch round", "aria-hidden": "true" });
+        const section = disclosure(
+            [swatch, element("span", { class: "title" }, isolated(name)), element("span", { class: "tag" }, model.title)],
+            i < INITIALLY_OPEN && this.scene.lights.length <= 3 * INITIALLY_OPEN,
+            () => model.parameters.map((p) => controls.of(`light.${i}.value.${p.name}`, p.name)).filter((control) => control !== null),
+        );
+        // Beside the summary, not in it: assistive technology cannot reach a control within a control.
+        const lightSwitch = controls.boolean(`light.${i}.on`, `${name} is on`);
+        lightSwitch.classList.add("switch");
+        section.show = () => {
+            const path = `light.${i}.value.${color?.name}`;
+            if (color && settings.find(path)) swatch.style.backgroundColor = toHex(settings.get(path));
+            section.classList.toggle("dark", !settings.get(`light.${i}.on`));
+        };
+        return element("div", { class: "light" }, lightSwitch, this.register(section, name, `light.${i}.`));
+    }
+
+    /** `prefix`: what the paths of the section's settings begin with. */
+    register(section, name, prefix) {
+        section.querySelector(".body").setAttribute("role", "group");
+        section.querySelector(".body").setAttribute("aria-label", name);
+        this.sections.push({ section, prefix });
+        section.show();
+        return section;
+    }
+
+    changed(path, isFromControl) {
+        const isModelChange = path === null || path === "shading" || path === "reflection";
+        for (const { section, prefix } of this.sections) {
+            // Other models have other parameters. The select that chose the model is elsewhere, so it keeps the focus.
+            if (isModelChange && prefix.startsWith("object.")) section.refill();
+            if (isModelChange || path.startsWith(prefix)) section.show();
+        }
+        if (isModelChange) this.fillFormulas();
+        if (isFromControl) return;
+        const isAffected = (control) => path === null || control.dataset.path.startsWith(path);
+        for (const control of document.querySelectorAll(".setting")) {
+            if (isAffected(control)) control.refresh();
+        }
+    }
+}

@@ -1,0 +1,89 @@
+const HEADER = "#version 300 es\nprecision highp float;\nprecision highp int;\n";
+
+/** `detail` holds what the graphics driver says. */
+class ShaderError extends Error {
+    constructor(message, log) {
+        super(message);
+        this.detail = log;
+    }
+}
+
+class Program {
+    constructor(gl, title, vertexSource, fragmentSource) {
+        this.gl = gl;
+        this.title = title;
+        this.handle = gl.createProgram();
+        this.shaders = [
+            [gl.VERTEX_SHADER, vertexSource],
+            [gl.FRAGMENT_SHADER, fragmentSource],
+        ].map(([type, source]) => {
+            const shader = gl.createShader(type);
+            gl.shaderSource(shader, HEADER + source);
+            gl.compileShader(shader);
+            gl.attachShader(this.handle, shader);
+            return shader;
+        });
+        gl.linkProgram(this.handle);
+        this.locations = new Map();
+        this.isChecked = false;
+    }
+
+    /** Apart from the constructor, since asking for the status waits: until then a browser may compile many at once. */
+    check() {
+        const { gl } = this;
+        if (this.isChecked || gl.isContextLost()) return this;
+        if (!gl.getProgramParameter(this.handle, gl.LINK_STATUS)) {
+            const logs = this.shaders.map((shader) => gl.getShaderInfoLog(shader));
+            const log = [...new Set([...logs, gl.getProgramInfoLog(this.handle)])].filter((text) => text).join("\n").trim();
+            throw new ShaderError(`The graphics driver cannot compile ${this.title}.`, log || "It does not say why.");
+        }
+        for (const shader of this.shaders) gl.deleteShader(shader);
+        this.isChecked = true;
+        return this;
+    }
+
+    location(name) {
+        if (!this.locations.has(name)) this.locations.set(name, this.gl.getUniformLocation(this.handle, name));
+        return this.locations.get(name);
+    }
+
+    /** Of the program in use. A uniform that the compiler removed is passed over. */
+    setUniform(name, { kind, value }) {
+        const { gl } = this, at = this.location(name);
+        if (at === null) return;
+        if (kind === "int") gl.uniform1i(at, value);
+        else if (kind === "float") gl.uniform1f(at, value);
+        else if (kind === "vec3") gl.uniform3f(at, value[0], value[1], value[2]);
+        else gl.uniformMatrix4fv(at, false, value);
+    }
+}
+
+/** Shader programs by what they draw, each compiled once. */
+export class ProgramCache {
+    constructor(gl, scene) {
+        this.gl = gl;
+        this.scene = scene;
+        this.programs = new Map();
+    }
+
+    /** The program for a pair of models; it may still be compiling (Program.check waits). */
+    lighting(shading, reflection, isClosed) {
+        const key = `${shading} ${reflection} ${isClosed}`;
+        if (!this.programs.has(key)) {
+            const { shaders, shading_models, reflection_models } = this.scene;
+            const s = shading_models[shading], r = reflection_models[reflection];
+            const common =
+                (isClosed ? "" : "#define TWO_SIDED\n") + [shaders.prelude, shaders.lights, r.glsl, s.glsl, ""].join("\n");
+            const title = `${r.title} with the shading model ${s.title}`;
+            this.programs.set(key, new Program(this.gl, title, common + shaders.vertex, common + shaders.fragment));
+        }
+        return this.programs.get(key);
+    }
+
+    /** The program of a pass over all pixels, compiled. */
+    pass(name) {
+        const { screen, [name]: fragment } = this.scene.shaders;
+        if (!this.programs.has(name)) this.programs.set(name, new Program(this.gl, `its pass "${name}"`, screen, fragment));
+        return this.programs.get(name).check();
+    }
+}

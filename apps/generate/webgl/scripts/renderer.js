@@ -1,0 +1,155 @@
+import { viewAxes, viewProjection } from "./camera.js";
+import { Film } from "./film.js";
+import { Mesh } from "./mesh.js";
+import { ProgramCache } from "./programs.js";
+import { scale } from "./vectors.js";
+
+/** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
+export class Renderer {
+    constructor(gl, scene) {
+        this.gl = gl;
+        this.scene = scene;
+        this.isSrgb = scene.image.color_management === "srgb";
+        this.format = this.chooseFloatFormat();
+        this.programs = new ProgramCache(gl, scene);
+        this.meshes = scene.objects.map((object) => new Mesh(gl, object.mesh));
+        this.bounds = this.meshes.map((mesh) => mesh.bounds);
+        this.emptyVertexArray = gl.createVertexArray();
+        gl.enable(gl.DEPTH_TEST);
+        gl.frontFace(gl.CCW);
+        gl.cullFace(gl.BACK);
+    }
+
+    chooseFloatFormat() {
+        const { gl } = this;
+        const extensions = ["EXT_color_buffer_float", "EXT_color_buffer_half_float"].map((name) => gl.getExtension(name));
+        if (extensions.some((extension) => extension !== null)) {
+            for (const format of [gl.RGBA32F, gl.RGBA16F]) {
+                const film = new Film(gl, 4, 4, format), isComplete = film.isComplete();
+                film.release();
+                if (isComplete) return format;
+            }
+        }
+        throw new Error("This device's graphics cannot draw into pictures of floating-point numbers, which light is added up in.");
+    }
+
+    /** A film of that size; the caller releases it. Throws where the device has no room for it. */
+    createFilm(width, height) {
+        const { gl } = this;
+        const limit = Math.min(gl.getParameter(gl.MAX_TEXTURE_SIZE), gl.getParameter(gl.MAX_RENDERBUFFER_SIZE));
+        if (width > limit || height > limit) throw new Error(`This device draws pictures of at most ${limit} x ${limit} pixels.`);
+        const film = new Film(gl, width, height, this.format);
+        if (film.isComplete() || gl.isContextLost()) return film;
+        film.release();
+        throw new Error(`This device's graphics memory has no room for a picture of ${width} x ${height} pixels.`);
+    }
+
+    /** Compiles all programs that an appearance needs, so that errors come before anything is drawn. */
+    prepare(appearance) {
+        const needed = appearance.objects.map(({ shading, reflection, closed }) => this.programs.lighting(shading, reflection, closed));
+        for (const program of needed) program.check();
+    }
+
+    setLights(program, appearance) {
+        for (const light of appearance.lights) {
+            program.setUniform(light.switch, light.isOn);
+            for (const [name, uniform] of light.uniforms) program.setUniform(name, uniform);
+        }
+    }
+
+    /** Renders one sample per pixel into the film's picture; `position` is within the pixel, from its top left. */
+    drawSample(film, appearance, position) {
+        const { gl } = this, { observer } = appearance;
+        const offset = [0.5 - position[0], 0.5 - position[1]];
+        const frameUniforms = {
+            view_projection: { kind: "mat4", value: viewProjection(observer, this.bounds, film.width, film.height, offset) },
+            eye: { kind: "vec3", value: observer.position },
+            is_orthographic: { kind: "int", value: observer.projection === "orthographic" ? 1 : 0 },
+            towards_observer: { kind: "vec3", value: scale(viewAxes(observer).forward, -1) },
+        };
+        gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
+        gl.viewport(0, 0, film.width, film.height);
+        gl.clearColor(...appearance.background, 1);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        const prepared = new Set();
+        appearance.objects.forEach((object, i) => {
+            const program = this.programs.lighting(object.shading, object.reflection, object.closed).check();
+            gl.useProgram(program.handle);
+            if (!prepared.has(program)) {
+                prepared.add(program);
+                for (const [name, uniform] of Object.entries(frameUniforms)) program.setUniform(name, uniform);
+                this.setLights(program, appearance);
+            }
+            for (const [name, uniform] of object.uniforms) program.setUniform(name, uniform);
+            object.closed ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
+            this.meshes[i].draw(object.rate, object.shading);
+        });
+    }
+
+    /** A pass over all pixels into a framebuffer; null is the canvas. */
+    drawPass(name, framebuffer, textures, uniforms) {
+        const { gl } = this, program = this.programs.pass(name);
+        gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+        gl.useProgram(program.handle);
+        gl.disable(gl.DEPTH_TEST);
+        gl.disable(gl.CULL_FACE);
+        Object.entries(textures).forEach(([sampler, target], unit) => {
+            gl.activeTexture(gl.TEXTURE0 + unit);
+            gl.bindTexture(gl.TEXTURE_2D, target.texture);
+            program.setUniform(sampler, { kind: "int", value: unit });
+        });
+        for (const [uniform, value] of Object.entries(uniforms)) program.setUniform(uniform, value);
+        gl.bindVertexArray(this.emptyVertexArray);
+        gl.drawArrays(gl.TRIANGLES, 0, 3);
+        gl.bindVertexArray(null);
+        Object.keys(textures).forEach((_, unit) => {
+            gl.activeTexture(gl.TEXTURE0 + unit);
+            gl.bindTexture(gl.TEXTURE_2D, null);
+        });
+        gl.enable(gl.DEPTH_TEST);
+    }
+
+    clearSum(film) {
+        const { gl } = this;
+        gl.bindFramebuffer(gl.FRAMEBUFFER, film.sum.framebuffer);
+        gl.clearColor(0, 0, 0, 0);
+        gl.clear(gl.COLOR_BUFFER_BIT);
+    }
+
+    /** Adds the film's picture to its sum. */
+    accumulate(film, weight) {
+        const textures = { picture: film.picture, sum: film.sum };
+        this.drawPass("accumulate", film.next.framebuffer, textures, { weight: { kind: "float", value: weight } });
+        film.swap();
+    }
+
+    /** Writes a target's intensities to a framebuffer as the screen or a file takes them; null is the canvas. */
+    encode(target, framebuffer) {
+        this.drawPass("encode", framebuffer, { sum: target }, { is_srgb: { kind: "int", value: this.isSrgb ? 1 : 0 } });
+    }
+
+    /** The finished picture: rows of RGBA bytes, from the top. */
+    pixels(appearance, width, height) {
+        const { gl } = this;
+        this.prepare(appearance);
+        const film = this.createFilm(width, height);
+        const encoded = film.createTarget(gl.RGBA8);
+        const positions = this.scene.image.sample_positions;
+        this.clearSum(film);
+        for (const position of positions) {
+            this.drawSample(film, appearance, position);
+            this.accumulate(film, 1 / positions.length);
+        }
+        this.encode(film.sum, encoded.framebuffer);
+        const bottomUp = new Uint8Array(4 * width * height);
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bottomUp);
+        gl.deleteTexture(encoded.texture);
+        gl.deleteFramebuffer(encoded.framebuffer);
+        film.release();
+        const rows = new Uint8ClampedArray(bottomUp.length);
+        for (let y = 0; y < height; ++y) {
+            rows.set(bottomUp.subarray(4 * width * (height - 1 - y), 4 * width * (height - y)), 4 * width * y);
+        }
+        return rows;
+    }
+}

@@ -1,0 +1,133 @@
+import { validateObserver } from "./camera.js";
+import { COLOR, OBSERVER_PARAMETERS, SWITCH, makeParameter } from "./parameters.js";
+import { validateValue } from "./validation.js";
+import { areEqual, canonicalValue } from "./values.js";
+
+/** Paths come from links, which anybody can write: names that every object inherits must not be found. */
+const ownMember = (object, name) => (object && Object.hasOwn(object, name) ? object[name] : undefined);
+const itemAt = (list, index) => (/^\d+$/.test(index) ? ownMember(list, index) : undefined);
+
+/**
+ * All that a person can change, each under a path such as "object.0.material.phong.kd". Only what differs from the scene
+ * is kept.
+ */
+export class Settings {
+    constructor(scene) {
+        this.scene = scene;
+        this.changes = new Map();
+        this.cache = new Map();
+        this.listeners = [];
+    }
+
+    observerParameters() {
+        const unused = this.scene.observer.projection === "orthographic" ? "fov" : "height";
+        return OBSERVER_PARAMETERS.filter(({ name }) => name !== unused);
+    }
+
+    /** The parameter at a path and the scene's own value for it: { parameter, initial }; null if there is none. */
+    find(path) {
+        if (!this.cache.has(path)) this.cache.set(path, this.lookUp(path));
+        return this.cache.get(path);
+    }
+
+    lookUp(path) {
+        const { scene } = this;
+        const [kind, ...rest] = path.split(".");
+        const modelSetting = (models, model, values, name) => {
+            const parameter = ownMember(models, model)?.parameters.find((p) => p.name === name);
+            return parameter && { parameter, initial: ownMember(values, name) ?? parameter.default };
+        };
+        let found;
+        if (path === "shading" || path === "reflection") {
+            const choices = ["", ...Object.keys(scene[`${kind}_models`])];
+            found = { parameter: makeParameter(kind, "choice", { choices }), initial: "" };
+        } else if (kind === "observer" && rest.length === 1) {
+            const parameter = this.observerParameters().find((p) => p.name === rest[0]);
+            found = parameter && { parameter, initial: scene.observer[rest[0]] };
+        } else if (kind === "light") {
+            const light = itemAt(scene.lights, rest[0]);
+            if (light && rest.length === 2 && rest[1] === "on") found = { parameter: SWITCH, initial: true };
+            if (light && rest.length === 3 && rest[1] === "value")
+                found = modelSetting(scene.light_models, light.model, light.values, rest[2]);
+        } else if (kind === "object") {
+            const object = itemAt(scene.objects, rest[0]);
+            if (object && rest.length === 2 && rest[1] === "color") found = { parameter: COLOR, initial: object.color };
+            if (object && rest.length === 4 && rest[1] === "material")
+                found = modelSetting(scene.reflection_models, rest[2], ownMember(object.materials, rest[2]), rest[3]);
+            if (object && rest.length === 4 && rest[1] === "shading")
+                found = modelSetting(scene.shading_models, rest[2], ownMember(object.shadings, rest[2]), rest[3]);
+        }
+        if (!found || found.initial === null || found.initial === undefined) return null;
+        return { parameter: found.parameter, initial: canonicalValue(found.parameter, found.initial) };
+    }
+
+    get(path) {
+        return this.changes.has(path) ? this.changes.get(path) : this.find(path).initial;
+    }
+
+    isChanged() {
+        return this.changes.size > 0;
+    }
+
+    /** What is wrong with a value for a path; null if it is valid. */
+    validate(path, value) {
+        const found = this.find(path);
+        if (found === null) return "is not a part of this scene";
+        const error = validateValue(found.parameter, value);
+        if (error !== null || !path.startsWith("observer.")) return error;
+        return validateObserver({ ...this.observer(), [path.slice("observer.".length)]: value });
+    }
+
+    /** Sets a valid value; call notify() afterwards. */
+    set(path, value) {
+        const { parameter, initial } = this.find(path);
+        const canonical = canonicalValue(parameter, value);
+        areEqual(canonical, initial) ? this.changes.delete(path) : this.changes.set(path, canonical);
+    }
+
+    /**
+     * Tells listeners that a path, or all paths that begin with it, has changed; null stands for any. `isFromControl`: the
+     * path's own control made the change, and shows it already.
+     */
+    notify(path, isFromControl = false) {
+        for (const listener of this.listeners) listener(path, isFromControl);
+    }
+
+    /** Sets a value that was entered in a control, if it is valid; what is wrong with it, or null. */
+    change(path, value) {
+        const error = this.validate(path, value);
+        if (error === null) {
+            this.set(path, value);
+            this.notify(path, true);
+        }
+        return error;
+    }
+
+    reset(isWanted = () => true) {
+        for (const path of [...this.changes.keys()]) {
+            if (isWanted(path)) this.changes.delete(path);
+        }
+        this.notify(null);
+    }
+
+    observer() {
+        const { up, projection } = this.scene.observer;
+        const values = this.observerParameters().map(({ name }) => [name, this.get(`observer.${name}`)]);
+        return { up, projection, ...Object.fromEntries(values) };
+    }
+
+    /** For an observer that orbiting or zooming made, which is valid. */
+    moveObserver(observer) {
+        for (const { name } of this.observerParameters()) this.set(`observer.${name}`, observer[name]);
+        this.notify("observer");
+    }
+
+    resetView() {
+        this.reset((path) => path.startsWith("observer."));
+    }
+
+    /** The model in force for an object: the one chosen for all objects, or the object's own. */
+    modelOf(object, kind) {
+        return this.get(kind) || object[kind];
+    }
+}
