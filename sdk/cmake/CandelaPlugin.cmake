@@ -107,16 +107,18 @@ function(candela_install_plugin id)
     install(FILES $<TARGET_FILE_DIR:${target}>/${manifest} DESTINATION ${PLUGIN_DESTINATION})
 endfunction()
 
-# candela_add_plugin_test(<kind>/<name> SOURCES <file>...): a program that is given the folder of the built plugin, and whose
-# exit code 0 means that all is well.
+# candela_add_plugin_test(<kind>/<name> SOURCES <file>... [LIBRARIES <target>...]): tests with Catch2, which find the folder of
+# the built plugin in the macro CANDELA_PLUGIN_DIR. They are one test of CTest, "<kind>/<name>".
 function(candela_add_plugin_test id)
     cmake_parse_arguments(PARSE_ARGV 1 TEST "" "" "SOURCES;LIBRARIES")
+    find_package(Catch2 3 REQUIRED)
     string(REPLACE "/" "_" suffix ${id})
     set(target candela_${suffix})
     add_executable(${target}_test ${TEST_SOURCES})
     target_compile_features(${target}_test PRIVATE cxx_std_20)
     set_target_properties(${target}_test PROPERTIES CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF CXX_SCAN_FOR_MODULES ON)
-    target_link_libraries(${target}_test PRIVATE candela::core ${TEST_LIBRARIES})
+    target_compile_definitions(${target}_test PRIVATE CANDELA_PLUGIN_DIR="$<TARGET_FILE_DIR:${target}>")
+    target_link_libraries(${target}_test PRIVATE candela::core Catch2::Catch2WithMain ${TEST_LIBRARIES})
     add_dependencies(${target}_test ${target}_manifest)
-    add_test(NAME "${id}" COMMAND ${target}_test $<TARGET_FILE_DIR:${target}>)
+    add_test(NAME "${id}" COMMAND ${target}_test)
 endfunction()
