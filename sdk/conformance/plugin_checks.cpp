@@ -73,7 +73,8 @@ TEST_CASE("parameters: each default is within its own range, and the defaults ag
     }
     const candela::ParamSet defaults(m.parameters);
     for (const candela::Relation& relation : m.relations) {
-        if (const auto wrong = candela::validation_error(relation, defaults)) FAIL_CHECK("the defaults: " << *wrong);
+        if (const auto wrong = candela::validation_error(relation, defaults))
+            FAIL_CHECK("the defaults: " << *wrong);
     }
 }
 

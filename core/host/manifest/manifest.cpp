@@ -57,8 +57,8 @@ Json json_of(const Parameter& p) {
     json["type"] = name_of(p.type);
     if (!p.unit.empty()) json["unit"] = p.unit;
     if (p.default_value) {
-        json["default"] =
-            p.type == ParamType::color ? color_json(std::get<Vec3>(*p.default_value)) : json_of(*p.default_value);
+        json["default"] = p.type == ParamType::color ? color_json(std::get<Vec3>(*p.default_value))
+                                                     : json_of(*p.default_value);
     }
     if (p.minimum != k_no_minimum) json[p.minimum_excluded ? "above" : "minimum"] = shortest(p.minimum);
     if (p.maximum != k_no_maximum) json[p.maximum_excluded ? "below" : "maximum"] = shortest(p.maximum);
@@ -117,7 +117,7 @@ std::int64_t whole_number(const Json& json) {
     const bool is_large =
         json.is_number_unsigned() &&
         json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    if (!json.is_number_integer() || is_large) refuse(json.dump() + " is no whole number that can be used");
+    if (!json.is_number_integer() || is_large) refuse(json.dump() + " is not an integer in range");
     return json.get<std::int64_t>();
 }
 
@@ -173,7 +173,8 @@ Parameter parameter_from(const Json& json) {
         Parameter unbounded = p;
         unbounded.minimum = k_no_minimum;
         unbounded.maximum = k_no_maximum;
-        if (const auto problem = validation_error(unbounded, *p.default_value)) wrong("its default: " + *problem);
+        if (const auto problem = validation_error(unbounded, *p.default_value))
+            wrong("its default: " + *problem);
     }
     return p;
 }

@@ -25,9 +25,8 @@ namespace candela {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> k_type_names = {"real",      "integer", "boolean", "choice",
-                                                           "text",      "file",    "vector",  "point",
-                                                           "direction", "color",   "rgb"};
+constexpr std::array<std::string_view, 11> k_type_names = {
+    "real", "integer", "boolean", "choice", "text", "file", "vector", "point", "direction", "color", "rgb"};
 constexpr std::array<std::string_view, 3> k_relation_names = {"less", "less-or-equal", "sum-at-most-one"};
 
 template <class Enum, std::size_t count>
@@ -173,23 +172,23 @@ std::string constraint_text(const Parameter& p) {
             return "a number" + tail;
         case ParamType::integer:
             if (!p.choices.empty()) return fmt::format("one of {}", fmt::join(p.choices, ", "));
-            return "a whole number" + tail;
+            return "an integer" + tail;
         case ParamType::boolean:
             return "true or false";
         case ParamType::choice:
             return fmt::format("one of '{}'", fmt::join(p.choices, "', '"));
         case ParamType::text:
-            return "a text in quotes";
+            return "a quoted string";
         case ParamType::file:
-            return "a path in quotes";
+            return "a quoted path";
         case ParamType::vector:
             return "three numbers" + (range.empty() ? "" : ", each " + range);
         case ParamType::point:
-            return "three numbers, a place in metres";
+            return "three numbers, a position in metres";
         case ParamType::direction:
             return "three numbers, not all zero";
         case ParamType::color:
-            return "three whole numbers 0-255";
+            return "three integers 0-255";
         case ParamType::rgb:
             return "a number, or three of them" + tail;
     }
@@ -263,8 +262,8 @@ void ParamSet::set(std::string_view name, Value value) {
         value = Vec3{x, x, x};
     }
     if (!holds(value, type)) {
-        throw std::invalid_argument(
-            fmt::format("{} for '{}': expected {}", text_of(value), name, constraint_text((*schema_)[index])));
+        throw std::invalid_argument(fmt::format("{} for '{}': expected {}", text_of(value), name,
+                                                constraint_text((*schema_)[index])));
     }
     if (const auto wrong = validation_error((*schema_)[index], value)) {
         throw std::invalid_argument(fmt::format("'{}': {}", name, *wrong));

@@ -59,7 +59,7 @@ CANDELA_API std::optional<ParamType> param_type_named(std::string_view name) noe
 CANDELA_API std::string_view name_of(RelationType type) noexcept;
 CANDELA_API std::optional<RelationType> relation_type_named(std::string_view name) noexcept;
 
-/// The constraint on a value: "a number, at least 0", "three whole numbers 0-255", "one of 'a', 'b'".
+/// The constraint on a value: "a number, at least 0", "three integers 0-255", "one of 'a', 'b'".
 CANDELA_API std::string constraint_text(const Parameter& parameter);
 
 /// The range alone: "0 to 1", "greater than 0", or empty.

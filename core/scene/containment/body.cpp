@@ -190,7 +190,8 @@ double Body::Surface::solid_angle(const Vector3d& point) const {
         const Triangle t = triangle(i);
         const Vector3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
         const double na = a.norm(), nb = b.norm(), nc = c.norm();
-        sum += 2 * std::atan2(triple_product(a, b, c), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
+        sum += 2 * std::atan2(triple_product(a, b, c),
+                              na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
     }
     return sum;
 }

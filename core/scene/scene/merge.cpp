@@ -119,8 +119,8 @@ class Gatherer {
             if (const auto* path = std::get_if<std::string>(&file.value)) {
                 add_file(directory / *path, &file.place);
             } else {
-                diagnostics_.error(file.place, fmt::format("'include' holds {}; expected a path in quotes",
-                                                           description(file)));
+                diagnostics_.error(
+                    file.place, fmt::format("'include' holds {}; expected a quoted path", description(file)));
             }
         }
     }

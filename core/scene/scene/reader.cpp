@@ -79,9 +79,8 @@ class Reader {
         }
         const auto* const number = std::get_if<std::int64_t>(&version->node.value);
         if (number == nullptr) {
-            diagnostics_.error(
-                version->node.place,
-                fmt::format("'version' is {}; expected the whole number 1", description(version->node)));
+            diagnostics_.error(version->node.place, fmt::format("'version' is {}; expected the integer 1",
+                                                                description(version->node)));
         } else if (*number != 1) {
             diagnostics_.error(
                 version->node.place,

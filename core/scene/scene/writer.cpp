@@ -37,7 +37,7 @@ std::string vector_text(Vec3 v) {
 std::string color_text(Vec3 color) {
     for (const float channel : {color.x, color.y, color.z}) {
         if (channel != std::floor(channel))
-            cannot_say(fmt::format("{} in a colour is no whole number", channel));
+            cannot_say(fmt::format("{} in a colour is not an integer", channel));
     }
     return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", color.x, color.y, color.z);
 }
@@ -50,9 +50,7 @@ std::string value_text(const Value& value, ParamType type) {
     if (const auto* const real = std::get_if<double>(&value)) return toml_text(*real);
     if (const auto* const text = std::get_if<std::string>(&value)) return toml_text(*text);
     const Vec3 v = std::get<Vec3>(value);
-    return type == ParamType::color    ? color_text(v)
-           : type == ParamType::rgb ? rgb_text(v)
-                                       : vector_text(v);
+    return type == ParamType::color ? color_text(v) : type == ParamType::rgb ? rgb_text(v) : vector_text(v);
 }
 
 /// The name that a label states, if it is not an index.

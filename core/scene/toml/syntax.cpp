@@ -39,7 +39,7 @@ constexpr std::array k_rules = {
     Rule{"string", "unknown escape sequence", "\\{character} means nothing in a text",
          "a backslash is written \\\\, or the text stands in 'single quotes'"},
     // Numbers and words
-    Rule{"integer", "not representable", "{word} is too large for a whole number",
+    Rule{"integer", "not representable", "{word} is too large for an integer",
          "with a point, as in 1.0e20, it is a real number"},
     Rule{"integer", "leading zeroes", "{word} is no number, because it begins with 0", ""},
     Rule{"integer", "", "{word} is no number", "numbers are written 12, 0.5 or 2e-3, without a unit"},
@@ -47,7 +47,7 @@ constexpr std::array k_rules = {
     Rule{"floating-point", "expected 'inf'", "{word} is no value", "a text stands in quotes"},
     Rule{"floating-point", "", "{word} is no number",
          "numbers are written 12, 0.5 or 2e-3: digits stand on both sides of the point"},
-    Rule{"boolean", "", "{word} is no value", "write true or false, or a text in quotes"},
+    Rule{"boolean", "", "{word} is no value", "write true or false, or a quoted string"},
     Rule{"value", "could not determine", "{word} is no value",
          "a value is a number, a text in \"straight quotes\", true, false or a [list, of, them]"},
     // Lists and inline tables

@@ -135,7 +135,7 @@ TableNode::Entry* TableNode::find(std::string_view key) {
 std::string description(const Node& node) {
     struct Describer {
         std::string operator()(bool b) const { return b ? "true" : "false"; }
-        std::string operator()(std::int64_t i) const { return fmt::format("the whole number {}", i); }
+        std::string operator()(std::int64_t i) const { return fmt::format("the integer {}", i); }
         std::string operator()(double d) const { return fmt::format("the number {}", d); }
         std::string operator()(const std::string& s) const {
             return fmt::format("a string, \"{}\"", shortened(s));

@@ -145,9 +145,10 @@ ParamSet read_parameters(const TableNode& table, SharedSchema schema, const Tabl
         const TableNode::Entry* const entry = table.find(p.name);
         if (entry == nullptr) {
             if (!p.default_value) {
-                diagnostics.error(context.place,
-                                  fmt::format("{} has no '{}': {}", context.where, p.name, constraint_text(p)),
-                                  joined(p.meaning, manual_hint(context)));
+                diagnostics.error(
+                    context.place,
+                    fmt::format("{} has no '{}': {}", context.where, p.name, constraint_text(p)),
+                    joined(p.meaning, manual_hint(context)));
             }
             continue;
         }

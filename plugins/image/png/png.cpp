@@ -137,7 +137,7 @@ class Png final : public candela::ImageFormat {
 constexpr auto k_fields = fields(
     integer(&PngOptions::compression, "compression", 1, "from 0, none, to 9, smallest file").range(0, 9));
 
-constexpr candela::FileFormat k_formats[] = {{"png", "Portable Network Graphics, 8 bits a channel"}};
+constexpr candela::FileFormat k_formats[] = {{"png", "Portable Network Graphics, 8 bits per channel"}};
 
 }  // namespace
 

@@ -110,7 +110,7 @@ class Pnm final : public candela::ImageFormat {
 };
 
 constexpr candela::FileFormat k_formats[] = {
-    {"ppm", "Portable pixmap, 8 bits a channel, not compressed", candela::PixelType::byte, true},
+    {"ppm", "Portable pixmap, 8 bits per channel, not compressed", candela::PixelType::byte, true},
     {"pfm", "Portable float map", candela::PixelType::real, true}};
 
 }  // namespace

@@ -30,7 +30,7 @@ constexpr Field<P> light_intensity(float P::* member, const char* meaning) {
 inline constexpr const char* k_attenuations[] = {"inverse-square", "offset-linear", "none"};
 template <class P>
 constexpr Field<P> attenuation(std::int32_t P::* member) {
-    return choice(member, "attenuation", k_attenuations, "how the light fades with distance r");
+    return choice(member, "attenuation", k_attenuations, "attenuation with distance r");
 }
 template <class P>
 constexpr Field<P> attenuation_offset(float P::* member) {

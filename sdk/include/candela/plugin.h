@@ -87,7 +87,10 @@ struct Field {
 
 template <class P>
 constexpr Field<P> real(float P::* member, const char* name, float default_value, const char* meaning) {
-    return {.spec = {.name = name, .type = ParamType::real, .meaning = meaning, .default_value = {{default_value}}},
+    return {.spec = {.name = name,
+                     .type = ParamType::real,
+                     .meaning = meaning,
+                     .default_value = {{default_value}}},
             .real = member};
 }
 /// In degrees in the scene, in radians for the plugin.
@@ -112,7 +115,8 @@ constexpr Field<P> choice(std::int32_t P::* member, const char* name, std::span<
             .integer = member};
 }
 template <class P>
-constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool default_value, const char* meaning) {
+constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool default_value,
+                           const char* meaning) {
     return {.spec = {.name = name,
                      .type = ParamType::boolean,
                      .meaning = meaning,

@@ -169,14 +169,14 @@ class WeightedShading final : public KernelShading<Params, rate, normal, needs> 
 /// A plugin from the kernel function `prefix_normal`; `rate` is face, vertex or fragment.
 #define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(shading,                                                          \
-                          (candela::sdk::KernelShading<Params, candela::ShadingRate::rate, \
+                          (candela::sdk::KernelShading<Params, candela::ShadingRate::rate,  \
                                                        &candela::kernel::prefix##_normal>), \
                           prefix, Params, fields, __VA_ARGS__)
 
 /// The same with vertex normals weighted by the kernel function `prefix_corner_weight`.
 #define CANDELA_WEIGHTED_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(shading,                                                                   \
-                          (candela::sdk::WeightedShading<Params, candela::ShadingRate::rate,        \
+                          (candela::sdk::WeightedShading<Params, candela::ShadingRate::rate,         \
                                                          &candela::kernel::prefix##_normal,          \
                                                          &candela::kernel::prefix##_corner_weight>), \
                           prefix, Params, fields, __VA_ARGS__)
