@@ -1,5 +1,6 @@
 module;
 
+#include "candela/batch.h"
 #include "candela/kernel.h"
 #include "candela/multiversion.h"
 
@@ -43,10 +44,7 @@ struct ToObserverLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 d = perspective ? camera.eye - position[i] : against;
-            const vec3 v = kernel::normalize(vec3(d.x, d.y, d.z));
-            to_observer.x[i] = v.x;
-            to_observer.y[i] = v.y;
-            to_observer.z[i] = v.z;
+            kernel::store(to_observer, i, kernel::normalize(vec3(d.x, d.y, d.z)));
         }
     }
 };
@@ -55,9 +53,7 @@ struct FlipLoop {
     CANDELA_BATCH_LOOP static void run(const float* facing, std::size_t count, Vec3Span v) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            v.x[i] *= facing[i];
-            v.y[i] *= facing[i];
-            v.z[i] *= facing[i];
+            kernel::store(v, i, kernel::load(v, i) * facing[i]);
         }
     }
 };
@@ -68,12 +64,9 @@ struct TangentLoop {
                                        Vec3Span tangent) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const vec3 n(normal.x[i], normal.y[i], normal.z[i]);
-            const vec3 u(dpdu.x[i], dpdu.y[i], dpdu.z[i]);
-            const vec3 t = kernel::normalize(u - n * kernel::dot(n, u));
-            tangent.x[i] = t.x;
-            tangent.y[i] = t.y;
-            tangent.z[i] = t.z;
+            const vec3 n = kernel::load(normal, i);
+            const vec3 u = kernel::load(dpdu, i);
+            kernel::store(tangent, i, kernel::normalize(u - n * kernel::dot(n, u)));
         }
     }
 };
@@ -83,9 +76,7 @@ struct SumLoop {
                                        Vec3Span sum) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            sum.x[i] = a.x[i] + d.x[i] + s.x[i];
-            sum.y[i] = a.y[i] + d.y[i] + s.y[i];
-            sum.z[i] = a.z[i] + d.z[i] + s.z[i];
+            kernel::store(sum, i, kernel::load(a, i) + kernel::load(d, i) + kernel::load(s, i));
         }
     }
 };

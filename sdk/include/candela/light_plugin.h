@@ -40,13 +40,7 @@ constexpr Field<P> attenuation_offset(float P::* member) {
 }
 
 CANDELA_KERNEL_INLINE kernel::Receiver receiver_at(const ReceiverBatch& batch, std::size_t i) {
-    return {kernel_vector(batch.position[i]), kernel_vector(batch.normal[i])};
-}
-
-CANDELA_KERNEL_INLINE void put(const Vec3Span& span, std::size_t i, vec3 v) {
-    span.x[i] = v.x;
-    span.y[i] = v.y;
-    span.z[i] = v.z;
+    return {load(batch.position, i), load(batch.normal, i)};
 }
 
 template <class Params, auto illuminate>
@@ -59,9 +53,9 @@ struct IlluminateLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const kernel::Incident sent = call<illuminate>(light, receiver_at(receivers, i), index...);
-            put(incident.to_light, i, sent.to_light);
-            put(incident.diffuse, i, sent.diffuse);
-            put(incident.specular, i, sent.specular);
+            store(incident.to_light, i, sent.to_light);
+            store(incident.diffuse, i, sent.diffuse);
+            store(incident.specular, i, sent.specular);
         }
     }
 };
@@ -72,7 +66,7 @@ struct IlluminateAmbientLoop {
         const std::size_t count = receivers.count;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            put(ambient, i, call<illuminate_ambient>(light, receiver_at(receivers, i)));
+            store(ambient, i, call<illuminate_ambient>(light, receiver_at(receivers, i)));
         }
     }
 };

@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "candela/abi.h"
+#include "candela/batch.h"
 #include "candela/kernel.h"
 
 import candela.color;
@@ -29,6 +30,9 @@ extern const char k_kernel_text[] __asm__("candela_kernel_text") __attribute__((
 inline constexpr const char* k_kernel_text = nullptr;
 #endif
 
+using kernel::add_product;
+using kernel::load;
+using kernel::store;
 using kernel::vec2;
 using kernel::vec3;
 

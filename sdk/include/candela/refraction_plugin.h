@@ -48,17 +48,11 @@ struct EnterLoop {
             const kernel::Surface s = surface_at<tangent>(surface, color, i);
             const kernel::Refracted refracted = call<enter>(material, s);
             const vec3 mirrored = kernel::reflect(-s.to_observer, s.normal);
-            r.towards.x[i] = mirrored.x;
-            r.towards.y[i] = mirrored.y;
-            r.towards.z[i] = mirrored.z;
-            r.share.x[i] = r.share.y[i] = r.share.z[i] = refracted.mirrored;
-            r.direction.x[i] = refracted.direction.x;
-            r.direction.y[i] = refracted.direction.y;
-            r.direction.z[i] = refracted.direction.z;
-            r.weight.x[i] = r.weight.y[i] = r.weight.z[i] = 1.0f - refracted.mirrored;
-            r.origin.x[i] = surface.position.x[i];
-            r.origin.y[i] = surface.position.y[i];
-            r.origin.z[i] = surface.position.z[i];
+            store(r.towards, i, mirrored);
+            store(r.share, i, vec3(refracted.mirrored));
+            store(r.direction, i, refracted.direction);
+            store(r.weight, i, vec3(1.0f - refracted.mirrored));
+            store(r.origin, i, load(surface.position, i));
         }
     }
 };
@@ -73,8 +67,8 @@ struct LeaveLoop {
         const float last = is_last ? 1.0f : 0.0f;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const vec3 direction(r.direction.x[i], r.direction.y[i], r.direction.z[i]);
-            const vec3 normal(r.exit_normal.x[i], r.exit_normal.y[i], r.exit_normal.z[i]);
+            const vec3 direction = load(r.direction, i);
+            const vec3 normal = load(r.exit_normal, i);
             const kernel::Refracted refracted = call<leave>(material, direction, normal);
             const bool is_lost = r.distance[i] < 0.0f;  // the surface is open there
             const bool is_free = refracted.mirrored < 1.0f;
@@ -84,23 +78,13 @@ struct LeaveLoop {
             const float refracts = !is_lost && is_free ? 1.0f : 0.0f;
             const vec3 towards = refracts * refracted.direction + (1.0f - refracts) * direction;
             const vec3 kept = call<transmit>(material, color, is_lost ? 0.0f : r.distance[i]);
-            const vec3 weight = vec3(r.weight.x[i], r.weight.y[i], r.weight.z[i]) * kept;
-            r.towards.x[i] = towards.x;
-            r.towards.y[i] = towards.y;
-            r.towards.z[i] = towards.z;
-            r.share.x[i] = weight.x * out;
-            r.share.y[i] = weight.y * out;
-            r.share.z[i] = weight.z * out;
-            r.weight.x[i] = weight.x * (1.0f - out);
-            r.weight.y[i] = weight.y * (1.0f - out);
-            r.weight.z[i] = weight.z * (1.0f - out);
+            const vec3 weight = load(r.weight, i) * kept;
+            store(r.towards, i, towards);
+            store(r.share, i, weight * out);
+            store(r.weight, i, weight * (1.0f - out));
             const vec3 inwards = kernel::reflect(direction, normal);
-            r.direction.x[i] = inwards.x;
-            r.direction.y[i] = inwards.y;
-            r.direction.z[i] = inwards.z;
-            r.origin.x[i] = r.exit_position.x[i];
-            r.origin.y[i] = r.exit_position.y[i];
-            r.origin.z[i] = r.exit_position.z[i];
+            store(r.direction, i, inwards);
+            store(r.origin, i, load(r.exit_position, i));
         }
     }
 };
@@ -111,9 +95,7 @@ struct AddSeenLoop {
         const std::size_t count = r.count;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            sum.x[i] += r.share.x[i] * r.seen.x[i];
-            sum.y[i] += r.share.y[i] * r.seen.y[i];
-            sum.z[i] += r.share.z[i] * r.seen.z[i];
+            add_product(sum, i, load(r.share, i), load(r.seen, i));
         }
     }
 };

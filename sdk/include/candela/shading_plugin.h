@@ -33,21 +33,18 @@ struct NormalLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             kernel::ShadingPoint p;
-            p.face_normal = kernel_vector(points.face_normal[i]);
-            p.vertex_normal = kernel_vector(points.vertex_normal[i]);
-            p.barycentric = kernel_vector(points.barycentric[i]);
+            p.face_normal = load(points.face_normal, i);
+            p.vertex_normal = load(points.vertex_normal, i);
+            p.barycentric = load(points.barycentric, i);
             p.uv = vec2(0.0f);
             p.dpdu = vec3(0.0f);
             p.dpdv = vec3(0.0f);
             if constexpr (needs.uv) p.uv = vec2(points.uv.x[i], points.uv.y[i]);
             if constexpr (needs.derivatives) {
-                p.dpdu = kernel_vector(points.dpdu[i]);
-                p.dpdv = kernel_vector(points.dpdv[i]);
+                p.dpdu = load(points.dpdu, i);
+                p.dpdv = load(points.dpdv, i);
             }
-            const vec3 n = call<normal>(params, p);
-            normals.x[i] = n.x;
-            normals.y[i] = n.y;
-            normals.z[i] = n.z;
+            store(normals, i, call<normal>(params, p));
         }
     }
 };
@@ -76,8 +73,8 @@ struct CornerWeightLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             kernel::FaceCorner c;
-            c.to_next = kernel_vector(to_next[i]);
-            c.to_previous = kernel_vector(to_previous[i]);
+            c.to_next = load(to_next, i);
+            c.to_previous = load(to_previous, i);
             weights[i] = call<weight>(params, c);
         }
     }

@@ -43,10 +43,7 @@ struct SurfaceRowLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const float u = static_cast<float>(static_cast<std::int32_t>(i)) * u_step;
-            const vec3 point = call<position>(params, u, v);
-            p.x[i] = point.x;
-            p.y[i] = point.y;
-            p.z[i] = point.z;
+            store(p, i, call<position>(params, u, v));
         }
     }
 };
@@ -58,14 +55,8 @@ struct SurfaceDerivativesRowLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const float u = static_cast<float>(static_cast<std::int32_t>(i)) * u_step;
-            const vec3 along_u = call<dpdu>(params, u, v);
-            const vec3 along_v = call<dpdv>(params, u, v);
-            pu.x[i] = along_u.x;
-            pu.y[i] = along_u.y;
-            pu.z[i] = along_u.z;
-            pv.x[i] = along_v.x;
-            pv.y[i] = along_v.y;
-            pv.z[i] = along_v.z;
+            store(pu, i, call<dpdu>(params, u, v));
+            store(pv, i, call<dpdv>(params, u, v));
         }
     }
 };
