@@ -2,7 +2,7 @@
 //
 // A plugin's source includes the header of its kind (light_plugin.h, reflection_plugin.h, shading_plugin.h,
 // shape_plugin.h, image_plugin.h), which includes this one, and ends with that header's macro.
-// CANDELA_PLUGIN_NAME and CANDELA_PLUGIN_VERSION come from candela_add_plugin().
+// CANDELA_PLUGIN_NAME, CANDELA_PLUGIN_VERSION and CANDELA_KERNEL_FILE come from candela_add_plugin().
 #pragma once
 
 #include <array>
@@ -22,8 +22,12 @@ import candela.math;
 
 namespace candela::sdk {
 
-/// The text of the plugin's .kernel file, or null; the build defines it.
-extern const char* const k_kernel_text;
+#ifdef CANDELA_KERNEL_FILE
+/// The text of the plugin's .kernel file, as CANDELA_EMBED_KERNEL puts it into the library.
+extern const char k_kernel_text[] __asm__("candela_kernel_text") __attribute__((visibility("hidden")));
+#else
+inline constexpr const char* k_kernel_text = nullptr;
+#endif
 
 using kernel::vec2;
 using kernel::vec3;
@@ -209,9 +213,20 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 #define CANDELA_PLUGIN(kind_, Model, fields_, ...) \
     CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::KernelText{}, __VA_ARGS__)
 
+#ifdef CANDELA_KERNEL_FILE
+// The assembler reads the file, as no C++ of today can.
+#define CANDELA_EMBED_KERNEL                                                             \
+    __asm__(".pushsection .rodata\ncandela_kernel_text:\n.incbin \"" CANDELA_KERNEL_FILE \
+            "\"\n"                                                                       \
+            ".byte 0\n.popsection\n");
+#else
+#define CANDELA_EMBED_KERNEL
+#endif
+
 /// The same for a plugin made of kernel functions: `prefix_` begins their names, `Params_` is their first
 /// argument.
 #define CANDELA_KERNEL_PLUGIN(kind_, Model, prefix_, Params_, fields_, ...)                              \
+    CANDELA_EMBED_KERNEL                                                                                 \
     CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::sdk::kernel_text<Params_>(#prefix_, #Params_), \
                           __VA_ARGS__)
 

@@ -1,12 +1,13 @@
-// Between a face that looks up and a vertex normal that looks along x, the normal is the diagonal.
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
-#include <cstdio>
 
 import candela.core;
 
-int main(int argc, char** argv) {
-    if (argc != 2) return 2;
-    candela::Registry registry({argv[1]});
+using Catch::Matchers::WithinAbs;
+
+TEST_CASE("between a face that looks up and a vertex normal that looks along x, the normal is the diagonal") {
+    candela::Registry registry({CANDELA_PLUGIN_DIR});
     const auto model = registry.create<candela::ShadingModel>(
         "@NAME@", registry.parameters(candela::PluginKind::shading, "@NAME@"), candela::ColorEncoding::none);
 
@@ -20,7 +21,7 @@ int main(int argc, char** argv) {
                     .dpdu = {},
                     .dpdv = {}},
                    {out, out + 1, out + 2});
-    std::printf("(%g, %g, %g), expected (0.7071, 0.7071, 0)\n", static_cast<double>(out[0]), static_cast<double>(out[1]),
-                static_cast<double>(out[2]));
-    return std::abs(out[0] - std::sqrt(0.5f)) < 1e-6f && std::abs(out[1] - std::sqrt(0.5f)) < 1e-6f ? 0 : 1;
+    CHECK_THAT(out[0], WithinAbs(std::sqrt(0.5), 1e-6));
+    CHECK_THAT(out[1], WithinAbs(std::sqrt(0.5), 1e-6));
+    CHECK(out[2] == 0);
 }

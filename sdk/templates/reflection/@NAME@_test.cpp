@@ -1,13 +1,13 @@
-// Light from 60 degrees off the normal: half of what kd lets through.
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
-#include <cstdio>
-#include <vector>
 
 import candela.core;
 
-int main(int argc, char** argv) {
-    if (argc != 2) return 2;
-    candela::Registry registry({argv[1]});
+using Catch::Matchers::WithinAbs;
+
+TEST_CASE("light from 60 degrees off the normal: half of kd is reflected") {
+    candela::Registry registry({CANDELA_PLUGIN_DIR});
     candela::ParamSet values = registry.parameters(candela::PluginKind::reflection, "@NAME@");
     values.set("kd", 0.8);
     const auto model = registry.create<candela::ReflectionModel>("@NAME@", values, candela::ColorEncoding::none);
@@ -17,6 +17,5 @@ int main(int argc, char** argv) {
     model->reflect({.count = 1, .normal = {&zero, &one, &zero}, .to_observer = {&zero, &one, &zero}, .tangent = {}, .color = {1, 1, 1}},
                    {.to_light = {&sine, &half, &zero}, .diffuse = {&one, &one, &one}, .specular = {&one, &one, &one}},
                    {.ambient = {out, out + 1, out + 2}, .diffuse = {out + 3, out + 4, out + 5}, .specular = {out + 6, out + 7, out + 8}});
-    std::printf("diffuse %g, expected 0.4\n", static_cast<double>(out[3]));
-    return std::abs(out[3] - 0.4f) < 1e-6f ? 0 : 1;
+    CHECK_THAT(out[3], WithinAbs(0.4, 1e-6));
 }
