@@ -12,6 +12,6 @@ git ls-files -z '*.cpp' '*.cppm' '*.h' | xargs -0 clang-format-19 --dry-run --We
 
 cmake --preset release -DCANDELA_TESTS=ON >/dev/null
 cmake --build --preset release >/dev/null
-git ls-files -z 'core/*.cpp' 'sdk/*.cpp' 'apps/*.cpp' 'plugins/*.cpp' | grep -zv -e '_test\.cpp$' -e '^sdk/templates/' -e '^apps/generate/cpp/' -e '^apps/generate/opengl/' |
+git ls-files -z 'core/*.cpp' 'sdk/*.cpp' 'apps/*.cpp' 'plugins/*.cpp' | grep -zv -e '_test\.cpp$' -e '^sdk/templates/' -e '^plugins/target/.*/templates/' |
     xargs -0 -n 1 -P "$(nproc)" sh -c 'clang-tidy-19 -p build/release --quiet "$1" 2>/dev/null || { echo "clang-tidy: $1" >&2; exit 1; }' tidy
 echo "lint: clean"

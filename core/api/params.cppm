@@ -1,10 +1,13 @@
-// Parameters as a plugin declares them (`ParamSpec`) and as it receives their values (`ParamValue`): plain data that
-// crosses the plugin's boundary.
+// Parameters as a plugin declares them (`ParamSpec`) and as it receives their values (`ParamValue`): plain
+// data that crosses the plugin's boundary.
 module;
+
+#include "candela/api.h"
 
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string_view>
 
 export module candela.params;
 
@@ -24,6 +27,9 @@ enum class ParamType : int {
     rgb,        // a number, or one per channel
 };
 
+/// "real", "integer", ...
+CANDELA_API std::string_view name_of(ParamType type) noexcept;
+
 /// A value as a plugin receives it; which member counts follows from the type. Angles (unit "deg") arrive in
 /// radians.
 struct ParamValue {
@@ -39,10 +45,10 @@ inline constexpr float k_no_maximum = std::numeric_limits<float>::infinity();
 struct ParamSpec {
     const char* name = "";
     ParamType type = ParamType::real;
-    const char* unit = "";     // "m", "deg", or empty
-    const char* meaning = "";  // one sentence
-    bool required = false;     // no default: the scene must say
-    ParamValue default_value{};     // the default, as a person writes it: degrees, colours 0-255
+    const char* unit = "";       // "m", "deg", or empty
+    const char* meaning = "";    // one sentence
+    bool required = false;       // no default: the scene must say
+    ParamValue default_value{};  // the default, as a person writes it: degrees, colours 0-255
     float minimum = k_no_minimum;
     float maximum = k_no_maximum;
     bool minimum_excluded = false;

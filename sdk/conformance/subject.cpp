@@ -179,8 +179,9 @@ std::vector<Values> many_values(int random_sets) {
 }
 
 bool needs_a_file() {
-    return std::ranges::any_of(subject_manifest().parameters,
-                               [](const Parameter& p) { return p.type == ParamType::file && !p.default_value; });
+    return std::ranges::any_of(subject_manifest().parameters, [](const Parameter& p) {
+        return p.type == ParamType::file && !p.default_value;
+    });
 }
 
 template <>
@@ -198,6 +199,10 @@ std::unique_ptr<candela::ShadingModel> make(const Values& values) {
 template <>
 std::unique_ptr<candela::Shape> make(const Values& values) {
     return made<candela::Shape>(values);
+}
+template <>
+std::unique_ptr<candela::Target> make(const Values& values) {
+    return made<candela::Target>(values);
 }
 template <>
 std::unique_ptr<candela::ImageFormat> make(const Values& values) {

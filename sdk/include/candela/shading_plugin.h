@@ -55,6 +55,8 @@ struct NormalLoop {
 template <class Params, ShadingRate rate, auto normal, ShadingNeeds needs_ = ShadingNeeds{}>
 class KernelShading : public ShadingModel {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal")};
+
     explicit KernelShading(const Params& params) : params_(params) {}
     ShadingRate shading_rate() const noexcept override { return rate; }
     ShadingNeeds needs() const noexcept override { return needs_; }
@@ -157,6 +159,9 @@ class WeightedNormals {
 template <class Params, ShadingRate rate, auto normal, auto weight, ShadingNeeds needs = ShadingNeeds{}>
 class WeightedShading final : public KernelShading<Params, rate, normal, needs> {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal"),
+                                                            kernel_function<Params, weight>("corner_weight")};
+
     using KernelShading<Params, rate, normal, needs>::KernelShading;
     void vertex_normals(const MeshView& mesh, const Vec3Span& normals) const override {
         ShadingModel::vertex_normals(mesh, normals);
@@ -169,14 +174,14 @@ class WeightedShading final : public KernelShading<Params, rate, normal, needs> 
 /// A plugin from the kernel function `prefix_normal`; `rate` is face, vertex or fragment.
 #define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(shading,                                                          \
-                          (candela::sdk::KernelShading<Params, candela::ShadingRate::rate, \
+                          (candela::sdk::KernelShading<Params, candela::ShadingRate::rate,  \
                                                        &candela::kernel::prefix##_normal>), \
                           prefix, Params, fields, __VA_ARGS__)
 
 /// The same with vertex normals weighted by the kernel function `prefix_corner_weight`.
 #define CANDELA_WEIGHTED_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(shading,                                                                   \
-                          (candela::sdk::WeightedShading<Params, candela::ShadingRate::rate,        \
+                          (candela::sdk::WeightedShading<Params, candela::ShadingRate::rate,         \
                                                          &candela::kernel::prefix##_normal,          \
                                                          &candela::kernel::prefix##_corner_weight>), \
                           prefix, Params, fields, __VA_ARGS__)
