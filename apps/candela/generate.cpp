@@ -7,10 +7,8 @@
 #include <vector>
 
 #include "command_line.h"
-#include "generate/building.h"
-#include "generate/exported_scene.h"
-#include "generate/target.h"
 #include "generating.h"
+#include "targets.h"
 #include "terminal.h"
 #include "verbs.h"
 
@@ -31,41 +29,38 @@ std::string size_text(std::size_t bytes) {
 }  // namespace
 
 int run_generate(const std::vector<std::string>& arguments) {
-    CommandLine line("candela generate [SCENE...] --target cpp|opengl|webgl [options]",
+    candela::Registry installed(candela::plugin_search_path({}));
+    const std::string any = target_names(installed, " or ");
+    CommandLine line("candela generate [SCENE...] --target NAME [options]",
                      "Writes a program that renders a scene, with the formulas of its models as their "
-                     "authors wrote them:\n"
-                     "  cpp     " +
-                         std::string(generate::target_called("cpp").summary) +
-                         "\n"
-                         "  opengl  " +
-                         std::string(generate::target_called("opengl").summary) +
-                         "\n"
-                         "  webgl   " +
-                         std::string(generate::target_called("webgl").summary) +
-                         "\n"
+                     "authors wrote them:\n" +
+                         target_summaries(installed) +
                          "`candela verify` shows that its picture is Candela's.");
-    line.options()("target,t", po::value<std::string>()->value_name("NAME"),
-                   "what to write: cpp, opengl or webgl")("output,o",
-                                                          po::value<std::string>()->value_name("DIR"),
-                                                          "the folder for it; scene-NAME, unless said")(
-        "build", "build it too, with CMake")("run", "build it and run it: a picture, a window, or a browser");
+    const std::string help = "what to write: " + any;
+    line.options()("target,t", po::value<std::string>()->value_name("NAME"), help.c_str())(
+        "output,o", po::value<std::string>()->value_name("DIR"),
+        "the folder for it; scene-NAME, unless said")("build", "build it too")(
+        "run", "build it and run it: a picture, a window, or a browser");
     add_models_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
-    if (!line.has("target")) throw Error(ExitCode::usage, "--target is missing (cpp, opengl or webgl)");
-    const generate::Target& target = generate::target_called(line.get<std::string>("target"));
-    const fs::path directory =
-        line.has("output") ? line.get<std::string>("output") : fmt::format("scene-{}", target.name);
-
     candela::Registry registry = registry_from(line);
+    if (!line.has("target"))
+        throw Error(ExitCode::usage, fmt::format("--target is missing ({})", target_names(registry, " or ")));
+    const LoadedTarget target(line.get<std::string>("target"), registry);
+    const fs::path directory =
+        line.has("output") ? line.get<std::string>("output") : fmt::format("scene-{}", target.name());
+
     candela::Diagnostics diagnostics;
     const auto scene = scene_to_export(line, registry, diagnostics);
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!scene) return static_cast<int>(diagnostics.exit_code());
-    const auto files = target.generate(scene->exported, generate_templates(), registry);
+    const auto exported = export_for(target, *scene, line, registry);
+    const auto files = target.files_of(exported.scene());
     write_program(files, directory);
-    for (const generate::GeneratedFile& file : files)
-        std::cerr << fmt::format("{}: {}\n", (directory / file.name).string(), size_text(file.text.size()));
-    if (line.has("build") || line.has("run")) generate::build(target, directory);
-    return line.has("run") ? generate::show(target, directory) : 0;
+    for (const candela::ExportedFile& file : files)
+        std::cerr << fmt::format("{}: {}\n", (directory / file.name).string(),
+                                 size_text(file.content.size()));
+    if (line.has("build") || line.has("run")) target.build(directory);
+    return line.has("run") ? target.show(directory) : 0;
 }

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <system_error>
-
-#include "helper.h"
+#include <utility>
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
@@ -35,29 +35,33 @@ void add_models_option(CommandLine& line) {
 
 std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::Registry& registry,
                                              candela::Diagnostics& diagnostics) {
-    const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
+    auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
     auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
     if (!compiled) return std::nullopt;
     const std::vector<std::string> files = line.all("scene");
-    const std::string title = files.empty() ? "The default scene" : fs::path(files.front()).stem().string();
-    const generate::ExtraModels extra =
-        line.has("models") ? words_of(line.get<std::string>("models")) : generate::ExtraModels();
-    const auto with_model = [&](candela::PluginKind kind, const std::string& name) {
-        candela::SceneRequest request = scene_request_from(line);
-        // What was asked has been answered.
-        request.ask = nullptr;
-        request.use_defaults = true;
-        (kind == candela::PluginKind::shading ? request.shading : request.reflection) = name;
-        candela::Diagnostics ignored;
-        return candela::read_scene(request, registry, ignored);
-    };
-    return SceneToExport{std::move(*compiled),
-                         generate::exported(draft->scene, title, extra, with_model, registry)};
+    return SceneToExport{
+        .title = files.empty() ? "The default scene" : fs::path(files.front()).stem().string(),
+        .scene = std::move(draft->scene),
+        .compiled = std::move(*compiled)};
 }
 
-generate::Templates generate_templates() { return {beside_command("share/candela/generate")}; }
+candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport& scene,
+                                const CommandLine& line, candela::Registry& registry) {
+    candela::ExportRequest request{.title = scene.title, .abilities = target.abilities()};
+    if (line.has("models")) request.extra_models = words_of(line.get<std::string>("models"));
+    request.with_model = [&](candela::PluginKind kind, const std::string& name) {
+        candela::SceneRequest again = scene_request_from(line);
+        // What was asked has been answered.
+        again.ask = nullptr;
+        again.use_defaults = true;
+        (kind == candela::PluginKind::shading ? again.shading : again.reflection) = name;
+        candela::Diagnostics ignored;
+        return candela::read_scene(again, registry, ignored);
+    };
+    return {scene.scene, request, registry};
+}
 
-void write_program(const std::vector<generate::GeneratedFile>& files, const fs::path& directory) {
+void write_program(const std::vector<candela::ExportedFile>& files, const fs::path& directory) {
     std::error_code problem;
     fs::create_directories(directory, problem);
     if (!fs::is_directory(directory)) {
@@ -65,6 +69,9 @@ void write_program(const std::vector<generate::GeneratedFile>& files, const fs::
                     fmt::format("the folder '{}' cannot be made: {}", directory.string(),
                                 problem ? problem.message() : "there is a file of that name"));
     }
-    for (const generate::GeneratedFile& file : files)
-        candela::write_text_file(directory / file.name, file.text);
+    for (const candela::ExportedFile& file : files) {
+        const fs::path path = directory / file.name;
+        if (path.parent_path() != directory) fs::create_directories(path.parent_path());
+        candela::write_text_file(path, file.content);
+    }
 }

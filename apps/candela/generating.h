@@ -3,29 +3,30 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "command_line.h"
-#include "generate/exported_scene.h"
-#include "generate/target.h"
+#include "targets.h"
 
 import candela.core;
 
 /// Adds --models.
 void add_models_option(CommandLine& line);
 
-/// A scene that has passed all checks, and what a program has of it.
+/// A scene that has passed all checks.
 struct SceneToExport {
+    std::string title;
+    candela::Scene scene;
     candela::CompiledScene compiled;
-    generate::ExportedScene exported;
 };
-/// Nothing where there are errors, which are reported. Throws candela::Error where a program cannot have the
-/// scene.
+/// Nothing where there are errors, which are reported.
 std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::Registry& registry,
                                              candela::Diagnostics& diagnostics);
 
-/// The installed templates.
-generate::Templates generate_templates();
+/// What a target has of a scene. Throws candela::Error where it cannot express it.
+candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport& scene,
+                                const CommandLine& line, candela::Registry& registry);
 
 /// Writes the files of a program to a folder, which is made where there is none. Each is whole or not there.
-void write_program(const std::vector<generate::GeneratedFile>& files, const std::filesystem::path& directory);
+void write_program(const std::vector<candela::ExportedFile>& files, const std::filesystem::path& directory);

@@ -32,8 +32,8 @@ candela::PluginKind kind_from(std::string name) {
 
 int run_list(const std::vector<std::string>& arguments) {
     CommandLine line("candela list [KIND] [options]",
-                     "Lists the installed plugins; of one kind (light, reflection, shading, shape, image) if "
-                     "it is named.");
+                     "Lists the installed plugins; of one kind (light, reflection, shading, shape, image, "
+                     "target) if it is named.");
     line.positional("kind", 1);
     line.options()("json", "all that the plugins say about themselves, as JSON");
     add_plugin_options(line);

@@ -6,13 +6,13 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line.h"
-#include "generate/building.h"
-#include "generate/target.h"
 #include "generating.h"
 #include "helper.h"
+#include "targets.h"
 #include "terminal.h"
 #include "verbs.h"
 #include "verify/comparison.h"
@@ -23,7 +23,6 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ExitCode;
-using generate::Target;
 
 namespace {
 
@@ -59,17 +58,25 @@ class Workplace {
     bool is_temporary_ = false;
 };
 
-std::vector<const Target*> targets_from(const CommandLine& line) {
+std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registry& registry) {
     const auto name = line.get<std::string>("target");
-    std::vector<const Target*> chosen;
-    if (name == "all") {
-        for (const Target& target : generate::targets()) chosen.push_back(&target);
-    } else {
-        chosen.push_back(&generate::target_called(name));
-    }
-    if (line.has("program") && chosen.size() != 1)
+    const bool is_all = name == "all";
+    if (is_all && line.has("program")) {
         throw Error(ExitCode::usage,
-                    "--program is the folder of one program; say which with --target cpp, opengl or webgl");
+                    fmt::format("--program is the folder of one program; say which with --target {}",
+                                target_names(registry, " or ")));
+    }
+    std::vector<LoadedTarget> chosen;
+    if (is_all) {
+        for (const std::string& each : registry.names(candela::PluginKind::target)) {
+            LoadedTarget target(each, registry);
+            if (target.can_draw()) chosen.push_back(std::move(target));
+        }
+        return chosen;
+    }
+    chosen.emplace_back(name, registry);
+    if (!chosen.front().can_draw())
+        throw Error(ExitCode::usage, fmt::format("target/{} draws no picture that could be compared", name));
     return chosen;
 }
 
@@ -84,15 +91,17 @@ verify::Limits limits_from(const CommandLine& line) {
 }  // namespace
 
 int run_verify(const std::vector<std::string>& arguments) {
+    candela::Registry installed(candela::plugin_search_path({}));
+    const std::string help = target_names(installed) + ", or all";
     CommandLine line(
         "candela verify [SCENE...] [options]",
         "Generates programs from a scene, builds and runs them, and compares their pictures with Candela's "
         "own.\n"
         "Exit code 4: one of them differs, beside edges, by more than the tolerance, or by 0.1 on average.");
     line.options()("target,t", po::value<std::string>()->value_name("NAME")->default_value("all"),
-                   "cpp, opengl, webgl, or all")(
-        "tolerance", po::value<double>()->value_name("LEVELS")->default_value(2, "2"),
-        "how much a pixel beside edges may differ, in levels of 1/255")(
+                   help.c_str())("tolerance",
+                                 po::value<double>()->value_name("LEVELS")->default_value(2, "2"),
+                                 "how much a pixel beside edges may differ, in levels of 1/255")(
         "report", po::value<std::string>()->value_name("DIR"),
         "keep the programs, the pictures, their differences, and a page that shows them")(
         "program", po::value<std::string>()->value_name("DIR"),
@@ -100,14 +109,16 @@ int run_verify(const std::vector<std::string>& arguments) {
     add_models_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
-    const std::vector<const Target*> chosen = targets_from(line);
+    candela::Registry registry = registry_from(line);
+    const std::vector<LoadedTarget> chosen = targets_from(line, registry);
     const verify::Limits limits = limits_from(line);
 
-    candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
     auto scene = scene_to_export(line, registry, diagnostics);
     std::cerr << diagnostics.text(stderr_takes_color());
     if (!scene) return static_cast<int>(diagnostics.exit_code());
+    std::vector<candela::SceneExport> exports;
+    for (const LoadedTarget& target : chosen) exports.push_back(export_for(target, *scene, line, registry));
 
     const Workplace workplace(line.has("report") ? std::optional(line.get<std::string>("report"))
                                                  : std::nullopt);
@@ -127,15 +138,15 @@ int run_verify(const std::vector<std::string>& arguments) {
         candela::write_picture(verify::mask_of(edges, image.width, image.height), png, folder / "edges.png",
                                registry);
         step();
-        for (const Target* const target : chosen) {
-            const std::string name = target->name;
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            const LoadedTarget& target = chosen[i];
+            const std::string& name = target.name();
             const fs::path program =
                 line.has("program") ? fs::path(line.get<std::string>("program")) : folder / name;
-            if (!line.has("program"))
-                write_program(target->generate(scene->exported, generate_templates(), registry), program);
-            generate::build(*target, program);
+            if (!line.has("program")) write_program(target.files_of(exports[i].scene()), program);
+            target.build(program);
             step();
-            generate::draw(*target, program, folder / (name + ".png"));
+            target.draw(program, folder / (name + ".png"));
             step();
             verdicts.push_back(
                 {name, verify::compare(beside_command("lib/candela/candela-diff"), folder / "reference.png",
@@ -148,8 +159,7 @@ int run_verify(const std::vector<std::string>& arguments) {
     bool all_match = true;
     for (const verify::Verdict& v : verdicts) all_match = all_match && v.is_match(limits);
     if (line.has("report")) {
-        candela::write_text_file(folder / "index.html",
-                                 verify::report_page(scene->exported.title, verdicts, limits));
+        candela::write_text_file(folder / "index.html", verify::report_page(scene->title, verdicts, limits));
         std::cerr << fmt::format("report: {}\n", (folder / "index.html").string());
     }
     return static_cast<int>(all_match ? ExitCode::ok : ExitCode::verification_failed);

@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "generate/building.h"
-
 import candela.core;
 
 using candela::Error;
@@ -28,9 +26,9 @@ Figures figures_from(const nlohmann::json& json) {
 
 Comparison compare(const fs::path& program, const fs::path& a, const fs::path& b, const fs::path& edges,
                    const fs::path& heat_map) {
-    const generate::ToolResult result =
-        generate::run_tool({program.string(), a.string(), b.string(), "--mask", edges.string(), "-o",
-                            heat_map.string(), "--json"});
+    const candela::ProgramOutput result =
+        candela::run_program({program.string(), a.string(), b.string(), "--mask", edges.string(), "-o",
+                              heat_map.string(), "--json"});
     if (result.exit_code != 0)
         throw Error(ExitCode::failure, fmt::format("the pictures cannot be compared:\n{}", result.err));
     try {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "generate/literals.h"
+#include "candela/target/literals.h"
 
 namespace verify {
 
@@ -67,7 +67,7 @@ std::string table_of(const std::vector<Verdict>& verdicts, const Limits& limits)
 
 std::string report_page(const std::string& title, const std::vector<Verdict>& verdicts,
                         const Limits& limits) {
-    const std::string name = generate::html_text(title);
+    const std::string name = candela::target::html_text(title);
     std::string text = fmt::format(
         "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
         "content=\"width=device-width\">\n"

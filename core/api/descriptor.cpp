@@ -10,7 +10,7 @@ namespace candela {
 
 namespace {
 constexpr std::array<std::string_view, k_plugin_kinds.size()> k_names = {"light", "reflection", "shading",
-                                                                         "shape", "image"};
+                                                                         "shape", "image",      "target"};
 }
 
 Instance::~Instance() = default;

@@ -4,6 +4,7 @@ module;
 #include "candela/api.h"
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -15,10 +16,10 @@ export import candela.params;
 
 export namespace candela {
 
-enum class PluginKind : int { light, reflection, shading, shape, image };
+enum class PluginKind : int { light, reflection, shading, shape, image, target };
 
 inline constexpr std::array k_plugin_kinds = {PluginKind::light, PluginKind::reflection, PluginKind::shading,
-                                              PluginKind::shape, PluginKind::image};
+                                              PluginKind::shape, PluginKind::image,      PluginKind::target};
 
 CANDELA_API std::string_view name_of(PluginKind kind) noexcept;
 CANDELA_API std::optional<PluginKind> plugin_kind_named(std::string_view name) noexcept;
@@ -48,12 +49,20 @@ struct FileFormat {
     bool reads = false;
 };
 
+/// A function of a kernel that programs call: <prefix>_<name>.
+struct KernelFunction {
+    const char* name = "";          // "reflect", "corner_weight"
+    bool takes_parameters = false;  // its first argument is the struct of the parameters
+};
+
 /// The mathematics of a plugin as text, for programs that are generated from it.
 struct KernelText {
     const char* text = nullptr;    // the whole .kernel file; null if there is none
     const char* prefix = nullptr;  // its functions are called <prefix>_reflect, <prefix>_normal, …
     const char* parameters =
         "";  // the struct that they take first; its members are named after the parameters
+    std::span<const KernelFunction> functions{};
+    std::span<const std::size_t> members{};  // the struct's members in their order: indices of parameters
 };
 
 /// Everything about one plugin. Plain data with static lifetime in the plugin's library.

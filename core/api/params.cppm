@@ -2,9 +2,12 @@
 // data that crosses the plugin's boundary.
 module;
 
+#include "candela/api.h"
+
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string_view>
 
 export module candela.params;
 
@@ -23,6 +26,9 @@ enum class ParamType : int {
     color,      // three integers 0-255; received as 0 to 1, decoded according to the image's color_management
     rgb,        // a number, or one per channel
 };
+
+/// "real", "integer", ...
+CANDELA_API std::string_view name_of(ParamType type) noexcept;
 
 /// A value as a plugin receives it; the type determines which member counts. Angles (unit "deg") are in
 /// radians.

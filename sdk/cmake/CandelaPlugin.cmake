@@ -1,10 +1,13 @@
-# candela_add_plugin(<kind>/<name> SOURCES <file>... [KERNEL <file>] [LIBRARIES <target>...] [VERSION <x.y.z>])
+# candela_add_plugin(<kind>/<name> SOURCES <file>... [KERNEL <file>] [EMBED <file>...] [LIBRARIES <target>...]
+#                    [VERSION <x.y.z>])
 #
-# A plugin: <kind>-<name>.so and, made from it, <kind>-<name>.json. Kind is light, reflection, shading, shape or image.
+# A plugin: <kind>-<name>.so and, made from it, <kind>-<name>.json. Kind is light, reflection, shading, shape,
+# image or target.
 # The target is called candela_<kind>_<name>. Where tests are enabled (enable_testing() before the call), and
 # CANDELA_CONFORMANCE_TESTS is not set to OFF, "<kind>/<name> conforms" is a test.
 #   SOURCES    what is compiled; one of the files ends with the macro of its kind (candela/<kind>_plugin.h)
 #   KERNEL     the model's formulas in the kernel language; its text is embedded for the program generator
+#   EMBED      files that the sources embed, with CANDELA_EMBED(variable, CANDELA_SOURCE_DIR "/...") (candela/embed.h)
 #   LIBRARIES  what else is linked
 #   VERSION    of the plugin; the project's by default
 include_guard(GLOBAL)
@@ -21,13 +24,13 @@ target_compile_options(candela_batch_flags INTERFACE
     $<$<AND:$<CXX_COMPILER_ID:Clang>,$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>>:-mprefer-vector-width=512>)
 
 function(candela_add_plugin id)
-    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION" "SOURCES;LIBRARIES")
+    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION" "SOURCES;EMBED;LIBRARIES")
     if(PLUGIN_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "candela_add_plugin(${id}): unknown arguments ${PLUGIN_UNPARSED_ARGUMENTS}")
     endif()
-    if(NOT id MATCHES "^(light|reflection|shading|shape|image)/([a-z][a-z0-9-]*)$")
+    if(NOT id MATCHES "^(light|reflection|shading|shape|image|target)/([a-z][a-z0-9-]*)$")
         message(FATAL_ERROR "candela_add_plugin(${id}): the first argument is <kind>/<name>; kind is light, reflection, "
-            "shading, shape or image, name is of lower-case letters, digits and hyphens")
+            "shading, shape, image or target, name is of lower-case letters, digits and hyphens")
     endif()
     set(kind ${CMAKE_MATCH_1})
     set(name ${CMAKE_MATCH_2})
@@ -56,6 +59,11 @@ function(candela_add_plugin id)
         cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
         target_compile_definitions(${target} PRIVATE CANDELA_KERNEL_FILE="${kernel}")
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS ${kernel})
+    endif()
+    if(PLUGIN_EMBED)
+        list(TRANSFORM PLUGIN_EMBED PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]")
+        target_compile_definitions(${target} PRIVATE CANDELA_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+        set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS "${PLUGIN_EMBED}")
     endif()
     target_link_libraries(${target} PRIVATE candela::sdk candela_batch_flags ${PLUGIN_LIBRARIES})
     # Only candela_* leaves the library: module initialisers are otherwise visible, and two plugins could clash.

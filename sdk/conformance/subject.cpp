@@ -201,6 +201,10 @@ std::unique_ptr<candela::Shape> make(const Values& values) {
     return made<candela::Shape>(values);
 }
 template <>
+std::unique_ptr<candela::Target> make(const Values& values) {
+    return made<candela::Target>(values);
+}
+template <>
 std::unique_ptr<candela::ImageFormat> make(const Values& values) {
     return made<candela::ImageFormat>(values);
 }

@@ -54,6 +54,30 @@ grep -q "Cel shading: Lambert's cosine in a few steps" "$scratch/program/scene.c
 "$candela" verify --target cpp --reflection cel --width 160 --height 160 >"$scratch/out" 2>&1 || { cat "$scratch/out" >&2; fail "verify"; }
 expect "$scratch/out" "match" "candela verify"
 
+say "a target is built likewise, is listed and described, writes a scene and conforms"
+cp -r "$here/csv" "$scratch/csv"
+"$cmake" -G Ninja -S "$scratch/csv" -B "$scratch/csv/build" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 ||
+    { cat "$scratch/configure.log" >&2; fail "configuring the target"; }
+"$cmake" --build "$scratch/csv/build" >"$scratch/build.log" 2>&1 || { cat "$scratch/build.log" >&2; fail "building the target"; }
+csv=$scratch/csv/build
+"$candela" list target --plugin-dir "$csv" >"$scratch/out"
+expect "$scratch/out" "for spreadsheets" "candela list target"
+"$candela" describe target/csv --plugin-dir "$csv" >"$scratch/out"
+expect "$scratch/out" "CSV (target/csv), version 1.0.0" "candela describe"
+"$candela" generate --target csv --plugin-dir "$csv" -o "$scratch/tables" 2>"$scratch/out"
+expect "$scratch/tables/lights.csv" ",point,intensity,2.5" "candela generate"
+expect "$scratch/tables/objects.csv" "cube,cube,phong,phong,1" "candela generate"
+[ "$(wc -l <"$scratch/tables/meshes/triangles.csv")" -eq 13 ] || fail "a cube has twelve triangles"
+code=0
+"$candela" verify --target csv --plugin-dir "$csv" 2>"$scratch/out" || code=$?
+[ "$code" -eq 2 ] || fail "exit code $code for a target that draws nothing"
+expect "$scratch/out" "target/csv draws no picture" "candela verify"
+code=0
+"$candela" generate --target csw --plugin-dir "$csv" 2>"$scratch/out" || code=$?
+expect "$scratch/out" "there is no target 'csw'; did you mean 'csv'? (possible: cpp, csv, opengl, webgl)" "candela generate"
+"$candela" plugin test "$csv/target-csv.so" >"$scratch/out" || { cat "$scratch/out" >&2; fail "the target does not conform"; }
+
 say "by directory flag, and wrong values are explained"
 unset CANDELA_PLUGIN_PATH
 "$candela" render --plugin-dir "$scratch/plugins" --reflection cel -o "$scratch/flag.ppm" 2>"$scratch/out"

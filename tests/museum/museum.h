@@ -27,6 +27,10 @@ constexpr auto k_fields = candela::sdk::fields(
 
 class Matt : public candela::ReflectionModel {
   public:
+    /// Of those exhibits that have a kernel.
+    static constexpr candela::KernelFunction k_kernel_functions[] = {{"reflect", true},
+                                                                     {"reflect_ambient", true}};
+
     explicit Matt(const Params& params) : kd_(params.kd.x) {}
 
     void reflect(const candela::SurfaceBatch& s, const candela::LightingBatch& light,

@@ -55,7 +55,7 @@ std::string refusal(const fs::path& directory, const std::string& name) {
 /// The plugins that the source tree has, by kind and name: a plugin is a folder.
 std::vector<std::string> folders() {
     std::vector<std::string> ids;
-    for (const char* const kind : {"light", "reflection", "shading", "shape", "image"}) {
+    for (const char* const kind : {"light", "reflection", "shading", "shape", "image", "target"}) {
         std::vector<std::string> of_kind;
         for (const auto& folder : fs::directory_iterator(k_plugins / kind))
             of_kind.push_back(kind + ("/" + folder.path().filename().string()));

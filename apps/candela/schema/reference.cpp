@@ -63,6 +63,8 @@ constexpr Section k_sections[] = {
     {PluginKind::reflection, "Reflection models", "How a surface reflects light."},
     {PluginKind::image, "Picture formats",
      "By the extension of the picture's name: `candela render -o picture.exr`."},
+    {PluginKind::target, "Targets",
+     "What a scene can be turned into, beside a picture: `candela generate --target NAME`."},
 };
 
 /// For the cell of a table.
@@ -102,6 +104,8 @@ class ReferenceWriter {
             line("\n## {}\n\n{}", section.heading, section.text);
             if (section.kind == PluginKind::image) {
                 formats();
+            } else if (section.kind == PluginKind::target) {
+                targets();
             } else {
                 for (const Manifest* m : all(section.kind)) plugin(*m);
             }
@@ -273,6 +277,11 @@ class ReferenceWriter {
         if (has_minimum && has_maximum) return fmt::format("{}", (p.minimum + p.maximum) / 2);
         if (has_minimum) return fmt::format("{}", p.minimum + 1);
         return fmt::format("{}", has_maximum ? p.maximum - 1 : 0.0f);
+    }
+
+    void targets() {
+        line("");
+        for (const Manifest* m : all(PluginKind::target)) line("- `{}`: {}", m->id(), m->summary);
     }
 
     void formats() {

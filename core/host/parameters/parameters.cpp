@@ -25,8 +25,6 @@ namespace candela {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> k_type_names = {
-    "real", "integer", "boolean", "choice", "text", "file", "vector", "point", "direction", "color", "rgb"};
 constexpr std::array<std::string_view, 3> k_relation_names = {"less", "less-or-equal", "sum-at-most-one"};
 
 template <class Enum, std::size_t count>
@@ -97,9 +95,11 @@ bool above(double x, const Parameter& p) {
 
 }  // namespace
 
-std::string_view name_of(ParamType type) noexcept { return k_type_names[static_cast<std::size_t>(type)]; }
 std::optional<ParamType> param_type_named(std::string_view name) noexcept {
-    return enum_named<ParamType>(k_type_names, name);
+    for (int type = 0; type <= static_cast<int>(ParamType::rgb); ++type) {
+        if (name_of(static_cast<ParamType>(type)) == name) return static_cast<ParamType>(type);
+    }
+    return std::nullopt;
 }
 std::string_view name_of(RelationType type) noexcept {
     return k_relation_names[static_cast<std::size_t>(type)];

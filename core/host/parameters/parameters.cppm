@@ -54,7 +54,6 @@ struct Relation {
 CANDELA_API Parameter parameter_of(const ParamSpec& spec);
 CANDELA_API Relation relation_of(const RelationSpec& spec);
 
-CANDELA_API std::string_view name_of(ParamType type) noexcept;
 CANDELA_API std::optional<ParamType> param_type_named(std::string_view name) noexcept;
 CANDELA_API std::string_view name_of(RelationType type) noexcept;
 CANDELA_API std::optional<RelationType> relation_type_named(std::string_view name) noexcept;

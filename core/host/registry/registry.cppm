@@ -22,6 +22,7 @@ import candela.light;
 import candela.reflection;
 import candela.shading;
 import candela.shape;
+import candela.target;
 
 export namespace candela {
 
@@ -58,6 +59,8 @@ template <>
 inline constexpr PluginKind k_kind_of<Shape> = PluginKind::shape;
 template <>
 inline constexpr PluginKind k_kind_of<ImageFormat> = PluginKind::image;
+template <>
+inline constexpr PluginKind k_kind_of<Target> = PluginKind::target;
 
 /// Whose plugins are used. A plugin is code that runs with all the rights of the user.
 enum class PluginTrust : int {

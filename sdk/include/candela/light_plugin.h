@@ -74,6 +74,9 @@ struct IlluminateAmbientLoop {
 template <class Params, auto illuminate_>
 class KernelLight final : public Light {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {
+        kernel_function<Params, illuminate_>("illuminate")};
+
     explicit KernelLight(const Params& params) : params_(params) {}
     int sample_count() const noexcept override { return 1; }
     bool has_ambient() const noexcept override { return false; }
@@ -88,6 +91,10 @@ class KernelLight final : public Light {
 template <class Params, auto illuminate_, auto sample_count_>
 class KernelSampledLight final : public Light {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {
+        kernel_function<Params, illuminate_>("illuminate"),
+        kernel_function<Params, sample_count_>("sample_count")};
+
     explicit KernelSampledLight(const Params& params) : params_(params) {}
     int sample_count() const noexcept override { return call<sample_count_>(params_); }
     bool has_ambient() const noexcept override { return false; }
@@ -103,6 +110,9 @@ class KernelSampledLight final : public Light {
 template <class Params, auto illuminate_ambient_>
 class KernelAmbientLight final : public Light {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {
+        kernel_function<Params, illuminate_ambient_>("illuminate_ambient")};
+
     explicit KernelAmbientLight(const Params& params) : params_(params) {}
     int sample_count() const noexcept override { return 0; }
     bool has_ambient() const noexcept override { return true; }

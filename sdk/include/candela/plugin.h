@@ -5,13 +5,16 @@
 // CANDELA_KERNEL_FILE come from candela_add_plugin().
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "candela/abi.h"
 #include "candela/batch.h"
@@ -53,6 +56,13 @@ struct Field {
         if (integer != nullptr) params.*integer = value.integer;
         if (vector != nullptr) params.*vector = vec3(value.number[0], value.number[1], value.number[2]);
         if (text != nullptr) params.*text = value.text;
+    }
+
+    const void* member_of(const Params& params) const {
+        if (real != nullptr) return &(params.*real);
+        if (integer != nullptr) return &(params.*integer);
+        if (vector != nullptr) return &(params.*vector);
+        return text != nullptr ? &(params.*text) : nullptr;
     }
 
     // The rest of the declaration, after the type of value: real(...).minimum(0).unit("m").
@@ -181,14 +191,57 @@ struct About {
 struct NoParams {};
 inline constexpr std::array<Field<NoParams>, 0> k_no_fields{};
 
-/// The descriptor's entry for a plugin's kernel; `parameters` is the name of `Params`, as its author wrote
-/// it.
-template <class Params>
-KernelText kernel_text(const char* prefix, const char* parameters) {
+template <class Params, class Result>
+constexpr bool takes_first(Result (*)()) {
+    return false;
+}
+template <class Params, class Result, class First, class... Rest>
+constexpr bool takes_first(Result (*)(First, Rest...)) {
+    return std::is_same_v<First, Params>;
+}
+/// The kernel function <prefix>_<name>, as a class of kernel functions lists it in `k_kernel_functions`.
+template <class Params, auto function>
+constexpr KernelFunction kernel_function(const char* name) {
+    return {name, takes_first<Params>(function)};
+}
+
+/// Whether every member of a kernel's struct is a parameter. (Its members are numbers, so that nothing lies
+/// between them.)
+template <class Params, std::size_t count>
+constexpr bool fill_all_members(const std::array<Field<Params>, count>& fields) {
+    std::size_t size = 0;
+    for (const Field<Params>& field : fields) size += field.vector != nullptr ? sizeof(vec3) : sizeof(float);
+    return count == 0 ? std::is_empty_v<Params> : size == sizeof(Params);
+}
+
+/// The fields in the order of their members: their indices.
+template <class Params, std::size_t count>
+std::array<std::size_t, count> by_member(const std::array<Field<Params>, count>& fields) {
+    const Params params{};
+    std::array<const void*, count> addresses{};
+    std::array<std::size_t, count> order{};
+    for (std::size_t i = 0; i < count; ++i) {
+        addresses[i] = fields[i].member_of(params);
+        order[i] = i;
+    }
+    std::ranges::sort(order, std::ranges::less(), [&](std::size_t i) { return addresses[i]; });
+    return order;
+}
+
+/// What a descriptor says of the kernel behind `Model`, which lists its functions in `k_kernel_functions`;
+/// `parameters` is the name of `Params`, as its author wrote it.
+template <class Model, class Params, std::size_t count>
+KernelText kernel_text(const char* prefix, const char* parameters,
+                       const std::array<Field<Params>, count>& fields) {
+    static const std::array<std::size_t, count> members = by_member(fields);
     const std::string_view qualified = parameters;
     const auto colon = qualified.rfind(':');
     const bool takes_none = std::is_same_v<Params, NoParams>;
-    return {k_kernel_text, prefix, takes_none ? "" : parameters + (colon == qualified.npos ? 0 : colon + 1)};
+    return {.text = k_kernel_text,
+            .prefix = prefix,
+            .parameters = takes_none ? "" : parameters + (colon == qualified.npos ? 0 : colon + 1),
+            .functions = Model::k_kernel_functions,
+            .members = members};
 }
 
 template <std::size_t count, class Params>
@@ -233,11 +286,16 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 #endif
 
 /// The same for a plugin made of kernel functions: `prefix_` begins their names, `Params_` is their first
-/// argument.
+/// argument, `Model` lists them in a static member `k_kernel_functions`.
 #define CANDELA_KERNEL_PLUGIN(kind_, Model, prefix_, Params_, fields_, ...)                              \
     CANDELA_EMBED_KERNEL                                                                                 \
-    CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::sdk::kernel_text<Params_>(#prefix_, #Params_), \
-                          __VA_ARGS__)
+    static_assert(candela::sdk::fill_all_members<Params_>(fields_),                                      \
+                  "each member of a kernel's struct is one of the plugin's parameters");                 \
+    CANDELA_EXPORT_PLUGIN(                                                                               \
+        kind_, Model, fields_,                                                                           \
+        (candela::sdk::kernel_text<std::remove_pointer_t<decltype(new Model(std::declval<Params_>()))>>( \
+            #prefix_, #Params_, fields_)),                                                               \
+        __VA_ARGS__)
 
 #define CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, kernel_, ...)                            \
     extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }        \

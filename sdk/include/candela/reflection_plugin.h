@@ -81,6 +81,10 @@ struct ReflectAmbientLoop {
 template <class Material, auto reflect_, auto reflect_ambient_, Tangent tangent = Tangent::unused>
 class KernelReflection final : public ReflectionModel {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {
+        kernel_function<Material, reflect_>("reflect"),
+        kernel_function<Material, reflect_ambient_>("reflect_ambient")};
+
     explicit KernelReflection(const Material& material) : material_(material) {}
 
     bool needs_tangent() const noexcept override { return tangent == Tangent::needed; }

@@ -111,6 +111,12 @@ template <class Material, auto reflect_, auto reflect_ambient_, auto enter_, aut
           Tangent tangent = Tangent::unused>
 class KernelRefraction final : public ReflectionModel {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {
+        kernel_function<Material, reflect_>("reflect"),
+        kernel_function<Material, reflect_ambient_>("reflect_ambient"),
+        kernel_function<Material, enter_>("enter"), kernel_function<Material, leave_>("leave"),
+        kernel_function<Material, transmit_>("transmit")};
+
     explicit KernelRefraction(const Material& material) : surface_(material), material_(material) {}
 
     bool needs_tangent() const noexcept override { return surface_.needs_tangent(); }

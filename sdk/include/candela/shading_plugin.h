@@ -52,6 +52,8 @@ struct NormalLoop {
 template <class Params, ShadingRate rate, auto normal, ShadingNeeds needs_ = ShadingNeeds{}>
 class KernelShading : public ShadingModel {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal")};
+
     explicit KernelShading(const Params& params) : params_(params) {}
     ShadingRate shading_rate() const noexcept override { return rate; }
     ShadingNeeds needs() const noexcept override { return needs_; }
@@ -154,6 +156,9 @@ class WeightedNormals {
 template <class Params, ShadingRate rate, auto normal, auto weight, ShadingNeeds needs = ShadingNeeds{}>
 class WeightedShading final : public KernelShading<Params, rate, normal, needs> {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal"),
+                                                            kernel_function<Params, weight>("corner_weight")};
+
     using KernelShading<Params, rate, normal, needs>::KernelShading;
     void vertex_normals(const MeshView& mesh, const Vec3Span& normals) const override {
         ShadingModel::vertex_normals(mesh, normals);

@@ -135,6 +135,10 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
 template <class Params, auto position, auto dpdu, auto dpdv, Topology topology>
 class ParametricShape final : public Shape {
   public:
+    static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, position>("position"),
+                                                            kernel_function<Params, dpdu>("dpdu"),
+                                                            kernel_function<Params, dpdv>("dpdv")};
+
     explicit ParametricShape(const Params& params) : params_(params) {}
 
     void tessellate(const MeshRequest& request, MeshSink& sink) const override {

@@ -1,0 +1,54 @@
+#include "targets.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+using candela::Error;
+using candela::ExitCode;
+using candela::PluginKind;
+namespace fs = std::filesystem;
+
+LoadedTarget::LoadedTarget(const std::string& name, candela::Registry& registry) : name_(name) {
+    if (registry.find(PluginKind::target, name) == nullptr) {
+        const auto near = candela::closest(name, registry.names(PluginKind::target));
+        throw Error(ExitCode::usage, fmt::format("there is no target '{}'{} (possible: {})", name,
+                                                 near ? fmt::format("; did you mean '{}'?", *near) : "",
+                                                 target_names(registry)));
+    }
+    target_ = registry.create<candela::Target>(name, registry.parameters(PluginKind::target, name),
+                                               candela::ColorEncoding::none);
+}
+
+void LoadedTarget::build(const fs::path& directory) const try {
+    candela::SystemPrograms programs;
+    target_->build(directory.c_str(), programs);
+} catch (...) {
+    candela::rethrow_as_plugin_error(PluginKind::target, name_);
+}
+
+void LoadedTarget::draw(const fs::path& directory, const fs::path& picture) const try {
+    candela::SystemPrograms programs;
+    target_->draw(directory.c_str(), picture.c_str(), programs);
+} catch (...) {
+    candela::rethrow_as_plugin_error(PluginKind::target, name_);
+}
+
+int LoadedTarget::show(const fs::path& directory) const try {
+    candela::SystemPrograms programs;
+    return target_->show(directory.c_str(), programs);
+} catch (...) {
+    candela::rethrow_as_plugin_error(PluginKind::target, name_);
+}
+
+std::string target_names(candela::Registry& registry, const std::string& last) {
+    const std::vector<std::string> names = registry.names(PluginKind::target);
+    if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));
+    return fmt::format("{}{}{}", fmt::join(names.begin(), names.end() - 1, ", "), last, names.back());
+}
+
+std::string target_summaries(candela::Registry& registry) {
+    std::string text;
+    for (const candela::PluginFile* const file : registry.list(PluginKind::target))
+        text += fmt::format("  {:<7} {}\n", file->manifest.name, file->manifest.summary);
+    return text;
+}

@@ -1,0 +1,38 @@
+// Targets, as the verbs use them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+import candela.core;
+
+/// A target whose plugin is loaded. What the plugin throws becomes candela::Error that names it.
+class LoadedTarget {
+  public:
+    /// Throws candela::Error (usage) with a suggestion where no target has that name.
+    LoadedTarget(const std::string& name, candela::Registry& registry);
+
+    const std::string& name() const { return name_; }
+    candela::TargetAbilities abilities() const { return target_->abilities(); }
+    bool can_draw() const { return target_->can_draw(); }
+
+    std::vector<candela::ExportedFile> files_of(const candela::ExportedScene& scene) const {
+        return candela::files_of(*target_, name_, scene);
+    }
+    void build(const std::filesystem::path& directory) const;
+    void draw(const std::filesystem::path& directory, const std::filesystem::path& picture) const;
+    /// Returns an exit code.
+    int show(const std::filesystem::path& directory) const;
+
+  private:
+    std::string name_;
+    std::unique_ptr<candela::Target> target_;
+};
+
+/// "cpp, opengl, webgl": the installed targets, `last` between the last two.
+std::string target_names(candela::Registry& registry, const std::string& last = ", ");
+
+/// A line for each installed target: its name and what it is.
+std::string target_summaries(candela::Registry& registry);

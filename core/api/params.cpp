@@ -1,0 +1,18 @@
+module;
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+module candela.params;
+
+namespace candela {
+
+namespace {
+constexpr std::array<std::string_view, 11> k_type_names = {
+    "real", "integer", "boolean", "choice", "text", "file", "vector", "point", "direction", "color", "rgb"};
+}
+
+std::string_view name_of(ParamType type) noexcept { return k_type_names[static_cast<std::size_t>(type)]; }
+
+}  // namespace candela

@@ -1,0 +1,85 @@
+module;
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#define BOOST_PROCESS_USE_STD_FS
+#include <boost/process/args.hpp>
+#include <boost/process/child.hpp>
+#include <boost/process/handles.hpp>
+#include <boost/process/io.hpp>
+#include <boost/process/pipe.hpp>
+#include <boost/process/search_path.hpp>
+#include <filesystem>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+module candela.process;
+
+import candela.diagnostics;
+
+namespace candela {
+
+namespace {
+
+namespace process = boost::process;
+
+template <class... Streams>
+process::child started(const std::vector<std::string>& words, Streams&&... streams) {
+    const std::string& name = words.front();
+    std::filesystem::path program = name;
+    if (name.find('/') == std::string::npos) {
+        const auto found = program_called(name);
+        if (!found) {
+            throw Error(ExitCode::failure,
+                        fmt::format("there is no program '{}' on this machine, which is needed here", name));
+        }
+        program = *found;
+    }
+    try {
+        const std::vector<std::string> arguments(words.begin() + 1, words.end());
+        return process::child(program, process::args(arguments), process::limit_handles,
+                              std::forward<Streams>(streams)...);
+    } catch (const std::system_error& problem) {
+        throw Error(ExitCode::failure, fmt::format("'{}' cannot be run: {}", name, problem.code().message()));
+    }
+}
+
+int exit_code_of(process::child& child) {
+    child.wait();
+    const int status = child.native_exit_code();
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string rest_of(process::ipstream& stream) { return {std::istreambuf_iterator<char>(stream), {}}; }
+
+}  // namespace
+
+std::optional<std::filesystem::path> program_called(const std::string& name) {
+    const auto path = process::search_path(name);
+    return path.empty() ? std::nullopt : std::optional(path);
+}
+
+ProgramOutput run_program(const std::vector<std::string>& words) {
+    process::ipstream out, err;
+    process::child child =
+        started(words, process::std_in<process::null, process::std_out> out, process::std_err > err);
+    ProgramOutput output;
+    // A program that fills one pipe waits for its reader, so both are read at once.
+    std::thread reader([&] { output.err = rest_of(err); });
+    output.out = rest_of(out);
+    reader.join();
+    output.exit_code = exit_code_of(child);
+    return output;
+}
+
+int show_program(const std::vector<std::string>& words) {
+    process::child child = started(words);
+    return exit_code_of(child);
+}
+
+}  // namespace candela

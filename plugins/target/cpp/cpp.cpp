@@ -1,0 +1,372 @@
+// One C++17 file: a template, the kernels, and the scene as constants.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "candela/embed.h"
+#include "candela/target/building.h"
+#include "candela/target/files.h"
+#include "candela/target/kernels.h"
+#include "candela/target/literals.h"
+#include "candela/target/text_template.h"
+#include "candela/target_plugin.h"
+#include "objects.h"
+
+CANDELA_EMBED(candela_cpp_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
+CANDELA_EMBED(candela_cpp_vectors, CANDELA_SOURCE_DIR "/templates/vectors.h");
+CANDELA_EMBED(candela_cpp_cmake, CANDELA_SOURCE_DIR "/templates/CMakeLists.txt");
+CANDELA_EMBED(candela_cpp_readme, CANDELA_SOURCE_DIR "/templates/README.md");
+
+namespace candela::cpp_target {
+
+using namespace target;
+
+namespace {
+
+class CppWriter {
+  public:
+    explicit CppWriter(const ExportedScene& scene) : scene_(scene), objects_(scene) {}
+
+    std::string run() {
+        require_different_names(scene_);
+        const std::string text = candela_cpp_scene;
+        const std::string glue =
+            lights() + loops() + reflection() + shading() + objects_.shapes() + objects_.statements() + text;
+        std::string kernels = model_kernels();
+        kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
+        const std::string vectors = needed_parts(candela_cpp_vectors, kernels + glue);
+        const bool is_srgb = scene_.image.color_management == ColorEncoding::srgb;
+        const ExportedImage& image = scene_.image;
+        const ExportedObserver& observer = scene_.observer;
+        const bool is_perspective = observer.projection == Projection::perspective;
+        return filled(
+            text,
+            {{"TITLE", tame(scene_.title)},
+             {"VERSION", CANDELA_PLUGIN_VERSION},
+             {"VECTORS", vectors},
+             {"CONSTRUCTORS", constructors(kernels)},
+             {"KERNELS", kernels},
+             {"DECODED_COMMENT",
+              is_srgb
+                  ? "// Colours are encoded as sRGB (IEC 61966-2-1); light is added up in linear intensities."
+                  : "// Colours are taken as intensities, as they are."},
+             {"DECODED",
+              is_srgb ? "c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f)" : "c"},
+             {"ENCODED_COMMENT", is_srgb ? "// And back to sRGB." : "// Intensities are taken as they are."},
+             {"ENCODED",
+              is_srgb ? "x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f" : "x"},
+             {"WIDTH", fmt::format("{}", image.width)},
+             {"HEIGHT", fmt::format("{}", image.height)},
+             {"BACKGROUND", list(image.background.x, image.background.y, image.background.z)},
+             {"SAMPLES", samples()},
+             {"EYE", vec3_text(observer.position)},
+             {"LOOK_AT", vec3_text(observer.look_at)},
+             {"UP", vec3_text(observer.up)},
+             {"IS_PERSPECTIVE", is_perspective ? "true" : "false"},
+             {"VIEW_SIZE",
+              is_perspective
+                  ? fmt::format(
+                        "const double k_field_of_view = {};  // degrees from top to bottom\n"
+                        "const double k_pixels_per_unit = 0.5 * k_height / std::tan(0.5 * k_field_of_view * "
+                        "0.017453292519943295);",
+                        observer.fov)
+                  : fmt::format("const double k_view_height = {};  // metres from top to bottom\n"
+                                "const double k_pixels_per_unit = k_height / k_view_height;",
+                                observer.height)},
+             {"LIGHTS", lights()},
+             {"ENUMS", enums()},
+             {"OBJECT_MEMBERS", members()},
+             {"SHAPES", objects_.shapes()},
+             {"OBJECTS", objects_.statements()},
+             {"SHADING", shading()},
+             {"REFLECTION", reflection()},
+             {"LIGHT_LOOPS", loops()},
+             {"TANGENT", tangent()},
+             {"PICTURE_FILE", std::string(picture_file_source())},
+             {"MAIN", main_text()},
+             {"DATA",
+              objects_.data().empty()
+                  ? ""
+                  : "\n// ---- 8. The triangles of shapes that have no formula ----\n\nnamespace scene {\n" +
+                        objects_.data() + "\n}  // namespace scene\n"}});
+    }
+
+  private:
+    bool has_choice() const { return scene_.reflections.size() > 1 || scene_.shadings.size() > 1; }
+
+    std::string model_kernels() const {
+        std::string text;
+        std::set<std::string> done;
+        const auto add = [&](const ExportedModel& model) {
+            if (!done.insert(id_of(model)).second) return;
+            text += model.plugin->kernel.text;
+            if (text.back() != '\n') text += '\n';
+            text += '\n';
+        };
+        for (const ExportedModel& model : models_of(scene_)) add(model);
+        for (const ExportedModel& model : objects_.shape_models()) add(model);
+        return text;
+    }
+
+    /// Kernels make structs as GLSL does, Reflected(a, b).
+    static std::string constructors(const std::string& kernels) {
+        static const std::regex k_struct(R"(struct\s+(\w+)\s*\{)");
+        std::string text;
+        for (auto m = std::sregex_iterator(kernels.begin(), kernels.end(), k_struct);
+             m != std::sregex_iterator(); ++m) {
+            const std::string name = (*m)[1];
+            if (!std::regex_search(kernels, std::regex("\\b" + name + "\\s*\\("))) continue;
+            text += fmt::format("#define {0}(...) {0}{{__VA_ARGS__}}\n", name);
+        }
+        return text.empty() ? "" : "// GLSL makes a struct by a call, C++17 by braces.\n" + text;
+    }
+
+    std::string samples() const {
+        std::vector<std::string> positions;
+        for (const ExportedSample& s : scene_.image.samples)
+            positions.push_back(fmt::format("vec2({}, {})", float_text(s.x), float_text(s.y)));
+        return fmt::format("{}", fmt::join(positions, ", "));
+    }
+
+    std::string lights() const {
+        std::string text;
+        for (std::size_t m = 0; m < scene_.light_models.size(); ++m) {
+            const ExportedModel& model = scene_.light_models[m];
+            const KernelText& kernel = model.plugin->kernel;
+            std::string entries;
+            std::size_t count = 0;
+            for (const ExportedLight& light : scene_.lights) {
+                if (light.model != m) continue;
+                ++count;
+                if (has_parameters(model))
+                    entries +=
+                        fmt::format("    {},  // {}\n", struct_text(model, light.values), tame(light.label));
+            }
+            text += has_parameters(model)
+                        ? fmt::format("const std::vector<{}> k_{}_lights = {{\n{}}};\n\n", kernel.parameters,
+                                      kernel.prefix, entries)
+                        : fmt::format("const int k_{}_lights = {};\n\n", kernel.prefix, count);
+        }
+        return text;
+    }
+
+    std::string loops() const {
+        std::string text;
+        for (const ExportedModel& model : scene_.light_models) {
+            const KernelText& kernel = model.plugin->kernel;
+            text += has_parameters(model)
+                        ? fmt::format("    for (const {}& light : k_{}_lights) {{\n", kernel.parameters,
+                                      kernel.prefix)
+                        : fmt::format("    for (int n = 0; n < k_{}_lights; ++n) {{\n", kernel.prefix);
+            const std::string add =
+                "const Reflected f = reflected(o, s, i.to_light);\n{0}sum += f.diffuse * i.diffuse + "
+                "f.specular * i.specular;\n";
+            if (has_function(model, "sample_count")) {
+                text += fmt::format(
+                    "        for (int k = 0; k < {}; ++k) {{\n            const Incident i = {};\n           "
+                    " ",
+                    call(model, "sample_count", "light", ""), call(model, "illuminate", "light", "r, k"));
+                text += fmt::format(fmt::runtime(add), "            ") + "        }\n";
+            } else if (has_function(model, "illuminate")) {
+                text += fmt::format("        const Incident i = {};\n        ",
+                                    call(model, "illuminate", "light", "r"));
+                text += fmt::format(fmt::runtime(add), "        ");
+            }
+            if (has_function(model, "illuminate_ambient"))
+                text += fmt::format("        sum += reflected_ambient(o, s) * {};\n",
+                                    call(model, "illuminate_ambient", "light", "r"));
+            text += "    }\n";
+        }
+        return text.empty() ? "    (void)o, (void)s, (void)r;  // there are no lights\n" : text;
+    }
+
+    static std::string enum_text(const char* type, const std::vector<std::string>& names) {
+        return names.size() < 2 ? "" : fmt::format("enum class {} {{ {} }};\n", type, fmt::join(names, ", "));
+    }
+    std::vector<std::string> shading_names() const {
+        std::vector<std::string> names;
+        for (const ExportedShading& model : scene_.shadings) names.push_back(shading_enumerator(model));
+        return names;
+    }
+    std::vector<std::string> reflection_names() const {
+        std::vector<std::string> names;
+        for (const ExportedReflection& model : scene_.reflections)
+            names.push_back(reflection_enumerator(model));
+        return names;
+    }
+
+    std::string enums() const {
+        const std::string text =
+            enum_text("Shading", shading_names()) + enum_text("Reflection", reflection_names());
+        return text.empty() ? "" : text + "\n";
+    }
+
+    std::string members() const {
+        std::string text;
+        if (scene_.shadings.size() > 1) text += "    Shading shading{};\n";
+        if (scene_.reflections.size() > 1) text += "    Reflection reflection{};\n";
+        const auto add = [&](const ExportedModel& model, const std::string& name) {
+            if (has_parameters(model))
+                text += fmt::format("    {} {}{{}};\n", model.plugin->kernel.parameters, name);
+        };
+        for (const auto& model : scene_.reflections) add(model, material_member(model));
+        for (const auto& model : scene_.shadings) add(model, shading_member(model));
+        return text;
+    }
+
+    /// The body of a function that asks one of several models, a line each.
+    template <class Model, class Line>
+    static std::string choice(const char* type, const char* member, std::span<const Model> models,
+                              const std::vector<std::string>& names, Line line) {
+        if (models.empty()) return "    return {};\n";
+        if (models.size() == 1) return fmt::format("    return {};\n", line(models.front()));
+        std::string text;
+        for (std::size_t i = 0; i + 1 < models.size(); ++i) {
+            text +=
+                fmt::format("    if (o.{} == {}::{}) return {};\n", member, type, names[i], line(models[i]));
+        }
+        return text + fmt::format("    return {};\n", line(models.back()));
+    }
+    template <class Line>
+    std::string reflection_choice(Line line) const {
+        return choice("Reflection", "reflection", scene_.reflections, reflection_names(), line);
+    }
+    template <class Line>
+    std::string shading_choice(Line line) const {
+        return choice("Shading", "shading", scene_.shadings, shading_names(), line);
+    }
+
+    /// "const Object& o" where the text speaks of it.
+    static std::string parameter(const char* type, const char* name, const std::string& body) {
+        const bool is_used = std::regex_search(body, std::regex(fmt::format("\\b{}\\b", name)));
+        return is_used ? fmt::format("{} {}", type, name) : type;
+    }
+    static std::string function(const char* result, const char* name,
+                                const std::vector<std::pair<const char*, const char*>>& parameters,
+                                const std::string& body) {
+        std::vector<std::string> all;
+        for (const auto& [type, parameter_name] : parameters)
+            all.push_back(parameter(type, parameter_name, body));
+        return fmt::format("{} {}({}) {{\n{}}}\n", result, name, fmt::join(all, ", "), body);
+    }
+
+    std::string reflection() const {
+        const auto call_of = [](const char* suffix, const char* arguments) {
+            return [=](const ExportedReflection& m) {
+                return call(m, suffix, "o." + material_member(m), arguments);
+            };
+        };
+        return "// What an object reflects of the light from one direction, and of light from everywhere.\n" +
+               function("Reflected", "reflected",
+                        {{"const Object&", "o"}, {"const Surface&", "s"}, {"vec3", "to_light"}},
+                        reflection_choice(call_of("reflect", "s, to_light"))) +
+               function("vec3", "reflected_ambient", {{"const Object&", "o"}, {"const Surface&", "s"}},
+                        reflection_choice(call_of("reflect_ambient", "s")));
+    }
+
+    std::string shading() const {
+        constexpr const char* k_rates[] = {"Rate::face", "Rate::vertex", "Rate::pixel"};
+        return "// Where an object is lit, which normal it has there, and how much a face weighs in the "
+               "normal of its corner.\n" +
+               function("Rate", "rate_of", {{"const Object&", "o"}},
+                        shading_choice([&](const ExportedShading& m) {
+                            return std::string(k_rates[static_cast<int>(m.rate)]);
+                        })) +
+               function("vec3", "shading_normal", {{"const Object&", "o"}, {"const ShadingPoint&", "p"}},
+                        shading_choice([](const ExportedShading& m) {
+                            return call(m, "normal", "o." + shading_member(m), "p");
+                        })) +
+               function("float", "corner_weight", {{"const Object&", "o"}, {"const FaceCorner&", "c"}},
+                        shading_choice([](const ExportedShading& m) {
+                            return !has_function(m, "corner_weight")
+                                       ? std::string("1.0f")
+                                       : call(m, "corner_weight", "o." + shading_member(m), "c");
+                        }));
+    }
+
+    std::string tangent() const {
+        const bool is_needed = std::ranges::any_of(scene_.reflections, &ExportedReflection::needs_tangent);
+        return is_needed ? "    s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, point.dpdu));\n"
+                         : "";
+    }
+
+    std::string main_text() const {
+        std::string text;
+        if (has_choice()) {
+            text =
+                "        const auto argument = [&](int i) { return argc > i ? std::string(argv[i]) : "
+                "std::string(); };\n";
+        }
+        text +=
+            "        const std::string path = argc > 1 ? argv[1] : \"scene.png\";\n"
+            "        std::vector<scene::Object> objects = scene::make_objects();\n";
+        const auto add = [&](const char* type, const char* member, const std::vector<std::string>& names,
+                             int position, const auto& models) {
+            if (names.size() < 2) return;
+            text += fmt::format("        // The {} argument, if there is one, names the {} of all objects.\n",
+                                position == 2 ? "second" : "third", member);
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                text += fmt::format(
+                    "        if (argument({}) == \"{}\")\n            for (scene::Object& o : objects) o.{} "
+                    "= scene::{}::{};\n",
+                    position, models[i].plugin->name, member, type, names[i]);
+            }
+        };
+        add("Shading", "shading", shading_names(), 2, scene_.shadings);
+        add("Reflection", "reflection", reflection_names(), 3, scene_.reflections);
+        return text +
+               "        for (scene::Object& o : objects) {\n            scene::place(o);\n            "
+               "scene::find_normals(o);\n"
+               "        }\n        scene::write_picture(path, scene::bytes_of(scene::render(objects)), "
+               "scene::k_width, "
+               "scene::k_height);\n";
+    }
+
+    const ExportedScene& scene_;
+    CppObjects objects_;
+};
+
+class CppTarget final : public Target {
+  public:
+    explicit CppTarget(const sdk::NoParams&) {}
+
+    void write(const ExportedScene& scene, FileSink& files) const override {
+        target::write(files, main_file(), CppWriter(scene).run());
+        target::write(files, "CMakeLists.txt", candela_cpp_cmake);
+        target::write(
+            files, "README.md",
+            filled(candela_cpp_readme, {{"TITLE", tame(scene.title)}, {"VERSION", CANDELA_PLUGIN_VERSION}}));
+    }
+    const char* main_file() const noexcept override { return "scene.cpp"; }
+    bool can_draw() const noexcept override { return true; }
+
+    void build(const char* directory, ProgramRunner& programs) const override {
+        build_with_cmake(programs, directory, CANDELA_PLUGIN_NAME);
+    }
+    void draw(const char* directory, const char* picture, ProgramRunner& programs) const override {
+        run(programs, {program_in(directory), picture}, "the " CANDELA_PLUGIN_NAME " program does not run");
+    }
+    int show(const char* directory, ProgramRunner& programs) const override {
+        return target::show(programs, {program_in(directory), std::string(directory) + "/scene.png"});
+    }
+
+  private:
+    static std::string program_in(const char* directory) { return std::string(directory) + "/build/scene"; }
+};
+
+}  // namespace
+
+}  // namespace candela::cpp_target
+
+using candela::cpp_target::CppTarget;
+
+CANDELA_PLUGIN(target, CppTarget, candela::sdk::k_no_fields,
+               {.title = "C++",
+                .summary = "one C++17 file without dependencies: a small software renderer to read"})

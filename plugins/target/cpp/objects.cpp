@@ -1,0 +1,156 @@
+#include "objects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "candela/embed.h"
+#include "candela/target/arrays.h"
+#include "candela/target/kernels.h"
+#include "candela/target/literals.h"
+
+CANDELA_EMBED(candela_cpp_grid, CANDELA_SOURCE_DIR "/templates/grid.h");
+CANDELA_EMBED(candela_cpp_arrays, CANDELA_SOURCE_DIR "/templates/arrays.h");
+
+namespace candela::cpp_target {
+
+using namespace target;
+
+std::string material_member(const ExportedModel& model) { return identifier(model.plugin->name, "material"); }
+std::string shading_member(const ExportedModel& model) { return identifier(model.plugin->name, "shading"); }
+std::string reflection_enumerator(const ExportedModel& model) {
+    return identifier(model.plugin->name, "reflection");
+}
+std::string shading_enumerator(const ExportedModel& model) {
+    return identifier(model.plugin->name, "shading");
+}
+
+std::string list(float x, float y, float z) {
+    return fmt::format("{}, {}, {}", float_text(x), float_text(y), float_text(z));
+}
+
+CppObjects::CppObjects(const ExportedScene& scene) : scene_(scene) {
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) add_object(i);
+}
+
+std::string CppObjects::shapes() const {
+    std::string text;
+    if (!shape_models_.empty()) text += std::string(candela_cpp_grid) + "\n";
+    if (!meshes_.empty()) {
+        text += std::string(candela_cpp_arrays) + "\n";
+        for (std::size_t i = 0; i < meshes_.size(); ++i) text += fmt::format("Mesh mesh_{}();\n", i);
+        text += "\n";
+    }
+    return text;
+}
+
+void CppObjects::add_object(std::size_t index) {
+    const ExportedObject& object = scene_.objects[index];
+    require_default_normals(index);
+    const ExportedMesh mesh = scene_.geometry->in_object_space(index);
+    std::optional<GridShape> grid;
+    if (has_function(object.shape, "position")) grid = grid_of(mesh);
+    if (grid) shape_models_.push_back(object.shape);
+
+    std::string text = fmt::format("    {{  // {}: {}\n        Object o;\n", tame(object.label),
+                                   tame(object.shape.plugin->name));
+    text += grid ? grid_text(object, *grid, scene_.needs_derivatives)
+                 : fmt::format("        o.mesh = mesh_{}();\n", mesh_number(mesh));
+    const Transform& at = object.transform;
+    text += fmt::format("        o.position = {};\n", vec3_text(at.position));
+    if (at.rotation != Vec3{}) text += fmt::format("        o.rotation = {};\n", vec3_text(at.rotation));
+    if (at.scale != Vec3{1, 1, 1}) text += fmt::format("        o.scale = {};\n", vec3_text(at.scale));
+    text +=
+        fmt::format("        o.color = color({});\n", list(object.color.x, object.color.y, object.color.z));
+    if (scene_.shadings.size() > 1)
+        text += fmt::format("        o.shading = Shading::{};\n",
+                            shading_enumerator(scene_.shadings[object.shading]));
+    if (scene_.reflections.size() > 1)
+        text += fmt::format("        o.reflection = Reflection::{};\n",
+                            reflection_enumerator(scene_.reflections[object.reflection]));
+    const auto add = [&](const ExportedModel& model, const std::string& name, const ExportedValues& values) {
+        if (has_parameters(model))
+            text += fmt::format("        o.{} = {};\n", name, struct_text(model, values));
+    };
+    for (std::size_t i = 0; i < scene_.reflections.size(); ++i)
+        add(scene_.reflections[i], material_member(scene_.reflections[i]), object.materials[i]);
+    for (std::size_t i = 0; i < scene_.shadings.size(); ++i)
+        add(scene_.shadings[i], shading_member(scene_.shadings[i]), object.shadings[i]);
+    statements_ += text + "        all.push_back(o);\n    }\n";
+}
+
+std::string CppObjects::grid_text(const ExportedObject& object, const GridShape& grid,
+                                  bool needs_derivatives) {
+    const ExportedModel& model = object.shape;
+    std::string text;
+    if (has_parameters(model))
+        text += fmt::format("        const {} shape = {};\n", model.plugin->kernel.parameters,
+                            struct_text(model, object.shape_values));
+    text += fmt::format(
+        "        o.mesh = grid({}, {}, {{{}, {}, {}}}, [{}](float u, float v) {{ return {}; }});\n",
+        grid.columns, grid.rows, grid.u_is_periodic, grid.v_is_periodic, grid.v_ends_in_poles,
+        has_parameters(model) ? "&" : "", call(model, "position", "shape", "u, v"));
+    if (needs_derivatives) {
+        text += fmt::format(
+            "        for (const vec2& at : o.mesh.uv) {{\n            o.mesh.dpdu.push_back({});\n"
+            "            o.mesh.dpdv.push_back({});\n        }}\n",
+            call(model, "dpdu", "shape", "at.x, at.y"), call(model, "dpdv", "shape", "at.x, at.y"));
+    }
+    return text;
+}
+
+/// The number of an embedded mesh; equal ones are embedded once.
+std::size_t CppObjects::mesh_number(const ExportedMesh& mesh) {
+    std::string body = number_array("float", "position", interleaved(mesh.position, mesh.vertex_count)) +
+                       number_array("int", "corners", mesh.indices);
+    std::string fill =
+        "    Mesh m;\n    m.position = vectors_of(position);\n    m.corners.assign(std::begin(corners), "
+        "std::end(corners));\n";
+    const auto add_vectors = [&](const char* name, ConstVec3Span arrays) {
+        if (!arrays) return;
+        body += number_array("float", name, interleaved(arrays, mesh.vertex_count));
+        fill += fmt::format("    m.{0} = vectors_of({0});\n", name);
+    };
+    bool has_groups = false;
+    for (std::size_t v = 0; v < mesh.smooth_group.size(); ++v)
+        has_groups = has_groups || mesh.smooth_group[v] != v;
+    if (has_groups) {
+        body += number_array("int", "group", mesh.smooth_group);
+        fill += "    m.group.assign(std::begin(group), std::end(group));\n";
+    }
+    add_vectors("authored", mesh.authored_normal);
+    if (scene_.needs_derivatives) {
+        add_vectors("dpdu", mesh.dpdu);
+        add_vectors("dpdv", mesh.dpdv);
+    }
+    if (scene_.needs_uv && mesh.uv) {
+        body += number_array("float", "uv_pairs", interleaved(mesh.uv, mesh.vertex_count));
+        fill +=
+            "    for (std::size_t i = 0; i < std::size(uv_pairs); i += 2) m.uv.emplace_back(uv_pairs[i], "
+            "uv_pairs[i + 1]);\n";
+    }
+    if (!mesh.closed) fill += "    m.is_closed = false;\n";
+    body += fill + "    return m;\n}\n";
+    const auto same = std::ranges::find(meshes_, body);
+    if (same != meshes_.end()) return static_cast<std::size_t>(same - meshes_.begin());
+    data_ += fmt::format("\nMesh mesh_{}() {{\n", meshes_.size()) + body;
+    meshes_.push_back(std::move(body));
+    return meshes_.size() - 1;
+}
+
+/// The program finds vertex normals as a shading model does that says nothing else than its kernel.
+void CppObjects::require_default_normals(std::size_t object) const {
+    for (std::size_t i = 0; i < scene_.shadings.size(); ++i) {
+        const ExportedShading& model = scene_.shadings[i];
+        if (has_function(model, "corner_weight") || scene_.geometry->has_default_normals(object, i)) continue;
+        throw std::runtime_error(
+            fmt::format("{} makes vertex normals of its own, of which its kernel says nothing "
+                        "(there is no function {}_corner_weight), so that a C++ program cannot",
+                        id_of(model), model.plugin->kernel.prefix));
+    }
+}
+
+}  // namespace candela::cpp_target

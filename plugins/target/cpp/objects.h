@@ -1,0 +1,51 @@
+// Names and objects of a generated C++ program.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "grid_shape.h"
+
+import candela.target;
+
+namespace candela::cpp_target {
+
+/// The members of an object that hold a model's parameters.
+std::string material_member(const ExportedModel& model);
+std::string shading_member(const ExportedModel& model);
+/// The words for models to choose from.
+std::string reflection_enumerator(const ExportedModel& model);
+std::string shading_enumerator(const ExportedModel& model);
+
+/// Three numbers, parted by commas.
+std::string list(float x, float y, float z);
+
+/// The objects of a scene as statements, and the triangles of their shapes.
+class CppObjects {
+  public:
+    /// Throws std::runtime_error where a shading model makes vertex normals of which its kernel says nothing.
+    explicit CppObjects(const ExportedScene& scene);
+
+    /// Puts each into a vector `all`.
+    const std::string& statements() const { return statements_; }
+    /// What has to stand before that: functions that make triangles.
+    std::string shapes() const;
+    /// What stands at the end of the program: triangles as numbers, in functions; empty where there are none.
+    const std::string& data() const { return data_; }
+    /// The shapes whose kernels the program makes triangles with.
+    const std::vector<ExportedModel>& shape_models() const { return shape_models_; }
+
+  private:
+    void add_object(std::size_t index);
+    static std::string grid_text(const ExportedObject& object, const GridShape& grid, bool needs_derivatives);
+    std::size_t mesh_number(const ExportedMesh& mesh);
+    void require_default_normals(std::size_t object) const;
+
+    const ExportedScene& scene_;
+    std::vector<ExportedModel> shape_models_;
+    std::vector<std::string> meshes_;
+    std::string statements_, data_;
+};
+
+}  // namespace candela::cpp_target

@@ -1,0 +1,235 @@
+// C++ with OpenGL: a template, the shaders as text, and the scene as uniform variables and arrays.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "candela/embed.h"
+#include "candela/target/arrays.h"
+#include "candela/target/building.h"
+#include "candela/target/files.h"
+#include "candela/target/glsl.h"
+#include "candela/target/literals.h"
+#include "candela/target/text_template.h"
+#include "candela/target_plugin.h"
+
+import candela.color;
+
+CANDELA_EMBED(candela_opengl_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
+CANDELA_EMBED(candela_opengl_meshes, CANDELA_SOURCE_DIR "/templates/meshes.h");
+CANDELA_EMBED(candela_opengl_cmake, CANDELA_SOURCE_DIR "/templates/CMakeLists.txt");
+CANDELA_EMBED(candela_opengl_readme, CANDELA_SOURCE_DIR "/templates/README.md");
+
+namespace candela::opengl_target {
+
+using namespace target;
+
+namespace {
+
+/// A raw string literal, whose end is nowhere in the text.
+std::string raw(const std::string& text) {
+    std::string mark = "glsl";
+    while (text.find(")" + mark + "\"") != std::string::npos) mark += "_";
+    return fmt::format("R\"{0}({1}){0}\"", mark, text);
+}
+
+std::string braces(Vec3 v) {
+    return fmt::format("{{{}, {}, {}}}", float_text(v.x), float_text(v.y), float_text(v.z));
+}
+std::string braces(Rgb c) { return braces(Vec3{c.r, c.g, c.b}); }
+
+class OpenGlWriter {
+  public:
+    explicit OpenGlWriter(const ExportedScene& scene)
+        : scene_(scene), encoding_(scene.image.color_management) {}
+
+    void run(FileSink& files) {
+        std::string objects;
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) objects += object_text(i);
+        const GlslParts glsl = glsl_of(scene_);
+        const ExportedImage& image = scene_.image;
+        const Values about = {{"TITLE", tame(scene_.title)}, {"VERSION", CANDELA_PLUGIN_VERSION}};
+        Values values = {{"PRELUDE", raw(glsl.prelude)},
+                         {"LIGHTS", raw(glsl.lights)},
+                         {"VERTEX", raw(glsl.vertex)},
+                         {"FRAGMENT", raw(glsl.fragment)},
+                         {"SCREEN", raw(glsl.screen)},
+                         {"ACCUMULATE", raw(glsl.accumulate)},
+                         {"ENCODE", raw(glsl.encode)},
+                         {"SHADINGS", models(scene_.shadings, glsl.shadings,
+                                             [](const auto& m) { return rate_name(m.rate); })},
+                         {"REFLECTIONS", models(scene_.reflections, glsl.reflections,
+                                                [](const auto&) { return "fragment"; })},
+                         {"WIDTH", fmt::format("{}", image.width)},
+                         {"HEIGHT", fmt::format("{}", image.height)},
+                         {"IS_SRGB", encoding_ == ColorEncoding::srgb ? "true" : "false"},
+                         {"BACKGROUND", braces(decoded(image.background, encoding_))},
+                         {"SAMPLES", samples()},
+                         {"OBSERVER", observer()},
+                         {"LIGHT_VALUES", light_values()},
+                         {"OBJECTS", objects},
+                         {"PICTURE_FILE", std::string(picture_file_source())}};
+        values.insert(values.end(), about.begin(), about.end());
+        write(files, "scene.cpp", filled(candela_opengl_scene, values));
+        write(files, "meshes.h",
+              filled(candela_opengl_meshes, {{"VERSION", CANDELA_PLUGIN_VERSION}, {"ARRAYS", arrays_}}));
+        write(files, "CMakeLists.txt", candela_opengl_cmake);
+        write(files, "README.md", filled(candela_opengl_readme, about));
+    }
+
+  private:
+    template <class Model, class RateOf>
+    static std::string models(std::span<const Model> all, const std::vector<std::string>& glsl,
+                              RateOf rate_of) {
+        std::string text;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            text += fmt::format("    {{\"{}\", Rate::{}, {}}},\n", all[i].plugin->name, rate_of(all[i]),
+                                raw(glsl[i]));
+        return text;
+    }
+
+    std::string samples() const {
+        std::vector<std::string> positions;
+        for (const ExportedSample& s : scene_.image.samples)
+            positions.push_back(fmt::format("{{{}, {}}}", float_text(s.x), float_text(s.y)));
+        return fmt::format("{{{}}}", fmt::join(positions, ", "));
+    }
+
+    std::string observer() const {
+        const ExportedObserver& o = scene_.observer;
+        const bool is_perspective = o.projection == Projection::perspective;
+        return fmt::format("{}, {}, {}, {}, {}", braces(o.position), braces(o.look_at), braces(o.up),
+                           is_perspective, float_text(is_perspective ? o.fov : o.height));
+    }
+
+    /// `prefix`: what stands before a member's name, "point_lights[0].".
+    static std::string uniform(const std::string& prefix, const ParamSpec& p, const ParamValue& value) {
+        switch (p.type) {
+            case ParamType::real:
+                return fmt::format("{{\"{}{}\", Uniform::real, {{{}, 0, 0}}}}", prefix, p.name,
+                                   float_text(value.number[0]));
+            case ParamType::integer:
+            case ParamType::boolean:
+            case ParamType::choice:
+                return fmt::format("{{\"{}{}\", Uniform::whole, {{{}, 0, 0}}}}", prefix, p.name,
+                                   value.integer);
+            default:
+                return fmt::format("{{\"{}{}\", Uniform::vector, {}}}", prefix, p.name,
+                                   braces(Vec3{value.number[0], value.number[1], value.number[2]}));
+        }
+    }
+
+    static std::vector<std::string> uniforms(const std::string& prefix, const ExportedModel& model,
+                                             const ExportedValues& values) {
+        std::vector<std::string> all;
+        for (std::size_t i = 0; i < values.delivered.size(); ++i) {
+            const ParamSpec& p = model.plugin->parameters[i];
+            if (p.type != ParamType::text && p.type != ParamType::file)
+                all.push_back(uniform(prefix, p, values.delivered[i]));
+        }
+        return all;
+    }
+
+    std::string light_values() const {
+        std::string text;
+        const std::vector<LightUniform> names = light_uniforms(scene_);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const ExportedLight& light = scene_.lights[i];
+            text += fmt::format("    // {}\n    {{\"{}\", Uniform::whole, {{1, 0, 0}}}},\n",
+                                tame(light.label), names[i].is_on);
+            for (const std::string& one :
+                 uniforms(names[i].values + ".", scene_.light_models[light.model], light.values))
+                text += "    " + one + ",\n";
+        }
+        return text;
+    }
+
+    template <class Model>
+    static std::string all_uniforms(std::span<const Model> models, std::span<const ExportedValues> sets) {
+        std::vector<std::string> all;
+        for (std::size_t i = 0; i < sets.size(); ++i)
+            all.push_back(fmt::format("{{{}}}", fmt::join(uniforms("", models[i], sets[i]), ", ")));
+        return fmt::format("{{{}}}", fmt::join(all, ",\n      "));
+    }
+
+    std::string object_text(std::size_t index) {
+        const ExportedObject& object = scene_.objects[index];
+        const bool is_closed = add_arrays(index);
+        return fmt::format("    {{\"{}\", {}, {}, {},\n     {},\n     {},\n     {}, object_{}()}},\n",
+                           tame(object.label), braces(decoded(object.color, encoding_)), object.shading,
+                           object.reflection, all_uniforms(scene_.reflections, object.materials),
+                           all_uniforms(scene_.shadings, object.shadings), is_closed, index);
+    }
+
+    /// Returns whether the object is closed.
+    bool add_arrays(std::size_t index) {
+        const ExportedMesh mesh = scene_.geometry->in_world_space(index);
+        const std::size_t count = mesh.vertex_count;
+        std::string body = number_array("unsigned", "corners", mesh.indices) +
+                           number_array("float", "position", interleaved(mesh.position, count));
+        std::vector<std::string> sets;
+        for (const ConstVec3Span& normals : mesh.normals) {
+            sets.push_back(fmt::format("normals_{}", sets.size()));
+            body += number_array("float", sets.back().c_str(), interleaved(normals, count));
+        }
+        const auto optional = [&](const char* name, const std::vector<float>& numbers) {
+            if (numbers.empty()) return "nullptr";
+            body += number_array("float", name, numbers);
+            return name;
+        };
+        const char* const uv =
+            optional("uv", scene_.needs_uv ? interleaved(mesh.uv, count) : std::vector<float>());
+        const bool needs_derivatives = scene_.needs_derivatives;
+        const char* const dpdu =
+            optional("dpdu", needs_derivatives ? interleaved(mesh.dpdu, count) : std::vector<float>());
+        const char* const dpdv =
+            optional("dpdv", needs_derivatives ? interleaved(mesh.dpdv, count) : std::vector<float>());
+        arrays_ += fmt::format(
+            "\n// {}\ninline MeshArrays object_{}() {{\n{}    static const float* const normals[] = {{{}}};\n"
+            "    static const std::size_t normals_of[] = {{{}}};\n    return {{{}, {}, corners, position, "
+            "normals, normals_of, {}, {}, "
+            "{}}};\n}}\n",
+            tame(scene_.objects[index].label), index, body, fmt::join(sets, ", "),
+            fmt::join(mesh.normals_of, ", "), count, mesh.triangle_count(), uv, dpdu, dpdv);
+        return mesh.closed;
+    }
+
+    const ExportedScene& scene_;
+    ColorEncoding encoding_;
+    std::string arrays_;
+};
+
+class OpenGlTarget final : public Target {
+  public:
+    explicit OpenGlTarget(const sdk::NoParams&) {}
+
+    void write(const ExportedScene& scene, FileSink& files) const override { OpenGlWriter(scene).run(files); }
+    const char* main_file() const noexcept override { return "scene.cpp"; }
+    bool can_draw() const noexcept override { return true; }
+
+    void build(const char* directory, ProgramRunner& programs) const override {
+        build_with_cmake(programs, directory, CANDELA_PLUGIN_NAME);
+    }
+    void draw(const char* directory, const char* picture, ProgramRunner& programs) const override {
+        run(programs, {program_in(directory), "--headless", "--output", picture},
+            "the " CANDELA_PLUGIN_NAME " program does not run");
+    }
+    int show(const char* directory, ProgramRunner& programs) const override {
+        return target::show(programs, {program_in(directory)});
+    }
+
+  private:
+    static std::string program_in(const char* directory) { return std::string(directory) + "/build/scene"; }
+};
+
+}  // namespace
+
+}  // namespace candela::opengl_target
+
+using candela::opengl_target::OpenGlTarget;
+
+CANDELA_PLUGIN(target, OpenGlTarget, candela::sdk::k_no_fields,
+               {.title = "OpenGL",
+                .summary = "C++ with OpenGL 3.3: a window to look around in, or a picture without a display"})

@@ -1,0 +1,119 @@
+#include "picture.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "candela/target/building.h"
+#include "candela/target/literals.h"
+
+namespace candela::webgl_target {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* browser_among(ProgramRunner& programs) {
+    constexpr std::array k_names = {"chromium", "chromium-browser", "google-chrome"};
+    const auto found = std::ranges::find_if(k_names, [&](const char* name) { return programs.has(name); });
+    if (found == k_names.end())
+        throw std::runtime_error("the page is drawn by Chromium, and there is no 'chromium' on this machine");
+    return *found;
+}
+
+/// Percent-encoded where a URL wants it.
+std::string file_url(const fs::path& path) {
+    std::string url = "file://";
+    for (const char c : fs::absolute(path).string()) {
+        const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                              std::string_view("/-_.~").find(c) != std::string_view::npos;
+        url += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return url;
+}
+
+/// What stands in <pre id="..."> of a page's text.
+std::optional<std::string> content_of(const std::string& html, const std::string& id) {
+    const std::size_t tag = html.find("<pre id=\"" + id + "\"");
+    if (tag == std::string::npos) return std::nullopt;
+    const std::size_t begin = html.find('>', tag) + 1;
+    return html.substr(begin, html.find("</pre>", begin) - begin);
+}
+
+/// A new folder for a browser's settings, which is gone when this is.
+class Profile {
+  public:
+    Profile() : path_((fs::temp_directory_path() / "candela-chromium-XXXXXX").string()) {
+        if (::mkdtemp(path_.data()) == nullptr)
+            throw std::runtime_error(
+                fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));
+    }
+    Profile(const Profile&) = delete;
+    Profile& operator=(const Profile&) = delete;
+    ~Profile() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
+
+/// Whole, or not at all.
+void write_file(const fs::path& file, const std::string& content) {
+    fs::path beside = file;
+    beside += ".part";
+    if (!(std::ofstream(beside, std::ios::binary) << content).flush())
+        throw std::runtime_error(fmt::format("'{}' cannot be written", file.string()));
+    fs::rename(beside, file);
+}
+
+}  // namespace
+
+void draw_page(const fs::path& page, const fs::path& picture, ProgramRunner& programs) {
+    const char* const browser = browser_among(programs);
+    const Profile profile;
+    const std::string profile_option = "--user-data-dir=" + profile.path(), url = file_url(page) + "#verify";
+    std::vector<const char*> words = {browser,
+                                      "--headless=new",
+                                      "--use-angle=swiftshader",
+                                      "--enable-unsafe-swiftshader",
+                                      "--disable-extensions",
+                                      "--no-first-run",
+                                      "--hide-scrollbars",
+                                      "--mute-audio",
+                                      "--disable-background-networking",
+                                      "--disable-component-update",
+                                      "--disable-sync",
+                                      profile_option.c_str(),
+                                      "--virtual-time-budget=60000",
+                                      "--timeout=120000"};
+    // Chromium's own sandbox cannot be had as root; the page is our own text.
+    if (::geteuid() == 0) words.push_back("--no-sandbox");
+    words.insert(words.end(), {"--dump-dom", url.c_str()});
+    const ProgramResult result = programs.run(words);
+    const std::string html = result.out;
+    if (const auto problem = content_of(html, "problem"))
+        throw std::runtime_error(fmt::format("the page says: {}", *problem));
+    const auto data = content_of(html, "picture");
+    constexpr std::string_view k_begin = "data:image/png;base64,";
+    if (!data || !data->starts_with(k_begin)) {
+        throw std::runtime_error(fmt::format("Chromium does not show the page (exit code {}):\n{}",
+                                             result.exit_code, target::tail(result.err)));
+    }
+    write_file(picture, target::base64_decoded(std::string_view(*data).substr(k_begin.size())));
+}
+
+}  // namespace candela::webgl_target

@@ -1,0 +1,225 @@
+// The page: a template, the scene as JSON, and the scripts that read it.
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "candela/embed.h"
+#include "candela/target/arrays.h"
+#include "candela/target/files.h"
+#include "candela/target/glsl.h"
+#include "candela/target/literals.h"
+#include "candela/target/text_template.h"
+#include "candela/target_plugin.h"
+#include "picture.h"
+
+CANDELA_EMBED(candela_webgl_page, CANDELA_SOURCE_DIR "/templates/page.html");
+CANDELA_EMBED(candela_webgl_style, CANDELA_SOURCE_DIR "/templates/page.css");
+CANDELA_EMBED(candela_webgl_script, CANDELA_PAGE_SCRIPT);
+
+namespace candela::webgl_target {
+
+using namespace target;
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json vector_json(Vec3 v) { return {v.x, v.y, v.z}; }
+
+Json limit_json(float limit) { return std::isfinite(limit) ? Json(limit) : Json(); }
+
+/// A value as a person writes it in a scene file.
+Json value_json(const ParamSpec& p, const ParamValue& written) {
+    switch (p.type) {
+        case ParamType::real:
+            return shortest(written.number[0]);
+        case ParamType::integer:
+            return written.integer;
+        case ParamType::boolean:
+            return written.integer != 0;
+        case ParamType::choice:
+            return p.choices[static_cast<std::size_t>(written.integer)];
+        case ParamType::text:
+        case ParamType::file:
+            return written.text != nullptr ? written.text : "";
+        default:
+            return {written.number[0], written.number[1], written.number[2]};
+    }
+}
+
+Json parameter_json(const ParamSpec& p) {
+    Json choices = Json::array();
+    for (const char* const choice : p.choices) choices.push_back(choice);
+    return {{"name", p.name},
+            {"type", name_of(p.type)},
+            {"unit", p.unit},
+            {"meaning", p.meaning},
+            {"default", p.required ? Json() : value_json(p, p.default_value)},
+            {"minimum", limit_json(p.minimum)},
+            {"maximum", limit_json(p.maximum)},
+            {"minimum_excluded", p.minimum_excluded},
+            {"maximum_excluded", p.maximum_excluded},
+            {"choices", std::move(choices)}};
+}
+
+Json model_json(const ExportedModel& model, const std::string& glsl) {
+    const PluginDescriptor& plugin = *model.plugin;
+    Json parameters = Json::array();
+    for (const ParamSpec& p : plugin.parameters) parameters.push_back(parameter_json(p));
+    return {
+        {"title", plugin.title},         {"summary", plugin.summary},           {"formula", plugin.formula},
+        {"reference", plugin.reference}, {"parameters", std::move(parameters)}, {"glsl", glsl}};
+}
+
+Json values_json(const ExportedModel& model, const ExportedValues& values) {
+    Json result = Json::object();
+    for (std::size_t i = 0; i < values.written.size(); ++i) {
+        const ParamSpec& p = model.plugin->parameters[i];
+        result[p.name] = value_json(p, values.written[i]);
+    }
+    return result;
+}
+
+template <class T>
+std::string packed(std::span<const T> values) {
+    return base64(std::as_bytes(values));
+}
+
+template <class Arrays>
+Json packed(const Arrays& arrays, std::size_t count) {
+    return arrays ? Json(packed(std::span<const float>(interleaved(arrays, count)))) : Json();
+}
+
+Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh) {
+    const std::size_t count = mesh.vertex_count;
+    Json normals = Json::array(), normals_of = Json::object();
+    for (const ConstVec3Span& set : mesh.normals) normals.push_back(packed(set, count));
+    for (std::size_t i = 0; i < scene.shadings.size(); ++i)
+        normals_of[scene.shadings[i].plugin->name] = mesh.normals_of[i];
+    return {{"vertices", count},
+            {"triangles", mesh.triangle_count()},
+            {"indices", packed(mesh.indices)},
+            {"position", packed(mesh.position, count)},
+            {"normals", std::move(normals)},
+            {"normals_of", std::move(normals_of)},
+            {"uv", scene.needs_uv ? packed(mesh.uv, count) : Json()},
+            {"dpdu", scene.needs_derivatives ? packed(mesh.dpdu, count) : Json()},
+            {"dpdv", scene.needs_derivatives ? packed(mesh.dpdv, count) : Json()}};
+}
+
+Json object_json(const ExportedScene& scene, std::size_t index) {
+    const ExportedObject& object = scene.objects[index];
+    Json materials = Json::object(), shadings = Json::object();
+    for (std::size_t i = 0; i < scene.reflections.size(); ++i)
+        materials[scene.reflections[i].plugin->name] = values_json(scene.reflections[i], object.materials[i]);
+    for (std::size_t i = 0; i < scene.shadings.size(); ++i)
+        shadings[scene.shadings[i].plugin->name] = values_json(scene.shadings[i], object.shadings[i]);
+    const ExportedMesh mesh = scene.geometry->in_world_space(index);
+    return {{"label", object.label},
+            {"color", vector_json(object.color)},
+            {"shading", scene.shadings[object.shading].plugin->name},
+            {"reflection", scene.reflections[object.reflection].plugin->name},
+            {"materials", std::move(materials)},
+            {"shadings", std::move(shadings)},
+            {"closed", mesh.closed},
+            {"mesh", mesh_json(scene, mesh)}};
+}
+
+Json image_json(const ExportedImage& image) {
+    Json positions = Json::array();
+    for (const ExportedSample& s : image.samples) positions.push_back({s.x, s.y});
+    return {{"width", image.width},
+            {"height", image.height},
+            {"samples", image.samples.size()},
+            {"sample_positions", std::move(positions)},
+            {"background", vector_json(image.background)},
+            {"color_management", image.color_management == ColorEncoding::srgb ? "srgb" : "none"}};
+}
+
+Json observer_json(const ExportedObserver& observer) {
+    const bool is_perspective = observer.projection == Projection::perspective;
+    return {{"position", vector_json(observer.position)},
+            {"look_at", vector_json(observer.look_at)},
+            {"up", vector_json(observer.up)},
+            {"projection", is_perspective ? "perspective" : "orthographic"},
+            {"fov", observer.fov},
+            {"height", observer.height}};
+}
+
+Json scene_json(const ExportedScene& scene) {
+    const GlslParts glsl = glsl_of(scene);
+    Json lights = Json::array(), objects = Json::array();
+    Json light_models = Json::object(), reflections = Json::object(), shadings = Json::object();
+    const std::vector<LightUniform> uniforms = light_uniforms(scene);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const ExportedLight& light = scene.lights[i];
+        const ExportedModel& model = scene.light_models[light.model];
+        lights.push_back({{"label", light.label},
+                          {"model", model.plugin->name},
+                          {"uniform", uniforms[i].values},
+                          {"switch", uniforms[i].is_on},
+                          {"values", values_json(model, light.values)}});
+    }
+    for (const ExportedModel& model : scene.light_models)
+        light_models[model.plugin->name] = model_json(model, model.plugin->kernel.text);
+    for (std::size_t i = 0; i < scene.reflections.size(); ++i)
+        reflections[scene.reflections[i].plugin->name] =
+            model_json(scene.reflections[i], glsl.reflections[i]);
+    for (std::size_t i = 0; i < scene.shadings.size(); ++i) {
+        Json& model = shadings[scene.shadings[i].plugin->name] =
+            model_json(scene.shadings[i], glsl.shadings[i]);
+        model["rate"] = rate_name(scene.shadings[i].rate);
+    }
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) objects.push_back(object_json(scene, i));
+    return {{"title", scene.title},
+            {"candela", CANDELA_PLUGIN_VERSION},
+            {"image", image_json(scene.image)},
+            {"observer", observer_json(scene.observer)},
+            {"shaders",
+             {{"prelude", glsl.prelude},
+              {"lights", glsl.lights},
+              {"vertex", glsl.vertex},
+              {"fragment", glsl.fragment},
+              {"screen", glsl.screen},
+              {"accumulate", glsl.accumulate},
+              {"encode", glsl.encode}}},
+            {"lights", std::move(lights)},
+            {"light_models", std::move(light_models)},
+            {"reflection_models", std::move(reflections)},
+            {"shading_models", std::move(shadings)},
+            {"objects", std::move(objects)}};
+}
+
+/// Bytes that are not UTF-8 are replaced.
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+class WebGlTarget final : public Target {
+  public:
+    explicit WebGlTarget(const sdk::NoParams&) {}
+
+    void write(const ExportedScene& scene, FileSink& files) const override {
+        target::write(files, main_file(),
+                      filled(candela_webgl_page, {{"TITLE", html_text(scene.title)},
+                                                  {"STYLE", candela_webgl_style},
+                                                  {"SCENE", script_json(text_of(scene_json(scene)))},
+                                                  {"SCRIPT", candela_webgl_script}}));
+    }
+    const char* main_file() const noexcept override { return "scene.html"; }
+    bool can_draw() const noexcept override { return true; }
+
+    void draw(const char* directory, const char* picture, ProgramRunner& programs) const override {
+        draw_page(std::string(directory) + "/" + main_file(), picture, programs);
+    }
+};
+
+}  // namespace
+
+}  // namespace candela::webgl_target
+
+using candela::webgl_target::WebGlTarget;
+
+CANDELA_PLUGIN(target, WebGlTarget, candela::sdk::k_no_fields,
+               {.title = "WebGL",
+                .summary = "one HTML page with WebGL 2: look around, switch models, move sliders"})

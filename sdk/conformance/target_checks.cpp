@@ -1,0 +1,189 @@
+// What must hold of targets.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kernel_program.h"
+#include "subject.h"
+
+namespace fs = std::filesystem;
+using candela::ExportedFile;
+using candela::Target;
+
+namespace {
+
+constexpr const char* k_head =
+    "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+    "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
+
+/// A scene, checked and exported for a target.
+class Exported {
+  public:
+    /// Empty text: the default scene.
+    explicit Exported(const Target& target, const std::string& text = {},
+                      const std::string& title = "A scene")
+        : registry_(candela::plugin_search_path(std::vector{subject_library().parent_path()})) {
+        candela::SceneRequest request;
+        request.settings = {{"--width", "image.width", "64"}, {"--height", "image.height", "48"}};
+        if (!text.empty()) {
+            request.files = {directory_.path() / "scene.toml"};
+            std::ofstream(request.files.front(), std::ios::binary) << text;
+        }
+        candela::Diagnostics diagnostics;
+        const auto scene = candela::read_scene(request, registry_, diagnostics);
+        if (!scene) FAIL("the scene cannot be read: " << diagnostics.text(false));
+        try {
+            export_.emplace(*scene, candela::ExportRequest{.title = title, .abilities = target.abilities()},
+                            registry_);
+        } catch (const candela::Error& problem) {
+            SKIP("the plugins of the default scene are not here: " << problem.what());
+        }
+    }
+    const candela::ExportedScene& scene() const { return export_->scene(); }
+
+  private:
+    TemporaryDirectory directory_;
+    candela::Registry registry_;
+    std::optional<candela::SceneExport> export_;
+};
+
+std::vector<ExportedFile> files_of(const Target& target, const Exported& exported) {
+    return candela::files_of(target, subject_manifest().name, exported.scene());
+}
+
+bool are_equal(const std::vector<ExportedFile>& a, const std::vector<ExportedFile>& b) {
+    return std::ranges::equal(a, b, [](const ExportedFile& x, const ExportedFile& y) {
+        return x.name == y.name && x.content == y.content;
+    });
+}
+
+/// Writes a scene, or refuses it with an exception; anything else ends the process.
+void write_or_refuse(const Target& target, const Exported& exported, const std::string& what) {
+    try {
+        for (const ExportedFile& file : files_of(target, exported)) {
+            if (std::ranges::any_of(file.name, [](char c) { return static_cast<unsigned char>(c) < ' '; }))
+                FAIL("of " << what << " it makes a file with control characters in its name");
+        }
+    } catch (const candela::Error& refusal) {
+        WARN("it refuses " << what << ": " << refusal.what());
+    }
+}
+
+/// A disk that is full from the beginning.
+class FullDisk final : public candela::FileSink {
+  public:
+    void write(const char*, std::span<const std::byte>) override {
+        throw std::runtime_error("the disk is full");
+    }
+};
+
+}  // namespace
+
+TEST_CASE("files: the default scene becomes files, the main one among them, named within their folder",
+          "[target]") {
+    const auto target = make<Target>(default_values());
+    const Exported exported(*target);
+    std::vector<ExportedFile> files;
+    try {
+        files = files_of(*target, exported);
+    } catch (const candela::Error& problem) {
+        FAIL("the default scene is refused: " << problem.what());
+    }
+    if (std::ranges::find(files, target->main_file(), &ExportedFile::name) == files.end())
+        FAIL_CHECK("its main file, '" << target->main_file() << "', is none of those that it writes");
+    for (const ExportedFile& file : files) {
+        if (file.content.empty()) FAIL_CHECK("the file '" << file.name << "' is empty");
+    }
+}
+
+TEST_CASE("determinism: one scene becomes the same files every time", "[target]") {
+    const auto target = make<Target>(default_values()), other = make<Target>(default_values());
+    const Exported exported(*target), again(*target);
+    const std::vector<ExportedFile> files = files_of(*target, exported);
+    if (!are_equal(files, files_of(*target, exported))) FAIL("written twice, the files differ");
+    if (!are_equal(files, files_of(*other, again))) FAIL("another instance writes other files");
+}
+
+TEST_CASE("odd scenes: without lights, without objects, with hostile names, it writes or refuses them",
+          "[target]") {
+    const auto target = make<Target>(default_values());
+    const std::string light = "[[light]]\ntype = \"point\"\nposition = [0, 2, 2]\n";
+    const std::string object = "[[object]]\ntype = \"cube\"\n";
+    write_or_refuse(*target, Exported(*target, k_head), "an empty scene");
+    write_or_refuse(*target, Exported(*target, k_head + light), "a scene without objects");
+    write_or_refuse(*target, Exported(*target, k_head + object), "a scene without lights");
+    const std::string name = R"(name = "*/ \" ' \\ </script> ../.. \n @TITLE@ \u202e"
+)";
+    write_or_refuse(*target,
+                    Exported(*target, k_head + light + name + object + name, "../*/\"</script>\n@TITLE@\\"),
+                    "hostile names");
+}
+
+TEST_CASE("full disk: what the host throws while files are written comes out of it", "[target]") {
+    const auto target = make<Target>(default_values());
+    const Exported exported(*target);
+    FullDisk disk;
+    bool says_so = false;
+    try {
+        target->write(exported.scene(), disk);
+    } catch (const std::exception&) {
+        says_so = true;
+    }
+    if (!says_so) FAIL("the disk is full, and it reports nothing");
+}
+
+TEST_CASE("files of its own: writing leaves none where it runs", "[target]") {
+    const auto target = make<Target>(default_values());
+    const Exported exported(*target);
+    const TemporaryDirectory directory;
+    fs::current_path(directory.path());
+    files_of(*target, exported);
+    std::string left;
+    for (const auto& entry : fs::directory_iterator(directory.path()))
+        left += " " + entry.path().filename().string();
+    fs::current_path("/");
+    if (!left.empty()) FAIL("it left in the working directory:" << left);
+}
+
+TEST_CASE("picture: what it writes can be built, and draws a picture of the image's size", "[target]") {
+    const auto target = make<Target>(default_values());
+    if (!target->can_draw()) SKIP("it draws no pictures");
+    const Exported exported(*target);
+    const TemporaryDirectory directory;
+    for (const ExportedFile& file : files_of(*target, exported)) {
+        fs::create_directories((directory.path() / file.name).parent_path());
+        candela::write_text_file(directory.path() / file.name, file.content);
+    }
+    candela::SystemPrograms programs;
+    const fs::path picture = directory.path() / "picture.png";
+    try {
+        target->build(directory.path().c_str(), programs);
+        target->draw(directory.path().c_str(), picture.c_str(), programs);
+    } catch (const std::exception& problem) {
+        WARN("no picture can be drawn on this machine: " << problem.what());
+        return;
+    }
+    std::ifstream file(picture, std::ios::binary);
+    std::string head(24, '\0');
+    if (!file.read(head.data(), 24) || !head.starts_with("\x89PNG")) FAIL("it draws no PNG file");
+    const auto number_at = [&](std::size_t at) {
+        int number = 0;
+        for (std::size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(head[i]);
+        return number;
+    };
+    const auto& image = exported.scene().image;
+    if (number_at(16) != image.width || number_at(20) != image.height)
+        FAIL(fmt::format("its picture has {} x {} pixels, the image {} x {}", number_at(16), number_at(20),
+                         image.width, image.height));
+}

@@ -1,0 +1,25 @@
+// Generated programs, built and run.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+import candela.target;
+
+namespace candela::target {
+
+/// Runs a program. Throws std::runtime_error with `problem` and the end of what the program says where its
+/// exit code is not 0.
+void run(ProgramRunner& programs, const std::vector<std::string>& words, const std::string& problem);
+
+/// Shows a program to the user; returns its exit code.
+int show(ProgramRunner& programs, const std::vector<std::string>& words);
+
+/// Builds the CMake project in `directory` in its folder build. `name`: of the target, for messages.
+void build_with_cmake(ProgramRunner& programs, const std::string& directory, std::string_view name);
+
+/// The end of a log, which says what went wrong.
+std::string tail(const std::string& log);
+
+}  // namespace candela::target

@@ -1,0 +1,39 @@
+// The kernels of models as parts of a program.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+import candela.target;
+
+namespace candela::target {
+
+/// The structs and functions that kernels start from, in the kernel language.
+std::string_view kernel_prelude();
+
+/// Whether a model's kernel has a struct of parameters.
+bool has_parameters(const ExportedModel& model);
+/// Whether its kernel has the function <prefix>_<name>.
+bool has_function(const ExportedModel& model, std::string_view name);
+/// A call of that function: with the parameters as `parameters` where it takes them, then `arguments`.
+std::string call(const ExportedModel& model, std::string_view name, std::string_view parameters,
+                 std::string_view arguments);
+/// The struct of a model's parameters with these values: "PhongMaterial{vec3(0.1f), ...}".
+std::string struct_text(const ExportedModel& model, const ExportedValues& values);
+
+/// "reflection/phong".
+std::string id_of(const ExportedModel& model);
+/// The models of light, reflection and shading of a scene, each once.
+std::vector<ExportedModel> models_of(const ExportedScene& scene);
+
+/// Throws std::runtime_error where two kernels declare the same name, with which they cannot stand in one
+/// program: neither C++ nor GLSL would tell the two apart.
+void require_different_names(const ExportedScene& scene);
+
+/// The paragraphs of `library` (parted by empty lines) that declare something which `users`, or a paragraph
+/// that is needed itself, speak of, and those that declare nothing.
+std::string needed_parts(std::string_view library, const std::string& users);
+
+}  // namespace candela::target

@@ -1,0 +1,179 @@
+#include "candela/target/kernels.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "candela/embed.h"
+#include "candela/target/literals.h"
+
+CANDELA_EMBED(candela_target_prelude, CANDELA_TARGET_PRELUDE);
+
+namespace candela::target {
+
+namespace {
+
+std::string without_comments(const std::string& text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+        if (text.compare(i, 2, "//") == 0) {
+            i = std::min(text.find('\n', i), text.size());
+        } else if (text.compare(i, 2, "/*") == 0) {
+            const std::size_t end = text.find("*/", i + 2);
+            i = end == std::string::npos ? text.size() : end + 2;
+            result += ' ';
+        } else {
+            result += text[i++];
+        }
+    }
+    return result;
+}
+
+std::vector<std::smatch> all_matches(const std::string& text, const std::regex& pattern) {
+    return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
+}
+
+/// All that a kernel declares at the top: structs, functions.
+std::vector<std::string> declared_names(const std::string& kernel) {
+    static const std::regex k_declared(R"(struct\s+(\w+)\s*\{|KERNEL\s+\w+\s+(\w+)\s*\()");
+    std::vector<std::string> names;
+    for (const std::smatch& m : all_matches(kernel, k_declared)) names.push_back(m[1].matched ? m[1] : m[2]);
+    return names;
+}
+
+const KernelFunction* function_of(const ExportedModel& model, std::string_view name) {
+    for (const KernelFunction& function : model.plugin->kernel.functions) {
+        if (name == function.name) return &function;
+    }
+    return nullptr;
+}
+
+/// The words of a text, but for those of the standard library.
+std::set<std::string> words_of(const std::string& text) {
+    static const std::regex k_word(R"((std::)?([A-Za-z_]\w*))");
+    std::set<std::string> words;
+    for (const std::smatch& m : all_matches(text, k_word)) {
+        if (!m[1].matched) words.insert(m[2]);
+    }
+    return words;
+}
+
+struct Paragraph {
+    std::string text;
+    std::vector<std::string> declares{};
+    bool is_kept = false;
+};
+
+std::vector<Paragraph> paragraphs_of(const std::string& text) {
+    static const std::regex k_declared(
+        R"((?:^|\n)(?:struct\s+(\w+)\s*\{|(?:KERNEL|inline|static|const)\s[\w\s:<>,]*?(\w+)\s*[({=]))");
+    std::vector<Paragraph> all;
+    std::istringstream lines(text);
+    std::string line, current;
+    const auto end = [&] {
+        if (current.empty()) return;
+        Paragraph p{.text = current};
+        const std::string code = without_comments(current);
+        for (const std::smatch& m : all_matches(code, k_declared))
+            p.declares.push_back(m[1].matched ? m[1] : m[2]);
+        all.push_back(std::move(p));
+        current.clear();
+    };
+    while (std::getline(lines, line)) {
+        if (line.empty()) {
+            end();
+        } else {
+            current += line + '\n';
+        }
+    }
+    end();
+    return all;
+}
+
+}  // namespace
+
+std::string_view kernel_prelude() { return candela_target_prelude; }
+
+bool has_parameters(const ExportedModel& model) {
+    return std::string_view(model.plugin->kernel.parameters) != "";
+}
+
+bool has_function(const ExportedModel& model, std::string_view name) {
+    return function_of(model, name) != nullptr;
+}
+
+std::string call(const ExportedModel& model, std::string_view name, std::string_view parameters,
+                 std::string_view arguments) {
+    const KernelFunction* const function = function_of(model, name);
+    const bool takes_them = function != nullptr && function->takes_parameters;
+    return fmt::format("{}_{}({}{}{})", model.plugin->kernel.prefix, name, takes_them ? parameters : "",
+                       takes_them && !arguments.empty() ? ", " : "", arguments);
+}
+
+std::string struct_text(const ExportedModel& model, const ExportedValues& values) {
+    const PluginDescriptor& plugin = *model.plugin;
+    std::vector<std::string> members;
+    for (const std::size_t i : plugin.kernel.members)
+        members.push_back(member_text(plugin.parameters[i], values.delivered[i]));
+    return fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", "));
+}
+
+std::string id_of(const ExportedModel& model) {
+    return fmt::format("{}/{}", name_of(model.plugin->kind), model.plugin->name);
+}
+
+std::vector<ExportedModel> models_of(const ExportedScene& scene) {
+    std::vector<ExportedModel> all(scene.light_models.begin(), scene.light_models.end());
+    all.insert(all.end(), scene.reflections.begin(), scene.reflections.end());
+    all.insert(all.end(), scene.shadings.begin(), scene.shadings.end());
+    return all;
+}
+
+void require_different_names(const ExportedScene& scene) {
+    std::map<std::string, std::string> whose;
+    std::vector<ExportedModel> all = models_of(scene);
+    for (const ExportedObject& object : scene.objects) all.push_back(object.shape);
+    for (const ExportedModel& model : all) {
+        if (model.plugin->kernel.text == nullptr) continue;
+        const std::string id = id_of(model);
+        for (const std::string& name : declared_names(without_comments(model.plugin->kernel.text))) {
+            const auto [at, is_new] = whose.try_emplace(name, id);
+            if (is_new || at->second == id) continue;
+            throw std::runtime_error(
+                fmt::format("the kernels of {} and {} both declare '{}', so that they cannot stand in one "
+                            "program; a name that begins with the model's own would do",
+                            at->second, id, name));
+        }
+    }
+}
+
+std::string needed_parts(std::string_view library, const std::string& users) {
+    std::vector<Paragraph> all = paragraphs_of(std::string(library));
+    std::set<std::string> wanted = words_of(without_comments(users));
+    for (bool has_grown = true; has_grown;) {
+        has_grown = false;
+        for (Paragraph& p : all) {
+            if (p.is_kept) continue;
+            p.is_kept = p.declares.empty() || std::ranges::any_of(p.declares, [&](const std::string& name) {
+                            return wanted.contains(name);
+                        });
+            if (!p.is_kept) continue;
+            wanted.merge(words_of(without_comments(p.text)));
+            has_grown = true;
+        }
+    }
+    std::string result;
+    for (const Paragraph& p : all) {
+        if (p.is_kept) result += (result.empty() ? "" : "\n") + p.text;
+    }
+    return result;
+}
+
+}  // namespace candela::target

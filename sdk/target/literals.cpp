@@ -1,0 +1,113 @@
+#include "candela/target/literals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace candela::target {
+
+namespace {
+
+constexpr std::string_view k_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+std::string replace_all(std::string text, std::string_view from, std::string_view to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+}  // namespace
+
+std::string float_text(float x) {
+    std::string text = fmt::format("{}", x);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text + "f";
+}
+
+std::string vec3_text(Vec3 v) {
+    if (v.x == v.y && v.y == v.z) return fmt::format("vec3({})", float_text(v.x));
+    return fmt::format("vec3({}, {}, {})", float_text(v.x), float_text(v.y), float_text(v.z));
+}
+
+std::string member_text(const ParamSpec& parameter, const ParamValue& delivered) {
+    switch (parameter.type) {
+        case ParamType::real:
+            return float_text(delivered.number[0]);
+        case ParamType::choice:
+            return fmt::format("{} /* {} */", delivered.integer,
+                               tame(parameter.choices[static_cast<std::size_t>(delivered.integer)]));
+        case ParamType::integer:
+        case ParamType::boolean:
+            return fmt::format("{}", delivered.integer);
+        default:
+            return vec3_text({delivered.number[0], delivered.number[1], delivered.number[2]});
+    }
+}
+
+double shortest(float x) {
+    return std::isfinite(x) ? std::stod(fmt::format("{}", x)) : static_cast<double>(x);
+}
+
+std::string identifier(std::string_view name, std::string_view suffix) {
+    std::string result = fmt::format("{}_{}", name, suffix);
+    std::ranges::replace(result, '-', '_');
+    return result;
+}
+
+std::string tame(std::string_view name) {
+    std::string result;
+    for (const char c : name) {
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                              std::string_view(" -_.,:()").find(c) != std::string_view::npos;
+        result += is_plain ? c : '_';
+    }
+    return result.substr(0, 100);
+}
+
+std::string html_text(std::string_view text) {
+    // Characters that are no UTF-8 become the replacement character, as in JSON.
+    std::string result = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    result = nlohmann::json::parse(result).get<std::string>();
+    result = replace_all(result, "&", "&amp;");
+    result = replace_all(result, "<", "&lt;");
+    result = replace_all(result, ">", "&gt;");
+    return replace_all(replace_all(result, "\"", "&quot;"), "'", "&#39;");
+}
+
+std::string script_json(std::string json) { return replace_all(std::move(json), "<", "\\u003c"); }
+
+std::string base64(std::span<const std::byte> bytes) {
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += k <= count ? k_digits[group >> (18 - 6 * k) & 63u] : '=';
+    }
+    return text;
+}
+
+std::string base64_decoded(std::string_view text) {
+    std::string bytes;
+    std::uint32_t group = 0;
+    int bits = 0;
+    for (const char c : text) {
+        if (c == '=') break;
+        const std::size_t digit = k_digits.find(c);
+        if (digit == std::string_view::npos) throw std::invalid_argument("this is no base64 text");
+        group = group << 6 | static_cast<std::uint32_t>(digit);
+        bits += 6;
+        if (bits < 8) continue;
+        bits -= 8;
+        bytes += static_cast<char>(group >> bits & 255u);
+    }
+    return bytes;
+}
+
+}  // namespace candela::target
