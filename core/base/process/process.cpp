@@ -6,12 +6,12 @@ module;
 #define BOOST_PROCESS_USE_STD_FS
 #include <boost/process/args.hpp>
 #include <boost/process/child.hpp>
-#include <boost/process/handles.hpp>
 #include <boost/process/io.hpp>
 #include <boost/process/pipe.hpp>
 #include <boost/process/search_path.hpp>
 #include <filesystem>
 #include <iterator>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -42,8 +42,7 @@ process::child started(const std::vector<std::string>& words, Streams&&... strea
     }
     try {
         const std::vector<std::string> arguments(words.begin() + 1, words.end());
-        return process::child(program, process::args(arguments), process::limit_handles,
-                              std::forward<Streams>(streams)...);
+        return process::child(program, process::args(arguments), std::forward<Streams>(streams)...);
     } catch (const std::system_error& problem) {
         throw Error(ExitCode::failure, fmt::format("'{}' cannot be run: {}", name, problem.code().message()));
     }
@@ -65,9 +64,13 @@ std::optional<std::filesystem::path> program_called(const std::string& name) {
 }
 
 ProgramOutput run_program(const std::vector<std::string>& words) {
+    // A program that another thread starts at that moment would keep the pipes open.
+    static std::mutex starting;
+    std::unique_lock lock(starting);
     process::ipstream out, err;
     process::child child =
         started(words, process::std_in<process::null, process::std_out> out, process::std_err > err);
+    lock.unlock();
     ProgramOutput output;
     // A program that fills one pipe waits for its reader, so both are read at once.
     std::thread reader([&] { output.err = rest_of(err); });
