@@ -28,8 +28,8 @@ class Csv final : public Target {
             const PluginDescriptor& model = *scene.light_models[light.model].plugin;
             for (std::size_t i = 0; i < model.parameters.size(); ++i) {
                 const ParamValue& value = light.values.written[i];
-                lights << target::tame(light.label) << ',' << model.name << ',' << model.parameters[i].name << ','
-                       << value.number[0] << ' ' << value.number[1] << ' ' << value.number[2] << '\n';
+                lights << target::tame(light.label) << ',' << model.name << ',' << model.parameters[i].name
+                       << ',' << value.number[0] << ' ' << value.number[1] << ' ' << value.number[2] << '\n';
             }
         }
         objects << "label,shape,shading,reflection,closed\n";
@@ -38,8 +38,9 @@ class Csv final : public Target {
             const ExportedObject& object = scene.objects[o];
             const ExportedMesh mesh = scene.geometry->in_world_space(o);
             const std::string label = target::tame(object.label);
-            objects << label << ',' << object.shape.plugin->name << ',' << scene.shadings[object.shading].plugin->name
-                    << ',' << scene.reflections[object.reflection].plugin->name << ',' << mesh.closed << '\n';
+            objects << label << ',' << object.shape.plugin->name << ','
+                    << scene.shadings[object.shading].plugin->name << ','
+                    << scene.reflections[object.reflection].plugin->name << ',' << mesh.closed << '\n';
             for (std::size_t t = 0; t < mesh.indices.size(); ++t) {
                 const Vec3 p = mesh.position[mesh.indices[t]];
                 triangles << (t % 3 == 0 ? label : "") << ',' << p.x << ',' << p.y << ',' << p.z
