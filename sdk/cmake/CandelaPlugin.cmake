@@ -65,7 +65,8 @@ function(candela_add_plugin id)
         target_compile_definitions(${target} PRIVATE CANDELA_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS "${PLUGIN_EMBED}")
     endif()
-    target_link_libraries(${target} PRIVATE candela::sdk candela_batch_flags ${PLUGIN_LIBRARIES})
+    # CMake builds the module interfaces of an installed library only for what is linked to it directly.
+    target_link_libraries(${target} PRIVATE candela::core candela::sdk candela_batch_flags ${PLUGIN_LIBRARIES})
     # Only candela_* leaves the library: module initialisers are otherwise visible, and two plugins could clash.
     target_link_options(${target} PRIVATE -Wl,--version-script=${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
     if(NOT CANDELA_SANITIZE)
