@@ -7,28 +7,19 @@
 #include <vector>
 
 #include "command_line.h"
+#include "exit_code.h"
 #include "generate/building.h"
 #include "generate/exported_scene.h"
 #include "generate/target.h"
 #include "generating.h"
+#include "reporting.h"
 #include "terminal.h"
 #include "verbs.h"
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
-
-namespace {
-
-/// "512 bytes", "34.2 kB", "1.7 MB".
-std::string size_text(std::size_t bytes) {
-    const auto size = static_cast<double>(bytes);
-    if (size < 1e3) return fmt::format("{} bytes", bytes);
-    return size < 1e6 ? fmt::format("{:.1f} kB", size / 1e3) : fmt::format("{:.1f} MB", size / 1e6);
-}
-
-}  // namespace
+using candela::ErrorCategory;
 
 int run_generate(const std::vector<std::string>& arguments) {
     CommandLine line("candela generate [SCENE...] --target cpp|opengl|webgl [options]",
@@ -45,14 +36,15 @@ int run_generate(const std::vector<std::string>& arguments) {
                          "\n"
                          "`candela verify` shows that its picture is Candela's.");
     line.options()("target,t", po::value<std::string>()->value_name("NAME"),
-                   "what to write: cpp, opengl or webgl")("output,o",
-                                                          po::value<std::string>()->value_name("DIR"),
-                                                          "the folder for it; scene-NAME, unless said")(
-        "build", "build it too, with CMake")("run", "build it and run it: a picture, a window, or a browser");
+                   "what to write: cpp, opengl or webgl")(
+        "output,o", po::value<std::string>()->value_name("DIR"), "the output folder; default: scene-NAME")(
+        "build", "also build it, with CMake")("run",
+                                              "build it and run it: a picture, a window, or a browser");
     add_models_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
-    if (!line.has("target")) throw Error(ExitCode::usage, "--target is missing (cpp, opengl or webgl)");
+    if (!line.has("target"))
+        throw Error(ErrorCategory::bad_request, "--target is missing (cpp, opengl or webgl)");
     const generate::Target& target = generate::target_called(line.get<std::string>("target"));
     const fs::path directory =
         line.has("output") ? line.get<std::string>("output") : fmt::format("scene-{}", target.name);
@@ -60,12 +52,13 @@ int run_generate(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
     const auto scene = scene_to_export(line, registry, diagnostics);
-    std::cerr << diagnostics.text(stderr_takes_color());
-    if (!scene) return static_cast<int>(diagnostics.exit_code());
+    report(diagnostics);
+    if (!scene) return static_cast<int>(exit_code_of(diagnostics));
     const auto files = target.generate(scene->exported, generate_templates(), registry);
     write_program(files, directory);
     for (const generate::GeneratedFile& file : files)
-        std::cerr << fmt::format("{}: {}\n", (directory / file.name).string(), size_text(file.text.size()));
+        std::cerr << fmt::format("{}: {}\n", (directory / file.name).string(),
+                                 candela::size_text(file.text.size()));
     if (line.has("build") || line.has("run")) generate::build(target, directory);
     return line.has("run") ? generate::show(target, directory) : 0;
 }

@@ -10,7 +10,7 @@
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -29,7 +29,7 @@ std::vector<std::string> words_of(const std::string& list) {
 void add_models_option(CommandLine& line) {
     line.options()(
         "models", po::value<std::string>()->value_name("NAMES"),
-        "shading and reflection models to switch to beside the scene's: names parted by commas, ids such as "
+        "shading and reflection models to switch to beside the scene's: comma-separated names, ids such as "
         "shading/flat, or all");
 }
 
@@ -47,7 +47,8 @@ std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::R
         // What was asked has been answered.
         request.ask = nullptr;
         request.use_defaults = true;
-        (kind == candela::PluginKind::shading ? request.shading : request.reflection) = name;
+        const bool is_shading = kind == candela::PluginKind::shading;
+        (is_shading ? request.shading : request.reflection) = {name, "--models"};
         candela::Diagnostics ignored;
         return candela::read_scene(request, registry, ignored);
     };
@@ -61,7 +62,7 @@ void write_program(const std::vector<generate::GeneratedFile>& files, const fs::
     std::error_code problem;
     fs::create_directories(directory, problem);
     if (!fs::is_directory(directory)) {
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("the folder '{}' cannot be made: {}", directory.string(),
                                 problem ? problem.message() : "there is a file of that name"));
     }

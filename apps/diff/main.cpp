@@ -20,7 +20,7 @@
 
 namespace po = boost::program_options;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -83,20 +83,22 @@ double tolerance_from(const CommandLine& line) {
     if (!line.has("tolerance")) return std::numeric_limits<double>::infinity();
     const auto tolerance = line.get<double>("tolerance");
     if (!(tolerance >= 0 && std::isfinite(tolerance)))
-        throw Error(ExitCode::usage, fmt::format("--tolerance is {}; it can be 0 or more", tolerance));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--tolerance is {}; it can be 0 or more", tolerance));
     return tolerance;
 }
 
 void require_same_size(const std::string& a_name, const Picture& a, const std::string& b_name,
                        const Picture& b) {
     if (a.width == b.width && a.height == b.height) return;
-    throw Error(ExitCode::failure, fmt::format("the pictures differ in size: '{}' has {} pixels, '{}' has {}",
-                                               a_name, size_text(a), b_name, size_text(b)));
+    throw Error(ErrorCategory::failure,
+                fmt::format("the pictures differ in size: '{}' has {} pixels, '{}' has {}", a_name,
+                            size_text(a), b_name, size_text(b)));
 }
 
-void require_within(double tolerance, const Figures& figures) {
-    if (figures.beyond == 0) return;
-    throw Error(
+int verdict(double tolerance, const Figures& figures) {
+    if (figures.beyond == 0) return 0;
+    return fail(
         ExitCode::verification_failed,
         fmt::format("{} pixel{} by more than {:.6g} levels; the largest difference is {}", figures.beyond,
                     figures.beyond == 1 ? " differs" : "s differ", tolerance, maximum_text(figures)));
@@ -122,7 +124,8 @@ int run(const std::vector<std::string>& arguments) {
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> names = line.all("picture");
     if (names.size() != 2)
-        throw Error(ExitCode::usage, "candela diff needs two pictures: candela diff A B [options]");
+        throw Error(ErrorCategory::bad_request,
+                    "candela diff needs two pictures: candela diff A B [options]");
     const double tolerance = tolerance_from(line);
     if (line.has("output")) require_heat_map_format(line.get<std::string>("output"));
 
@@ -148,8 +151,7 @@ int run(const std::vector<std::string>& arguments) {
         print_text(a, differences, perceptible);
     }
     std::cout.flush();
-    require_within(tolerance, differences.interior);
-    return 0;
+    return verdict(tolerance, differences.interior);
 }
 
 }  // namespace

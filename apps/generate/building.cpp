@@ -23,7 +23,7 @@
 import candela.core;
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 namespace fs = std::filesystem;
 
 namespace generate {
@@ -59,10 +59,10 @@ pid_t spawned(const std::vector<std::string>& words, const posix_spawn_file_acti
     pid_t child = 0;
     const int problem = ::posix_spawnp(&child, argv[0], actions, nullptr, argv.data(), environ);
     if (problem == ENOENT)
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("there is no program '{}' on this machine, which is needed here", words[0]));
     if (problem != 0)
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be run: {}", words[0], std::strerror(problem)));
     return child;
 }
@@ -75,7 +75,7 @@ std::string tail(const std::string& log) {
 
 void require_success(const ToolResult& result, const std::string& what) {
     if (result.exit_code == 0) return;
-    throw Error(ExitCode::failure,
+    throw Error(ErrorCategory::failure,
                 fmt::format("{} (exit code {}):\n{}", what, result.exit_code, tail(result.out + result.err)));
 }
 
@@ -118,11 +118,11 @@ std::optional<std::string> content_of(const std::string& html, const std::string
 void draw_page(const fs::path& page, const fs::path& picture) {
     const auto browser = chromium();
     if (!browser)
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     "the page is drawn by Chromium, and there is no 'chromium' on this machine");
     std::string profile = (fs::temp_directory_path() / "candela-chromium-XXXXXX").string();
     if (::mkdtemp(profile.data()) == nullptr)
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));
     std::vector<std::string> words = {*browser,
                                       "--headless=new",
@@ -145,12 +145,12 @@ void draw_page(const fs::path& page, const fs::path& picture) {
     std::error_code ignored;
     fs::remove_all(profile, ignored);
     if (const auto problem = content_of(result.out, "problem"))
-        throw Error(ExitCode::failure, fmt::format("the page says: {}", *problem));
+        throw Error(ErrorCategory::failure, fmt::format("the page says: {}", *problem));
     const auto data = content_of(result.out, "picture");
     constexpr std::string_view k_begin = "data:image/png;base64,";
     if (!data || !data->starts_with(k_begin)) {
-        throw Error(ExitCode::failure, fmt::format("Chromium does not show the page (exit code {}):\n{}",
-                                                   result.exit_code, tail(result.err)));
+        throw Error(ErrorCategory::failure, fmt::format("Chromium does not show the page (exit code {}):\n{}",
+                                                        result.exit_code, tail(result.err)));
     }
     candela::write_text_file(picture, base64_decoded(std::string_view(*data).substr(k_begin.size())));
 }
@@ -160,7 +160,8 @@ void draw_page(const fs::path& page, const fs::path& picture) {
 ToolResult run_tool(const std::vector<std::string>& words) {
     int out[2], err[2];
     if (::pipe2(out, O_CLOEXEC) != 0 || ::pipe2(err, O_CLOEXEC) != 0)
-        throw Error(ExitCode::failure, fmt::format("'{}' cannot be run: {}", words[0], std::strerror(errno)));
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' cannot be run: {}", words[0], std::strerror(errno)));
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);

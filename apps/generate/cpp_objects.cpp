@@ -177,7 +177,7 @@ void CppObjects::require_plain_normals(const ExportedObject& object) {
                                                  &candela::MeshVertex::normal, &candela::MeshVertex::normal);
         if (!is_plain) {
             throw candela::Error(
-                candela::ExitCode::failure,
+                candela::ErrorCategory::failure,
                 fmt::format("{} makes vertex normals of its own, of which its kernel says nothing "
                             "(there is no function {}_corner_weight), so that a C++ program cannot",
                             model.manifest->id(), model.kernel.prefix()));

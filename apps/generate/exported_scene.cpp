@@ -9,7 +9,7 @@
 #include <variant>
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 using candela::ParamSet;
 using candela::PluginFile;
 using candela::PluginKind;
@@ -48,7 +48,7 @@ class Exporter {
         result_.observer = scene_.observer;
         result_.image = scene_.image;
         if (!scene_.image.environment.empty()) {
-            throw Error(ExitCode::failure,
+            throw Error(ErrorCategory::failure,
                         "[image] environment: a generated program has a background of one colour, not a "
                         "picture all around");
         }
@@ -74,7 +74,7 @@ class Exporter {
         const PluginFile& file = registry_.require(kind, name);
         const candela::KernelText& kernel = file.descriptor->kernel;
         if (kernel.text == nullptr)
-            throw Error(ExitCode::failure,
+            throw Error(ErrorCategory::failure,
                         fmt::format("{}/{} {}", candela::name_of(kind), name, k_no_kernel));
         Exported model;
         model.manifest = &file.manifest;
@@ -84,8 +84,8 @@ class Exporter {
 
     static void require_function(const ExportedModel& model, const char* suffix) {
         if (model.kernel.function(suffix) != nullptr) return;
-        throw Error(ExitCode::failure, fmt::format("{}: its kernel has no function {}_{}",
-                                                   model.manifest->id(), model.kernel.prefix(), suffix));
+        throw Error(ErrorCategory::failure, fmt::format("{}: its kernel has no function {}_{}",
+                                                        model.manifest->id(), model.kernel.prefix(), suffix));
     }
 
     void add(const candela::LightSource& light) {
@@ -110,7 +110,7 @@ class Exporter {
         const auto instance = made<candela::ReflectionModel>(name, values);
         if (instance->shows_surroundings()) {
             throw Error(
-                ExitCode::failure,
+                ErrorCategory::failure,
                 fmt::format(
                     "reflection/{} shows what is behind and around an object, for which rays are followed "
                     "through it; generated programs do not do that",
@@ -128,7 +128,7 @@ class Exporter {
             add_shading(object.shading.name, object.shading.parameters);
             add_reflection(object.reflection.name, object.reflection.parameters);
         } catch (const Error& problem) {
-            throw Error(problem.code(), fmt::format("object {}: {}", object.label, problem.what()));
+            throw Error(problem.category(), fmt::format("object {}: {}", object.label, problem.what()));
         }
     }
 
@@ -163,7 +163,7 @@ class Exporter {
         }
         if (is_known) return;
         const auto near = candela::closest(name, names);
-        throw Error(ExitCode::usage,
+        throw Error(ErrorCategory::bad_request,
                     fmt::format("--models: no reflection or shading model is called '{}'{}", name,
                                 near ? fmt::format("; did you mean '{}'?", *near)
                                      : " (candela list reflection, candela list shading)"));
@@ -229,10 +229,11 @@ class Exporter {
             for (const std::string& name : model->kernel.names()) {
                 const auto [at, is_new] = whose.try_emplace(name, model->manifest->id());
                 if (is_new || at->second == model->manifest->id()) continue;
-                throw Error(ExitCode::failure, fmt::format("the kernels of {} and {} both declare '{}', so "
-                                                           "that they cannot stand in one program; a "
-                                                           "name that begins with the model's own would do",
-                                                           at->second, model->manifest->id(), name));
+                throw Error(ErrorCategory::failure,
+                            fmt::format("the kernels of {} and {} both declare '{}', so "
+                                        "that they cannot stand in one program; a "
+                                        "name that begins with the model's own would do",
+                                        at->second, model->manifest->id(), name));
             }
         }
     }

@@ -9,7 +9,7 @@
 #include <variant>
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 using candela::Parameter;
 using candela::ParamType;
 using candela::ParamValue;
@@ -112,7 +112,7 @@ std::string base64_decoded(std::string_view text) {
     for (const char c : text) {
         if (c == '=') break;
         const std::size_t digit = k_digits.find(c);
-        if (digit == std::string_view::npos) throw Error(ExitCode::failure, "this is no base64 text");
+        if (digit == std::string_view::npos) throw Error(ErrorCategory::failure, "this is no base64 text");
         group = group << 6 | static_cast<std::uint32_t>(digit);
         bits += 6;
         if (bits < 8) continue;

@@ -5,7 +5,7 @@
 #include <array>
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace generate {
 
@@ -31,8 +31,9 @@ const Target& target_called(const std::string& name) {
         names.emplace_back(target.name);
     }
     const auto near = candela::closest(name, names);
-    throw Error(ExitCode::usage, fmt::format("there is no target '{}'{} (possible: cpp, opengl, webgl)", name,
-                                             near ? fmt::format("; did you mean '{}'?", *near) : ""));
+    throw Error(ErrorCategory::bad_request,
+                fmt::format("there is no target '{}'{} (possible: cpp, opengl, webgl)", name,
+                            near ? fmt::format("; did you mean '{}'?", *near) : ""));
 }
 
 }  // namespace generate

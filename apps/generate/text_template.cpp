@@ -13,7 +13,7 @@
 import candela.core;
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace generate {
 
@@ -22,7 +22,7 @@ std::string Templates::text(const std::string& name) const {
     std::ifstream in(path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(in), {}};
     if (!in || text.empty()) {
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("'{}', which programs are generated from, cannot be read: {}", path.string(),
                                 std::strerror(errno)));
     }

@@ -9,7 +9,7 @@
 import candela.core;
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 namespace fs = std::filesystem;
 
 namespace verify {
@@ -32,14 +32,14 @@ Comparison compare(const fs::path& program, const fs::path& a, const fs::path& b
         generate::run_tool({program.string(), a.string(), b.string(), "--mask", edges.string(), "-o",
                             heat_map.string(), "--json"});
     if (result.exit_code != 0)
-        throw Error(ExitCode::failure, fmt::format("the pictures cannot be compared:\n{}", result.err));
+        throw Error(ErrorCategory::failure, fmt::format("the pictures cannot be compared:\n{}", result.err));
     try {
         const auto json = nlohmann::json::parse(result.out);
         return {.interior = figures_from(json.at("interior")),
                 .edges = figures_from(json.at("edges")),
                 .perceptible = json.at("perceptible").at("pixels")};
     } catch (const nlohmann::json::exception& problem) {
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("'{}' gives no figures: {}", program.string(), problem.what()));
     }
 }

@@ -105,7 +105,7 @@ void project_scene(const CompiledScene& scene, const Film& film, int tile_size, 
         project(meshes, camera_of(scene.observer, film.width(), film.height()), tile_size,
                 scene.image.samples, projected);
     } catch (const std::length_error& problem) {
-        throw Error(ExitCode::failure, problem.what());
+        throw Error(ErrorCategory::failure, problem.what());
     }
 }
 

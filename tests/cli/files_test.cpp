@@ -101,7 +101,7 @@ TEST_CASE("includes that go round in circles, lead nowhere or come twice are err
     expect(included("\"c.toml\""), 3,
            {"scene.toml:2:11: error: 'include' is a string, \"c.toml\"; expected a list of paths"});
     expect(included("[3]"), 3,
-           {"scene.toml:2:12: error: 'include' holds the whole number 3; expected a path in quotes"});
+           {"scene.toml:2:12: error: 'include' holds the whole number 3; expected a quoted path"});
     expect(included("[\".\"]"), 1, {"directory"});
     write_file(d / "broken.toml", "[room\n");
     expect(included("[\"broken.toml\"]"), 3, {"broken.toml:1:6: error"});
@@ -129,8 +129,8 @@ TEST_CASE("R11: each way of not being readable has its own message and exit code
     expect(check({"latin1.toml"}, d), 3,
            {"latin1.toml:15:6: error: this is not UTF-8 text", "save the file as UTF-8", "# caf?"});
     REQUIRE(::mkfifo((d / "fifo").c_str(), 0600) == 0);
-    expect(check({"fifo"}, d), 1, {"fifo: error: this is no ordinary file (a pipe or a device?)"});
-    expect(check({"/dev/zero"}, d), 1, {"/dev/zero: error: this is no ordinary file"});
+    expect(check({"fifo"}, d), 1, {"fifo: error: this is not a regular file (a pipe or a device?)"});
+    expect(check({"/dev/zero"}, d), 1, {"/dev/zero: error: this is not a regular file"});
     write_file(d / "huge.toml", "");
     fs::resize_file(d / "huge.toml", 100'000'000);
     expect(check({"huge.toml"}, d), 1,

@@ -58,8 +58,8 @@ Json json_of(const Parameter& p) {
     json["type"] = name_of(p.type);
     if (!p.unit.empty()) json["unit"] = p.unit;
     if (p.default_value) {
-        json["default"] =
-            p.type == ParamType::color ? color_json(std::get<Vec3>(*p.default_value)) : json_of(*p.default_value);
+        json["default"] = p.type == ParamType::color ? color_json(std::get<Vec3>(*p.default_value))
+                                                     : json_of(*p.default_value);
     }
     if (p.minimum != k_no_minimum) json[p.minimum_excluded ? "above" : "minimum"] = shortest(p.minimum);
     if (p.maximum != k_no_maximum) json[p.maximum_excluded ? "below" : "maximum"] = shortest(p.maximum);
@@ -104,7 +104,7 @@ Json json_of(const Manifest& m) {
     return json;
 }
 
-[[noreturn]] void refuse(const std::string& reason) { throw Error(ExitCode::failure, reason); }
+[[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCategory::failure, reason); }
 
 template <class Named>
 auto named(const Json& json, std::string_view what, Named named_function) {
@@ -173,7 +173,8 @@ Parameter parameter_from(const Json& json) {
         Parameter unbounded = p;
         unbounded.minimum = k_no_minimum;
         unbounded.maximum = k_no_maximum;
-        if (const auto problem = validation_error(unbounded, *p.default_value)) wrong("its default: " + *problem);
+        if (const auto problem = validation_error(unbounded, *p.default_value))
+            wrong("its default: " + *problem);
     }
     return p;
 }
@@ -269,7 +270,7 @@ Manifest manifest_from_json(std::string_view text) {
     try {
         return manifest_from(Json::parse(text));
     } catch (const Json::exception& problem) {
-        throw Error(ExitCode::failure, fmt::format("it is no manifest: {}", problem.what()));
+        throw Error(ErrorCategory::failure, fmt::format("it is no manifest: {}", problem.what()));
     }
 }
 

@@ -180,9 +180,9 @@ std::string constraint_text(const Parameter& p) {
         case ParamType::choice:
             return fmt::format("one of '{}'", fmt::join(p.choices, "', '"));
         case ParamType::text:
-            return "a text in quotes";
+            return "a quoted string";
         case ParamType::file:
-            return "a path in quotes";
+            return "a quoted path";
         case ParamType::vector:
             return "three numbers" + (range.empty() ? "" : ", each " + range);
         case ParamType::point:

@@ -19,9 +19,10 @@ module;
 
 module candela.scene;
 
+import :merge;
 import candela.diagnostics;
+import candela.text;
 import candela.toml;
-import candela.validation;
 
 namespace candela {
 
@@ -120,8 +121,8 @@ class Gatherer {
             if (const auto* path = std::get_if<std::string>(&file.value)) {
                 add_file(directory / *path, &file.place);
             } else {
-                diagnostics_.error(file.place, fmt::format("'include' holds {}; expected a path in quotes",
-                                                           description(file)));
+                diagnostics_.error(
+                    file.place, fmt::format("'include' holds {}; expected a quoted path", description(file)));
             }
         }
     }
@@ -173,7 +174,7 @@ std::vector<std::string> parts_of(std::string_view path) {
 class Setter {
   public:
     Setter(const Setting& setting, TableNode& root, Diagnostics& diagnostics)
-        : setting_(setting), place_{setting.flag, 0, 0, 0}, root_(root), diagnostics_(diagnostics) {}
+        : setting_(setting), place_{setting.origin, 0, 0, 0}, root_(root), diagnostics_(diagnostics) {}
 
     void apply() {
         auto value = parse_value(setting_.value, place_, diagnostics_);

@@ -28,7 +28,7 @@ namespace candela {
 namespace {
 
 [[noreturn]] void cannot_say(const std::string& what) {
-    throw Error(ExitCode::failure, "the scene cannot be written as a file: " + what);
+    throw Error(ErrorCategory::failure, "the scene cannot be written as a file: " + what);
 }
 
 std::string vector_text(Vec3 v) {
@@ -51,9 +51,7 @@ std::string value_text(const Value& value, ParamType type) {
     if (const auto* const real = std::get_if<double>(&value)) return toml_text(*real);
     if (const auto* const text = std::get_if<std::string>(&value)) return toml_text(*text);
     const Vec3 v = std::get<Vec3>(value);
-    return type == ParamType::color    ? color_text(v)
-           : type == ParamType::rgb ? rgb_text(v)
-                                       : vector_text(v);
+    return type == ParamType::color ? color_text(v) : type == ParamType::rgb ? rgb_text(v) : vector_text(v);
 }
 
 /// A label that says a name, not a number, has that name.

@@ -91,35 +91,3 @@ CANDELA_API std::string toml_text(float x);
 CANDELA_API std::string toml_key(std::string_view key);
 
 }  // namespace candela
-
-// What this module's own units share.
-namespace candela {
-
-/// Says why a file cannot be read, or returns its text: UTF-8 or not, but no binary file, and not empty.
-std::optional<std::string> text_of_file(const std::filesystem::path& file, const std::string& shown_name,
-                                        ReadingLimits& left, Diagnostics& diagnostics);
-
-/// Where a text is not UTF-8.
-std::optional<SourcePlace> first_invalid_character(std::string_view text, const std::string& shown_name);
-
-struct Excess {
-    std::size_t offset = 0;  // in bytes; what is before it is not too much
-    SourcePlace place;
-    std::string message;
-};
-
-/// Where brackets nest so deep, or keys have so many parts, that going down there by recursion is a danger;
-/// or where there are more than `values_left` values. Else takes off how many there are.
-std::optional<Excess> first_excess(std::string_view text, const std::string& shown_name,
-                                   std::size_t& values_left);
-
-struct SyntaxProblem {
-    std::string message;
-    std::string hint;
-};
-
-/// What toml++ says of a text, as a person says it. `line` is the line of the problem, `column` its place
-/// therein.
-SyntaxProblem syntax_problem(std::string_view description, std::string_view line, int column);
-
-}  // namespace candela

@@ -1,4 +1,4 @@
-// A table of a document, read by a schema: types, ranges, unknown and missing keys.
+// Validates a table of a document against a schema: types, ranges, unknown and missing keys.
 module;
 
 #include "candela/api.h"
@@ -19,8 +19,9 @@ export namespace candela {
 /// Where in the scene a table stands, for messages.
 struct TableContext {
     std::string where;   // "[image]", "[[light]] 'lamp'"
-    std::string manual;  // what tells more: "candela describe light/point"; may be empty
+    Help help;           // where its keys are explained
     SourcePlace place;   // of the table itself, for what is missing in it
+    std::string note{};  // said with every unknown key; may be empty
 };
 
 /// The values of the keys that `schema` has; its defaults for those that are missing. Reports wrong types,
@@ -44,8 +45,5 @@ CANDELA_API void check_relations(const TableNode& table, const ParamSet& values,
 /// `node` as a value of the parameter's type, without a look at its range. Reports a type mismatch.
 CANDELA_API std::optional<Value> typed_value(const Node& node, const Parameter& parameter,
                                              Diagnostics& diagnostics);
-
-/// "did you mean 'shininess'?", or empty.
-CANDELA_API std::string suggestion(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace candela
