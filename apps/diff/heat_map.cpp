@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "differences.h"
+#include "picture_comparison/differences.h"
 
 import candela.core;
 

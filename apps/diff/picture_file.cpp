@@ -1,4 +1,4 @@
-#include "picture.h"
+#include "picture_file.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -144,8 +144,4 @@ Picture read_picture(const fs::path& file) {
     }
     require_finite(picture, file);
     return picture;
-}
-
-std::string size_text(const Picture& picture) {
-    return fmt::format("{} x {}", picture.width, picture.height);
 }
