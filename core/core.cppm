@@ -1,5 +1,4 @@
-// All of Candela's core, for programs that use it as a library. Plugins import the interface of their kind
-// instead.
+// The whole core, for programs that use it as a library. Plugins import the interface of their kind instead.
 export module candela.core;
 
 export import candela.arrays;

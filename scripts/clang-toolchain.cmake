@@ -6,3 +6,9 @@ foreach(candela_clang_version 19 20 21)
         break()
     endif()
 endforeach()
+
+# ccache on its own returns stale objects where module interfaces have changed.
+find_program(CANDELA_CCACHE ccache)
+if(CANDELA_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_CURRENT_LIST_DIR}/ccache.sh)
+endif()

@@ -4,8 +4,9 @@
 #   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file
 #   scripts/fuzz.sh --merge [HARNESS…]    puts what was found to reach new code into the corpus, and throws out what no
 #                                         longer adds anything
-# New inputs and findings go to build/fuzz/found/<harness>, never among the sources. The exit code says whether there
-# were findings.
+# A corpus is tests/fuzz/corpus/<harness>, inputs with telling names, and <harness>.tar.gz, what fuzzing has found to reach code
+# that these do not. New inputs and findings go to build/fuzz/found/<harness>, never among the sources. The exit code says
+# whether there were findings.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
@@ -13,7 +14,7 @@ cd "$root"
 seconds=${1-60}
 [ $# -eq 0 ] || shift
 if [ "$seconds" != --merge ] && ! [[ $seconds =~ ^[1-9][0-9]*$ ]]; then
-    sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
     exit 2
 fi
 [ $# -gt 0 ] || set -- scene setting manifest mesh mesh_file
@@ -32,6 +33,7 @@ status=0
 for harness in "$@"; do
     program=build/fuzz/tests/fuzz/candela_${harness}_fuzz
     corpus=tests/fuzz/corpus/$harness
+    unpacked=build/fuzz/tests/fuzz/corpus/$harness
     found=build/fuzz/found/$harness
     [ -x "$program" ] || { echo "fuzz: there is no harness '$harness'" >&2; exit 2; }
     mkdir -p "$found/inputs" "$found/findings"
@@ -45,14 +47,18 @@ for harness in "$@"; do
     esac
     if [ "$seconds" = --merge ]; then
         # Inputs with a name of their own are regression tests: they stay. The others must add to them.
-        mkdir -p "$scratch/old"
-        find "$corpus" -regextype egrep -regex '.*/[0-9a-f]{40}' -exec mv -t "$scratch/old" {} +
-        "$program" "${options[@]}" -merge=1 "$corpus" "$scratch/old" "$found/inputs" 2>&1 | tail -n 1
-        rm -rf "$scratch/old"
+        cp -r "$corpus" "$scratch/merged"
+        "$program" "${options[@]}" -merge=1 "$scratch/merged" "$unpacked" "$found/inputs" 2>&1 | tail -n 1
+        # The same inputs are always the same archive.
+        (cd "$scratch/merged" && find . -regextype egrep -regex '\./[0-9a-f]{40}' -printf '%P\0' | LC_ALL=C sort -z) |
+            tar -C "$scratch/merged" --null --files-from=- --format=ustar --mtime=@0 --mode=0644 --owner=0 --group=0 --numeric-owner \
+                -c | gzip -n -9 >"$corpus.tar.gz.new"
+        mv "$corpus.tar.gz.new" "$corpus.tar.gz"
+        rm -rf "$scratch/merged"
         continue
     fi
     printf '== %s, %s seconds\n' "$harness" "$seconds"
-    if ! "$program" "${options[@]}" -max_total_time="$seconds" "$found/inputs" "$corpus" 2>"$found/log"; then
+    if ! "$program" "${options[@]}" -max_total_time="$seconds" "$found/inputs" "$corpus" "$unpacked" 2>"$found/log"; then
         status=1
         grep -aE 'finding:|SUMMARY|ERROR: |runtime error' "$found/log" || true
     fi

@@ -1,17 +1,55 @@
 #!/usr/bin/env bash
-# Checks the form of all sources: clang-format, and clang-tidy with the release build (made first if need be).
-#   scripts/lint.sh            everything
-#   scripts/lint.sh --format   only clang-format, which takes a second
+# Checks the form of the sources: clang-format for all of them, clang-tidy for those that a change may have affected. Makes the
+# release build first.
+#   scripts/lint.sh              what differs from upstream, committed or not, and whatever includes or imports that
+#   scripts/lint.sh --since REV  the same against REV
+#   scripts/lint.sh --all        everything (a quarter of an hour with two cores)
+#   scripts/lint.sh --format     only clang-format, which takes a second
+# Where nothing differs from upstream, as in a fresh clone, everything is checked, unless the environment variable
+# CANDELA_LINT_SINCE names a commit to compare with.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 
+usage() { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+commit() { git rev-parse --verify --quiet "$1^{commit}" 2>/dev/null; }
+
+# The commit to compare with, or nothing to check everything.
+compared_with() {
+    local upstream base
+    if [ -n "${CANDELA_LINT_SINCE-}" ]; then
+        commit "$CANDELA_LINT_SINCE" || { echo "lint: CANDELA_LINT_SINCE names no commit: $CANDELA_LINT_SINCE" >&2; return 2; }
+        return
+    fi
+    for upstream in '@{upstream}' origin/HEAD origin/main; do
+        base=$(git merge-base HEAD "$(commit "$upstream" || true)" 2>/dev/null) || continue
+        if [ "$base" != "$(commit HEAD)" ] || ! git diff --quiet HEAD; then
+            echo "$base"
+            return
+        fi
+    done
+}
+
+scope=changed
+case "${1-}" in
+    '') ;;
+    --all | --format) scope=${1#--}; [ $# -eq 1 ] || usage ;;
+    --since) [ $# -eq 2 ] || usage; CANDELA_LINT_SINCE=$2 ;;
+    *) usage ;;
+esac
+
 "$root/scripts/setup.sh"
 git ls-files -z '*.cpp' '*.cppm' '*.h' | xargs -0 clang-format-19 --dry-run --Werror
-[ "${1-}" != --format ] || exit 0
+[ "$scope" != format ] || exit 0
 
+since=
+[ "$scope" = all ] || since=$(compared_with)
 cmake --preset release -DCANDELA_TESTS=ON >/dev/null
 cmake --build --preset release >/dev/null
-git ls-files -z 'core/*.cpp' 'sdk/*.cpp' 'apps/*.cpp' 'plugins/*.cpp' | grep -zv -e '_test\.cpp$' -e '^sdk/template/' -e '^apps/generate/cpp/' -e '^apps/generate/opengl/' |
-    xargs -0 -n 1 -P "$(nproc)" sh -c 'clang-tidy-19 -p build/release --quiet "$1" 2>/dev/null || { echo "clang-tidy: $1" >&2; exit 1; }' tidy
+if [ -n "$since" ]; then
+    echo "lint: what differs from $(git log -1 --format='%h (%s)' "$since")"
+    python3 -B "$root/scripts/tidy.py" build/release build/tidy --since "$since"
+else
+    python3 -B "$root/scripts/tidy.py" build/release build/tidy --all
+fi
 echo "lint: clean"

@@ -45,8 +45,8 @@ std::vector<std::string> characters_of(std::string_view line) {
     return result;
 }
 
-/// A sentence, which may quote what somebody wrote: on one line, without commands to the terminal, and not
-/// longer than anybody reads.
+/// A sentence that may quote user input: on one line, without terminal control sequences, and no longer than
+/// anybody reads.
 std::string sentence(std::string_view text) {
     constexpr std::size_t k_longest = 1000;
     std::string result;
@@ -58,8 +58,8 @@ std::string sentence(std::string_view text) {
     return result;
 }
 
-/// A line, or as much of it as a person can look at, and marks below the place. Tabs stay tabs, so that the
-/// marks stand under their text whatever a tab's width.
+/// A line, or as much of it as is readable, and marks below the position. Tabs stay tabs, so that the marks
+/// line up whatever the width of a tab.
 std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& place) {
     constexpr std::size_t k_widest = 160;
     constexpr std::size_t k_before = 60;

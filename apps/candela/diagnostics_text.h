@@ -8,12 +8,13 @@ import candela.core;
 
 constexpr std::size_t k_most_diagnostics_shown = 50;
 
-/// The first `most` diagnostics as text, each with its line and a mark below the place, and how many more
-/// there are.
+/// The first `most` diagnostics as text, each with its line and a mark below the position, and the number of
+/// those omitted.
 std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_color,
                              std::size_t most = k_most_diagnostics_shown);
 
-/// All of them, for programs: an array of objects with severity, file, line, column, length, message, hint.
+/// All diagnostics for programs: an array of objects with severity, file, line, column, length, message,
+/// hint.
 std::string diagnostics_json(const candela::Diagnostics& diagnostics);
 
 /// The sentence of an error or a refusal, and what else can be done.

@@ -80,7 +80,7 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     }
     check_name(words[1]);
     const fs::path target = words.size() > 2 ? words[2] : words[1];
-    const fs::path source = beside_command("share/candela/template") / words[0];
+    const fs::path source = beside_command("share/candela/templates") / words[0];
     if (!fs::is_directory(source))
         throw Error(ErrorCategory::failure,
                     fmt::format("the templates are not installed: there is no '{}' (package candela-dev)",

@@ -38,7 +38,7 @@ model = "phong"
 [reflection]
 model = "blinn-phong"
 
-# Lights: as many as you like. A name is good for messages, and for --set light.lamp.intensity=40
+# Lights: any number. A name is good for messages, and for --set light.lamp.intensity=40
 [[light]]
 name      = "lamp"
 type      = "point"                  # shines to all sides; others: "spot", "directional", "ambient"
@@ -52,7 +52,7 @@ type      = "ambient"                # comes from everywhere, so that no side is
 color     = [120, 140, 190]
 intensity = 2.0
 
-# Objects: as many as you like. They may not overlap.
+# Objects: any number. They may not overlap.
 [[object]]
 name     = "ball"
 type     = "sphere"                  # others: "cube", "torus", "teapot", "mesh" (with file = "bunny.obj")

@@ -14,7 +14,7 @@ struct Picture {
     static constexpr float k_whole = 65535;
 
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-    /// The `i`-th value, 1 where a whole number is as large as it can be.
+    /// The `i`-th value, 1 where an integer is as large as it can be.
     float normalized(std::size_t i) const { return is_float ? values[i] : values[i] / k_whole; }
 };
 

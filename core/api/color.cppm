@@ -9,7 +9,7 @@ import candela.math;
 
 export namespace candela {
 
-/// A colour or an intensity, one number a channel. Scene-linear unless colour management is off.
+/// A colour or an intensity, one value per channel. Scene-linear unless colour management is off.
 struct Rgb {
     float r = 0;
     float g = 0;
@@ -21,16 +21,16 @@ struct Rgb {
 constexpr Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 constexpr Rgb operator*(float s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
 
-/// How scene colours are read and 8-bit pictures are written (SPEC of the scene file, color_management).
+/// How scene colours are read and 8-bit pictures are written (`color_management` in the scene file).
 enum class ColorEncoding : int {
     srgb,  // decoded before lighting, encoded again in 8-bit pictures
-    none,  // taken as they are
+    none,  // used as they are
 };
 
 /// How an image format stores a channel.
 enum class PixelType : int {
     byte,  // 8 bits: clamped, and encoded as color_management says
-    real,  // 32-bit float: the computed intensities
+    real,  // 32-bit float: the computed intensities, unclamped
 };
 
 /// The sRGB transfer functions (IEC 61966-2-1:1999): encoded to linear and back, per channel, 0 to 1.

@@ -1,4 +1,4 @@
-// What a plugin says about itself, and the root of all that it makes.
+// What a plugin says about itself, and the base class of everything it creates.
 module;
 
 #include "candela/api.h"
@@ -23,9 +23,9 @@ inline constexpr std::array k_plugin_kinds = {PluginKind::light, PluginKind::ref
 CANDELA_API std::string_view name_of(PluginKind kind) noexcept;
 CANDELA_API std::optional<PluginKind> plugin_kind_named(std::string_view name) noexcept;
 
-/// One set of parameter values of a plugin: a light, a material, a shape. Made by the plugin, owned by the
-/// host, which deletes it. Immutable from then on: every member function of the kinds is const and is called
-/// by many threads at once.
+/// One set of parameter values of a plugin: a light, a material, a shape. Created by the plugin and owned by
+/// the host, which deletes it. Immutable after construction: every member function of the kinds is const and
+/// may be called from many threads at once.
 class CANDELA_API Instance {
   public:
     Instance() = default;
@@ -34,13 +34,13 @@ class CANDELA_API Instance {
     virtual ~Instance();
 };
 
-/// A fact that a plugin declares, for listings and for the conformance test: {"reciprocal", "true"}.
+/// A fact that a plugin declares, for listings and the conformance kit: {"reciprocal", "true"}.
 struct Property {
     const char* name = "";
     const char* value = "true";
 };
 
-/// A kind of file that an image plugin writes, and reads if it says so.
+/// A file format that an image plugin writes, and optionally reads.
 struct FileFormat {
     const char* extension = "";  // lower case, without the dot
     const char* title = "";
@@ -50,13 +50,13 @@ struct FileFormat {
 
 /// The mathematics of a plugin as text, for programs that are generated from it.
 struct KernelText {
-    const char* text = nullptr;    // the whole .kernel file; null where there is none
+    const char* text = nullptr;    // the whole .kernel file; null if there is none
     const char* prefix = nullptr;  // its functions are called <prefix>_reflect, <prefix>_normal, …
     const char* parameters =
-        "";  // the struct that they take first, whose members are called as the parameters
+        "";  // the struct that they take first; its members are named after the parameters
 };
 
-/// All about one plugin. Plain data with static lifetime in the plugin's library.
+/// Everything about one plugin. Plain data with static lifetime in the plugin's library.
 struct PluginDescriptor {
     PluginKind kind = PluginKind::light;
     const char* name = "";       // "half-lambert"; lower case, digits, hyphens
@@ -64,15 +64,15 @@ struct PluginDescriptor {
     const char* title = "";      // "Half Lambert"
     const char* summary = "";    // one sentence
     const char* formula = "";    // as text; lines separated by \n
-    const char* reference = "";  // author, year, title; empty where there is none
+    const char* reference = "";  // author, year, title; empty if there is none
     std::span<const ParamSpec> parameters{};
     std::span<const RelationSpec> relations{};
     std::span<const Property> properties{};
     std::span<const FileFormat> formats{};  // image plugins only
     KernelText kernel{};
 
-    /// Makes an instance; `values` are in the order of `parameters`. May throw std::exception: bad files, bad
-    /// values. The result is of the kind's interface class. Any thread.
+    /// Creates an instance of the kind's interface class. `values` are in the order of `parameters`. May
+    /// throw std::exception for bad files or values. Any thread.
     Instance* (*create)(std::span<const ParamValue> values) = nullptr;
 };
 

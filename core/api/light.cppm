@@ -12,28 +12,28 @@ export import candela.math;
 
 export namespace candela {
 
-/// Points that a light shines on. World space, metres; normals are unit vectors.
+/// Points that a light illuminates. World space, metres; normals are unit vectors.
 struct ReceiverBatch {
     std::size_t count = 0;
     ConstVec3Span position;
     ConstVec3Span normal;
 };
 
-/// Where one sample of a light comes from and what it sends to each receiver; written by the light.
+/// Where one sample of a light comes from, and what it sends to each receiver; written by the light.
 struct IncidentBatch {
-    Vec3Span to_light;  // unit vectors from the receiver to the light
+    Vec3Span to_light;  // unit vectors from the receiver towards the light
     Vec3Span diffuse;   // intensity per channel, >= 0, attenuated
-    Vec3Span specular;  // likewise, for highlights
+    Vec3Span specular;  // the same for highlights
 };
 
-/// A light. Any thread, any batch size from 1; arrays need no alignment and do not overlap. All intensities
-/// are >= 0 and finite, also where a receiver coincides with the light.
+/// A light. Any thread, any batch size from 1; arrays need no alignment and do not alias. All intensities are
+/// >= 0 and finite, even where a receiver coincides with the light.
 class CANDELA_API Light : public Instance {
   public:
     ~Light() override;
 
-    /// How many directions the light comes from at a point: 0 for ambient light, 1 for a point, more for a
-    /// source that is modelled by several (RE: "we model a distributed source by using a number of point
+    /// From how many directions the light reaches a point: 0 for ambient light, 1 for a point light, more for
+    /// a source modelled by several points (RE: "we model a distributed source by using a number of point
     /// light sources").
     virtual int sample_count() const noexcept = 0;
 

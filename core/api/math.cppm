@@ -1,5 +1,5 @@
-// Plain vectors and structure-of-arrays views, which may cross a plugin's boundary.
-// Members are constexpr and thereby inline: in a module, a member function defined in its class is not.
+// Plain vectors and structure-of-arrays views, which may cross a plugin's boundary. Members are constexpr and
+// thereby inline: in a module, a member function defined in its class is not.
 module;
 
 #include <cmath>
@@ -28,19 +28,18 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 
-/// The unit vector along `a`, however short or long; zero where that is none: for zero, and what is not
-/// finite.
+/// The unit vector along `a`, however short or long; zero if `a` is zero or not finite.
 inline Vec3 normalized(Vec3 a) {
     const float size = length(a);
     if (size > 1e-15f && size < 1e15f) return (1 / size) * a;
-    // The squares may have vanished or overflowed.
+    // The squares may have underflowed or overflowed.
     const double x = a.x, y = a.y, z = a.z;
     const double exact = std::sqrt(x * x + y * y + z * z);
     if (!(exact > 0) || !std::isfinite(exact)) return {};
     return {static_cast<float>(x / exact), static_cast<float>(y / exact), static_cast<float>(z / exact)};
 }
 
-/// Three arrays of one length, read only. Owns nothing; the batch that holds it knows the length.
+/// Three arrays of equal length, read only. Non-owning; the batch that contains it knows the length.
 struct ConstVec3Span {
     const float* x = nullptr;
     const float* y = nullptr;
@@ -51,7 +50,7 @@ struct ConstVec3Span {
     constexpr explicit operator bool() const { return x != nullptr; }
 };
 
-/// Three arrays of one length, to be written. Owns nothing; the batch that holds it knows the length.
+/// Three arrays of equal length, to be written. Non-owning; the batch that contains it knows the length.
 struct Vec3Span {
     float* x = nullptr;
     float* y = nullptr;
@@ -68,7 +67,7 @@ struct Vec3Span {
     constexpr operator ConstVec3Span() const { return {x, y, z}; }
 };
 
-/// Two arrays of one length: texture coordinates.
+/// Two arrays of equal length: texture coordinates.
 struct ConstVec2Span {
     const float* x = nullptr;
     const float* y = nullptr;

@@ -23,9 +23,8 @@ namespace candela {
 
 namespace {
 
-/// What happens before work starts happens before the work, and the work happens before what follows it.
-/// oneTBB sees to that; but the library is built without the thread sanitizer, which therefore has to be
-/// told. (This file is built without it too.)
+/// Orders what happens before, during and after the work. oneTBB guarantees that order, but the library is
+/// built without the thread sanitizer, which therefore has to be told. (So is this file.)
 class Handover {
   public:
     void give() {
@@ -40,7 +39,7 @@ class Handover {
     }
 };
 
-/// Work handed to other threads and back; `run` is to call its argument in each of them.
+/// Hands work to other threads and back; `run` must call its argument in each of them.
 template <class Run>
 void hand_over(Run run) {
     Handover to_workers, from_workers;
@@ -53,7 +52,7 @@ void hand_over(Run run) {
     from_workers.take();
 }
 
-/// Whether parallel_for() keeps to this thread.
+/// Whether parallel_for() stays on this thread.
 thread_local bool is_alone = false;
 
 class Alone {
@@ -67,15 +66,15 @@ class Alone {
     bool before_;
 };
 
-/// What it takes to find oneTBB's parts and to start its threads.
+/// The time to find oneTBB's libraries and start its threads.
 constexpr double k_starting_ms = 1.5;
 std::atomic<bool> has_started = false;
 
-/// Arenas are kept, one for each number of threads: to make one takes time, and the memory that oneTBB aligns
-/// for it is seldom used again (glibc's bug 14581), so that a program that renders on and on would grow.
+/// Arenas are kept, one per number of threads. Creating one takes time, and the memory that oneTBB aligns for
+/// it is seldom reused (glibc bug 14581), so a program that keeps rendering would grow.
 tbb::task_arena& arena_of(int threads) {
     static std::mutex mutex;
-    // Never destroyed, as work may go on in other threads while the process ends.
+    // Never destroyed, because other threads may still be working while the process exits.
     static auto& arenas = *new std::map<int, tbb::task_arena>;
     const std::scoped_lock lock(mutex);
     return arenas.try_emplace(threads, threads).first->second;

@@ -1,4 +1,4 @@
-// Work on several threads (oneTBB), behind two functions, so that nobody else pays for its headers.
+// Parallel loops behind two functions, so that nobody else pays for oneTBB's headers.
 module;
 
 #include "candela/api.h"
@@ -11,10 +11,10 @@ export module candela.parallel;
 
 export namespace candela {
 
-/// Processors that this process may use.
+/// The number of processors this process may use.
 CANDELA_API int available_threads() noexcept;
 
-/// A callable passed on without being copied; valid only during the call that it is passed to.
+/// Refers to a callable without copying it; valid only during the call it is passed to.
 template <class... Arguments>
 class FunctionRef {
   public:
@@ -32,15 +32,15 @@ class FunctionRef {
     void (*call_)(void*, Arguments...);
 };
 
-/// Runs `work` with `threads` threads at the disposal of every parallel_for() within. 0: all that are
-/// available; or this one alone, where the others have not been started yet and `milliseconds`, what one
-/// thread roughly takes for the work, is not worth starting them.
+/// Runs `work` with `threads` threads available to every parallel_for() within it. 0 means all available
+/// threads, but only this one if the others have not been started yet and `milliseconds`, a single thread's
+/// estimated time for the work, is not worth starting them.
 CANDELA_API void with_threads(int threads, FunctionRef<> work,
                               double milliseconds = std::numeric_limits<double>::infinity());
 
-/// Calls `body(begin, end)` for ranges that together are [0, count), each of at least `grain` unless it is
-/// the last. Exceptions end the work and come out here. Work of one grain, or with one thread, starts no
-/// other thread.
+/// Calls `body(begin, end)` for ranges that partition [0, count), each of at least `grain` elements except
+/// the last. An exception ends the work and is rethrown here. Work of one grain, or with one thread, starts
+/// no other thread.
 CANDELA_API void parallel_for(std::size_t count, std::size_t grain,
                               FunctionRef<std::size_t, std::size_t> body);
 

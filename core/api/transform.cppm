@@ -1,12 +1,11 @@
-// Where things are placed, and how they are projected.
 export module candela.transform;
 
 export import candela.math;
 
 export namespace candela {
 
-/// Where an object stands: scaled (by more than zero), then rotated about x, then y, then z (fixed axes,
-/// degrees), then moved.
+/// Position, orientation and size of an object: scaled (by more than zero), then rotated about x, then y,
+/// then z (fixed axes, degrees), then translated.
 struct Transform {
     Vec3 position{};
     Vec3 rotation{};

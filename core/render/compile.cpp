@@ -1,4 +1,3 @@
-// From a scene to meshes, lights and models.
 module;
 
 #include <fmt/format.h>
@@ -18,6 +17,7 @@ import candela.color;
 import candela.constraints;
 import candela.diagnostics;
 import candela.environment;
+import candela.fragments;
 import candela.library;
 import candela.light;
 import candela.mesh;
@@ -49,7 +49,7 @@ class Compiler {
         if (diagnostics_.has_errors()) return std::nullopt;
         double triangles = 0;
         for (const auto& placed : placed_) triangles += static_cast<double>(placed->mesh.triangle_count());
-        constexpr double k_milliseconds = 2e-5;  // a triangle's normals, by one thread
+        constexpr double k_milliseconds = 2e-5;  // for a triangle's normals, by one thread
         with_threads(
             threads,
             [&] {
@@ -101,7 +101,7 @@ class Compiler {
         });
     }
 
-    /// What a shape plugin or a shading model does to an object.
+    /// Runs what a shape plugin or a shading model does to an object.
     template <class Work>
     void guarded(const Object& object, PluginKind kind, const std::string& plugin, Work work) {
         guarded("object " + object.label, object.place, [&] {

@@ -1,4 +1,4 @@
-// One tile, from visibility to pixels.
+// One tile, from fragments to pixels.
 module;
 
 #include "candela/multiversion.h"
@@ -13,8 +13,8 @@ module;
 
 module candela.render;
 
+import :tile;
 import candela.color;
-import candela.film;
 import candela.fragments;
 import candela.math;
 import candela.mesh;
@@ -22,13 +22,12 @@ import candela.params;
 import candela.raster;
 import candela.scene;
 import candela.shade;
-import candela.shading;
 
 namespace candela {
 
 namespace {
 
-/// Adds the intensities of runs of fragments, one after the other, to the pixels that they are of.
+/// Adds the intensities of consecutive runs of fragments to their pixels.
 struct AddLoop {
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, ConstVec3Span intensity,
                                        Vec3Span pixels) {
@@ -43,8 +42,8 @@ struct AddLoop {
                 ++run;
                 continue;
             }
-            // Nothing else is seen there, and nothing stands there. The small triangles of a fine mesh are
-            // neighbours: their runs make one long one.
+            // Nothing else is visible there, and nothing has been written yet. The small triangles of a fine
+            // mesh are neighbours: their runs form one long run.
             std::uint32_t length = 0;
             do {
                 length += run->count;
@@ -61,48 +60,26 @@ struct AddLoop {
     }
 };
 
-/// A side of a vertex as an index.
+/// A vertex side as an index.
 std::uint32_t index_of(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t k, bool is_back) {
     return 2 * mesh.mesh.indices[3 * std::size_t{triangle} + k] + (is_back ? 1 : 0);
 }
 
 }  // namespace
 
-void TileViewer::look(const ProjectedScene& projected, int tile, SeenTile& seen) {
-    seen.is_empty = !rasterize(projected, tile, visibility_);
-    seen.x0 = visibility_.x0;
-    seen.y0 = visibility_.y0;
-    seen.width = visibility_.width;
-    seen.height = visibility_.height;
-    seen.stride = visibility_.stride;
-    if (!seen.is_empty) seen.fragments.collect(projected, visibility_);
-}
-
 TileShader::TileShader() { batch_.resize(k_batch_size); }
 
 void TileShader::begin(const CompiledScene& scene, const ProjectedScene& projected) {
     scene_ = &scene;
     projected_ = &projected;
-    lighting_.begin({scene.lights, &scene.environment, projected.camera});
-    pixels_shaded_ = points_lit_ = 0;
+    surface_shader_.begin({scene.lights, &scene.environment, projected.camera});
+    points_lit_ = 0;
     brightest_ = 0;
 }
 
-void TileShader::run(const SeenTile& seen, Film& film) {
-    if (seen.is_empty && scene_->environment.is_uniform())
-        return film.fill(seen.x0, seen.y0, seen.width, seen.height, scene_->environment.seen({}));
-    pixels_.resize(seen.plane());
-    fill_background(seen);
-    if (!seen.is_empty) {
-        for (const FragmentList& list : seen.fragments.lists()) shade(list);
-        pixels_shaded_ += seen.fragments.pixels_seen();
-    }
-    film.store(seen.x0, seen.y0, seen.width, seen.height, std::as_const(pixels_).span(), seen.stride);
-}
-
-/// What is seen beside the objects, as much of each pixel as shows it. Leaves out the pixels that are one
-/// fragment's alone.
-void TileShader::fill_background(const SeenTile& seen) {
+// Skips the pixels that belong to a single fragment.
+void TileShader::fill_background(const VisibleTile& visible) {
+    pixels_.resize(visible.plane());
     const Vec3Span pixels = pixels_.span();
     const bool is_uniform = scene_->environment.is_uniform();
     const auto fill = [&](const BackgroundRun& run) {
@@ -113,61 +90,53 @@ void TileShader::fill_background(const SeenTile& seen) {
             std::fill_n(pixels.z + run.pixel, run.count, background.b);
             return;
         }
-        const auto stride = static_cast<std::uint32_t>(seen.stride);
+        const auto stride = static_cast<std::uint32_t>(visible.stride);
         const std::uint32_t row = run.pixel / stride, column = run.pixel % stride;
         for (std::uint32_t i = 0; i < run.count; ++i) {
             const Vec3 towards = projected_->camera.view_through(
-                static_cast<float>(seen.x0) + static_cast<float>(column + i) + 0.5f,
-                static_cast<float>(seen.y0) + static_cast<float>(row) + 0.5f);
+                static_cast<float>(visible.x0) + static_cast<float>(column + i) + 0.5f,
+                static_cast<float>(visible.y0) + static_cast<float>(row) + 0.5f);
             const Rgb rgb = run.weight > 0 ? run.weight * scene_->environment.seen(towards) : Rgb{};
             pixels.set(run.pixel + i, {rgb.r, rgb.g, rgb.b});
         }
     };
-    if (!seen.is_empty) {
-        for (const BackgroundRun& run : seen.fragments.background()) fill(run);
+    if (!visible.is_empty) {
+        for (const BackgroundRun& run : visible.fragments.background()) fill(run);
         return;
     }
-    for (int row = 0; row < seen.height; ++row)
-        fill({static_cast<std::uint32_t>(row * seen.stride), static_cast<std::uint32_t>(seen.width), 1});
+    for (int row = 0; row < visible.height; ++row)
+        fill(
+            {static_cast<std::uint32_t>(row * visible.stride), static_cast<std::uint32_t>(visible.width), 1});
 }
 
-void TileShader::shade(const FragmentList& fragments) {
-    const SolidObject& object = scene_->objects[fragments.object];
-    const ProjectedMesh mesh{*projected_, object.mesh, projected_->first_vertex[fragments.object]};
-    switch (object.surface.shading->shading_rate()) {
-        case ShadingRate::face:
-            return shade_faces(mesh, fragments);
-        case ShadingRate::vertex:
-            return shade_vertices(mesh, fragments);
-        case ShadingRate::fragment:
-            return shade_fragments(mesh, fragments);
-    }
+ProjectedMesh TileShader::mesh_of(const FragmentList& fragments) const {
+    return {*projected_, scene_->objects[fragments.object].mesh, projected_->first_vertex[fragments.object]};
 }
 
-void TileShader::light(std::uint32_t object, const Vec3Span& intensity) {
+void TileShader::shade_points(std::uint32_t object, const Vec3Span& intensity) {
     const SolidObject& solid = scene_->objects[object];
     const Interior interior{&solid.mesh, solid.tree ? &*solid.tree : nullptr};
-    brightest_ = std::max(brightest_, lighting_.light(solid.surface, interior, points_, intensity));
+    brightest_ = std::max(brightest_, surface_shader_.shade(solid.surface, interior, points_, intensity));
     points_lit_ += points_.count;
 }
 
-void TileShader::add(std::span<const FragmentRun> runs, const ConstVec3Span& intensity) {
+void TileShader::accumulate(std::span<const FragmentRun> runs, const ConstVec3Span& intensity) {
     multiversion<AddLoop>(runs.data(), runs.size(), intensity, pixels_.span());
 }
 
-/// Light at every fragment.
-void TileShader::shade_fragments(const ProjectedMesh& mesh, const FragmentList& fragments) {
+void TileShader::shade_fragments(const FragmentList& fragments) {
+    const ProjectedMesh mesh = mesh_of(fragments);
     const PointNeeds needs = scene_->objects[fragments.object].surface.needs();
     FragmentBatches batches(fragments);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
         gather_fragments(mesh, runs, needs, points_);
-        light(fragments.object, batch_.span());
-        add(runs, std::as_const(batch_).span());
+        shade_points(fragments.object, batch_.span());
+        accumulate(runs, std::as_const(batch_).span());
     }
 }
 
-/// Light once a face that the tile sees.
-void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& fragments) {
+void TileShader::shade_faces(const FragmentList& fragments) {
+    const ProjectedMesh mesh = mesh_of(fragments);
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
     sparse_set_.begin(mesh.mesh.triangle_count());
     for (const FragmentRun& run : fragments.runs) sparse_set_.add(run.triangle);
@@ -176,7 +145,7 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
     for (std::size_t first = 0; first < triangles.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, triangles.size() - first);
         gather_faces(mesh, triangles.subspan(first, count), surface.needs(), points_);
-        light(fragments.object, places_.span().from(first));
+        shade_points(fragments.object, places_.span().from(first));
     }
     FragmentBatches batches(fragments);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
@@ -188,12 +157,12 @@ void TileShader::shade_faces(const ProjectedMesh& mesh, const FragmentList& frag
             std::fill_n(&batch_.z[first], run.count, intensity.z);
             first += run.count;
         }
-        add(runs, std::as_const(batch_).span());
+        accumulate(runs, std::as_const(batch_).span());
     }
 }
 
-/// Light once a vertex of a face that the tile sees, and once a side of it; interpolated in between.
-void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& fragments) {
+void TileShader::shade_vertices(const FragmentList& fragments) {
+    const ProjectedMesh mesh = mesh_of(fragments);
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
     sparse_set_.begin(2 * mesh.mesh.vertex_count());
     std::uint32_t last = k_no_triangle;
@@ -209,7 +178,7 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
     for (std::size_t first = 0; first < vertices_.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, vertices_.size() - first);
         gather_vertices(mesh, std::span(vertices_).subspan(first, count), surface.needs(), points_);
-        light(fragments.object, places_.span().from(first));
+        shade_points(fragments.object, places_.span().from(first));
     }
     const ConstVec3Span intensity = std::as_const(places_).span();
     FragmentBatches batches(fragments);
@@ -231,7 +200,7 @@ void TileShader::shade_vertices(const ProjectedMesh& mesh, const FragmentList& f
                 batch_.span().set(i, b.x * at_corner[0] + b.y * at_corner[1] + b.z * at_corner[2]);
             }
         }
-        add(runs, std::as_const(batch_).span());
+        accumulate(runs, std::as_const(batch_).span());
     }
 }
 

@@ -11,6 +11,7 @@ module;
 
 module candela.render;
 
+import :tile;
 import candela.color;
 import candela.containment;
 import candela.film;
@@ -48,10 +49,10 @@ std::string unseen(const CompiledScene& scene, const Camera& camera) {
                      : "the observer looks away from all objects; " + towards_first;
 }
 
-/// What the lights send to the faces that are turned to the observer, at their centroids.
+/// What the lights send to the centroids of the faces turned towards the observer.
 struct Received {
     float ambient = 0;
-    float sent = 0;   // from wherever
+    float sent = 0;   // from any direction
     float faced = 0;  // from in front of the face
 };
 
@@ -128,7 +129,7 @@ std::string unlit(const CompiledScene& scene, const Camera& camera) {
     return "what light there is, the objects do not reflect; look at their colours and at ka, kd and ks";
 }
 
-/// Below this, 8 bits show nothing.
+/// The smallest intensity that is visible in 8 bits.
 float darkest_visible(const Film& film) {
     if (film.view().pixels == PixelType::real) return 0;
     constexpr float k_half_a_step = 0.5f / 255;

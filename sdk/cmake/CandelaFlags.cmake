@@ -25,3 +25,38 @@ if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL Clang AN
     target_compile_options(candela_flags INTERFACE
         -fsave-optimization-record -foptimization-record-passes=loop-vectorize)
 endif()
+
+# candela_add_headers(<name> HEADERS <header>... LIBRARIES <target>... [OPTIONS <option>...]): headers that are read once, and
+# compiled with what they instantiate, for all programs that candela_use_headers() gives them to.
+function(candela_add_headers name)
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "HEADERS;LIBRARIES;OPTIONS")
+    set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+    file(CONFIGURE OUTPUT ${empty} CONTENT "")
+    add_library(${name} OBJECT ${empty})
+    set_target_properties(${name} PROPERTIES CXX_SCAN_FOR_MODULES OFF)
+    target_link_libraries(${name} PRIVATE candela_flags ${ARG_LIBRARIES})
+    # The core's, which it gives to all who import its modules.
+    target_compile_options(${name} PRIVATE -fno-math-errno ${ARG_OPTIONS})
+    target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+    candela_compile_as_program(${name})
+    set_target_properties(${name} PROPERTIES CANDELA_HEADER_OPTIONS "${ARG_OPTIONS}")
+endfunction()
+
+# candela_use_headers(<name> <target>...): the targets are programs, or libraries that only programs are linked to.
+function(candela_use_headers name)
+    get_target_property(options ${name} CANDELA_HEADER_OPTIONS)
+    foreach(target IN LISTS ARGN)
+        target_compile_options(${target} PRIVATE ${options})
+        target_precompile_headers(${target} REUSE_FROM ${name})
+        get_target_property(type ${target} TYPE)
+        if(NOT type STREQUAL EXECUTABLE)
+            candela_compile_as_program(${target})
+        endif()
+    endforeach()
+endfunction()
+
+# Precompiled headers are for one way of making code independent of its position.
+function(candela_compile_as_program target)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIE)
+endfunction()

@@ -40,32 +40,23 @@ function(candela_add_plugin id)
     set(target candela_${kind}_${name})
     set(file ${kind}-${name})
 
-    # The kernel's text, or null.
-    set(text_source ${CMAKE_CURRENT_BINARY_DIR}/${file}_kernel_text.cpp)
-    if(PLUGIN_KERNEL)
-        cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
-    else()
-        set(kernel "")
-    endif()
-    add_custom_command(OUTPUT ${text_source}
-        COMMAND ${CMAKE_COMMAND} -DKERNEL=${kernel} -DOUTPUT=${text_source}
-            -P ${CANDELA_PLUGIN_CMAKE_DIR}/EmbedKernel.cmake
-        DEPENDS ${kernel} ${CANDELA_PLUGIN_CMAKE_DIR}/EmbedKernel.cmake
-        VERBATIM)
-
-    add_library(${target} MODULE ${PLUGIN_SOURCES} ${text_source})
+    add_library(${target} MODULE ${PLUGIN_SOURCES})
     target_compile_features(${target} PRIVATE cxx_std_20)
     set_target_properties(${target} PROPERTIES
         PREFIX "" OUTPUT_NAME ${file} SUFFIX .so
         CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF CXX_SCAN_FOR_MODULES ON
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON
-        LINK_DEPENDS ${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
+        LINK_DEPENDS "${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map;$<TARGET_FILE:candela::manifest>")
     if(DEFINED CANDELA_PLUGIN_OUTPUT_DIRECTORY)
         set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CANDELA_PLUGIN_OUTPUT_DIRECTORY})
     endif()
-    set_source_files_properties(${text_source} PROPERTIES CXX_SCAN_FOR_MODULES OFF)
     target_compile_definitions(${target} PRIVATE
         CANDELA_PLUGIN_NAME="${name}" CANDELA_PLUGIN_VERSION="${PLUGIN_VERSION}")
+    if(PLUGIN_KERNEL)
+        cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
+        target_compile_definitions(${target} PRIVATE CANDELA_KERNEL_FILE="${kernel}")
+        set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS ${kernel})
+    endif()
     target_link_libraries(${target} PRIVATE candela::sdk candela_batch_flags ${PLUGIN_LIBRARIES})
     # Only candela_* leaves the library: module initialisers are otherwise visible, and two plugins could clash.
     target_link_options(${target} PRIVATE -Wl,--version-script=${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
@@ -75,15 +66,9 @@ function(candela_add_plugin id)
     endif()
 
     # The manifest, from the plugin's own descriptor.
-    set(manifest $<TARGET_FILE_DIR:${target}>/${file}.json)
-    set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${file}.manifest)
-    add_custom_command(OUTPUT ${stamp}
-        COMMAND candela::manifest $<TARGET_FILE:${target}> ${manifest}
-        COMMAND ${CMAKE_COMMAND} -E touch ${stamp}
-        DEPENDS ${target} candela::manifest
-        COMMENT "Writing the manifest of ${id}"
+    add_custom_command(TARGET ${target} POST_BUILD
+        COMMAND candela::manifest $<TARGET_FILE:${target}> $<TARGET_FILE_DIR:${target}>/${file}.json
         VERBATIM)
-    add_custom_target(${target}_manifest ALL DEPENDS ${stamp})
     set_target_properties(${target} PROPERTIES CANDELA_MANIFEST ${file}.json)
 
     # A test of all that a host relies on.
@@ -107,16 +92,18 @@ function(candela_install_plugin id)
     install(FILES $<TARGET_FILE_DIR:${target}>/${manifest} DESTINATION ${PLUGIN_DESTINATION})
 endfunction()
 
-# candela_add_plugin_test(<kind>/<name> SOURCES <file>...): a program that is given the folder of the built plugin, and whose
-# exit code 0 means that all is well.
+# candela_add_plugin_test(<kind>/<name> SOURCES <file>... [LIBRARIES <target>...]): tests with Catch2, which find the folder of
+# the built plugin in the macro CANDELA_PLUGIN_DIR. They are one test of CTest, "<kind>/<name>".
 function(candela_add_plugin_test id)
     cmake_parse_arguments(PARSE_ARGV 1 TEST "" "" "SOURCES;LIBRARIES")
+    find_package(Catch2 3 REQUIRED)
     string(REPLACE "/" "_" suffix ${id})
     set(target candela_${suffix})
     add_executable(${target}_test ${TEST_SOURCES})
     target_compile_features(${target}_test PRIVATE cxx_std_20)
     set_target_properties(${target}_test PROPERTIES CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF CXX_SCAN_FOR_MODULES ON)
-    target_link_libraries(${target}_test PRIVATE candela::core ${TEST_LIBRARIES})
-    add_dependencies(${target}_test ${target}_manifest)
-    add_test(NAME "${id}" COMMAND ${target}_test $<TARGET_FILE_DIR:${target}>)
+    target_compile_definitions(${target}_test PRIVATE CANDELA_PLUGIN_DIR="$<TARGET_FILE_DIR:${target}>")
+    target_link_libraries(${target}_test PRIVATE candela::core Catch2::Catch2WithMain ${TEST_LIBRARIES})
+    add_dependencies(${target}_test ${target})
+    add_test(NAME "${id}" COMMAND ${target}_test)
 endfunction()

@@ -110,6 +110,7 @@ Outcome run_in_child(const std::string& group, double seconds, const std::functi
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
     const auto begin = Clock::now();
+    // Boost.Process starts programs; this child goes on in this one, which has nothing of a plugin in it yet.
     const pid_t child = ::fork();
     if (child < 0) throw std::runtime_error(std::strerror(errno));
     if (child == 0) {

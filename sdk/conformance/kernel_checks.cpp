@@ -10,6 +10,7 @@
 
 #include "batch.h"
 #include "kernel_program.h"
+#include "programs.h"
 
 using candela::PluginKind;
 using candela::Vec3;
@@ -99,7 +100,8 @@ TEST_CASE("kernel as C++: the text compiles, and gives the numbers that the plug
 TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
           "[reflection][light][shading][shape]") {
     skip_without_kernel();
-    if (!program_called({"glslangValidator"})) SKIP("there is no glslangValidator here");
+    const auto validator = program_called({"glslangValidator"});
+    if (!validator) SKIP("there is no glslangValidator here");
     const std::filesystem::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
     std::ifstream prelude_file(include / "candela/prelude.kernel");
@@ -112,7 +114,7 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
                               << "#define KERNEL\nout vec4 color;\n"
                               << prelude << "\n#line 1\n"
                               << subject().kernel.text << "\nvoid main() { color = vec4(1.0); }\n";
-        const CommandOutput compiled = output_of_command("glslangValidator '" + shader.string() + "'");
+        const ProgramOutput compiled = output_of(*validator, {shader.string()});
         if (compiled.exit_code != 0)
             FAIL("the kernel's text does not compile as GLSL " << version << ":\n"
                                                                << compiled.text.substr(0, 400));

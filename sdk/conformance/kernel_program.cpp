@@ -1,16 +1,14 @@
 #include "kernel_program.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <catch2/catch_test_macros.hpp>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
+
+#include "programs.h"
 
 namespace fs = std::filesystem;
 using candela::Parameter;
@@ -18,13 +16,6 @@ using candela::ParamType;
 using candela::PluginKind;
 
 namespace {
-
-/// As one word of a shell.
-std::string quoted(const std::string& word) {
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
-}
 
 constexpr std::size_t k_slots = 3;  // floats that a parameter takes, whatever its type
 
@@ -161,26 +152,6 @@ std::vector<float> delivered(const Values& values) {
 
 }  // namespace
 
-CommandOutput output_of_command(const std::string& command) {
-    CommandOutput result;
-    std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) return {127, "no process can be started"};
-    char buffer[4096];
-    while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, pipe))
-        result.text.append(buffer, count);
-    const int status = ::pclose(pipe);
-    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 126;
-    return result;
-}
-
-std::optional<std::string> program_called(const std::vector<std::string>& names) {
-    for (const std::string& name : names) {
-        const CommandOutput found = output_of_command("command -v " + quoted(name));
-        if (found.exit_code == 0) return name;
-    }
-    return std::nullopt;
-}
-
 fs::path sdk_include_directory() {
     std::error_code problem;
     for (fs::path above = fs::read_symlink("/proc/self/exe", problem).parent_path();
@@ -208,21 +179,22 @@ KernelProgram::KernelProgram() {
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
     const fs::path file = directory_.path() / "kernel.cpp", library = directory_.path() / "kernel.so";
     std::ofstream(file) << source();
-    const CommandOutput compiled = output_of_command(
-        fmt::format("{} -std=c++20 -O1 -fPIC -shared -w -ffp-contract=off -I{} {} -o {}", *compiler,
-                    quoted(include.string()), quoted(file.string()), quoted(library.string())));
+    const ProgramOutput compiled =
+        output_of(*compiler, {"-std=c++20", "-O1", "-fPIC", "-shared", "-w", "-ffp-contract=off",
+                              "-I" + include.string(), file.string(), "-o", library.string()});
     if (compiled.exit_code != 0)
         FAIL("the kernel's text does not compile as C++ (" << *compiler << "):" << errors_in(compiled.text));
-    library_ = {::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL), [](void* handle) {
-                    if (handle != nullptr) ::dlclose(handle);
-                }};
-    if (!library_) FAIL("the compiled kernel cannot be loaded: " << ::dlerror());
+    try {
+        library_.load(library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+    } catch (const std::exception& problem) {
+        FAIL("the compiled kernel cannot be loaded: " << problem.what());
+    }
 }
 
 KernelProgram::Function KernelProgram::function(const std::string& name) const {
-    void* const symbol = ::dlsym(library_.get(), ("run_" + name).c_str());
-    if (symbol == nullptr) FAIL("the kernel has no function for " << name);
-    return reinterpret_cast<Function>(symbol);
+    const std::string symbol = "run_" + name;
+    if (!library_.has(symbol)) FAIL("the kernel has no function for " << name);
+    return &library_.get<std::remove_pointer_t<Function>>(symbol);
 }
 
 void KernelProgram::run(const std::string& call, const Values& values, int sample, const Arrays& in,

@@ -1,24 +1,12 @@
 // A plugin's kernel text, compiled by whatever compiler this machine has.
 #pragma once
 
+#include <boost/dll/shared_library.hpp>
 #include <cstddef>
 #include <filesystem>
-#include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "batch.h"
-
-/// What became of a command: its exit code, and what it printed.
-struct CommandOutput {
-    int exit_code = 0;
-    std::string text;
-};
-CommandOutput output_of_command(const std::string& command);
-
-/// A program on PATH that one of the names calls, or nothing.
-std::optional<std::string> program_called(const std::vector<std::string>& names);
 
 /// The folder that has candela/kernel.h, above the kit's own; empty where there is none.
 std::filesystem::path sdk_include_directory();
@@ -54,5 +42,5 @@ class KernelProgram {
     Function function(const std::string& name) const;
 
     TemporaryDirectory directory_;
-    std::shared_ptr<void> library_;
+    boost::dll::shared_library library_;
 };

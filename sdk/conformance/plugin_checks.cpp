@@ -1,35 +1,15 @@
 // What must hold of every plugin.
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <string>
 
+#include "programs.h"
 #include "subject.h"
 
 namespace {
-
-/// Lines that a command prints.
-std::vector<std::string> output_of(const std::string& command) {
-    std::vector<std::string> lines;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
-    if (!pipe) return lines;
-    char buffer[4096];
-    while (std::fgets(buffer, sizeof buffer, pipe.get()) != nullptr) {
-        std::string line(buffer);
-        while (!line.empty() && line.back() == '\n') line.pop_back();
-        lines.push_back(line);
-    }
-    return lines;
-}
-
-/// As one word of a shell.
-std::string quoted(const std::string& word) {
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
-}
 
 std::size_t threads_of_this_process() {
     return static_cast<std::size_t>(
@@ -56,10 +36,15 @@ TEST_CASE("file name: <kind>-<name>.so, as the host looks for it", "[all]") {
 }
 
 TEST_CASE("symbols: it exports candela_* and nothing else", "[all]") {
-    const auto symbols = output_of("nm -D --defined-only --format=posix " +
-                                   quoted(subject_library().string()) + " 2>/dev/null");
-    if (symbols.empty()) SKIP("nm is not installed");
-    for (const std::string& line : symbols) {
+    const auto nm = program_called({"nm"});
+    const std::string text =
+        nm ? output_of(*nm, {"-D", "--defined-only", "--format=posix", subject_library().string()},
+                       StandardError::dropped)
+                 .text
+           : "";
+    if (text.empty()) SKIP("nm is not installed");
+    std::istringstream symbols(text);
+    for (std::string line; std::getline(symbols, line);) {
         const std::string name = line.substr(0, line.find(' '));
         if (!name.starts_with("candela_"))
             FAIL_CHECK("it exports '"
@@ -88,7 +73,8 @@ TEST_CASE("parameters: each default is within its own range, and the defaults ag
     }
     const candela::ParamSet defaults(m.parameters);
     for (const candela::Relation& relation : m.relations) {
-        if (const auto wrong = candela::validation_error(relation, defaults)) FAIL_CHECK("the defaults: " << *wrong);
+        if (const auto wrong = candela::validation_error(relation, defaults))
+            FAIL_CHECK("the defaults: " << *wrong);
     }
 }
 

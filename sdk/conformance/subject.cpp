@@ -179,8 +179,9 @@ std::vector<Values> many_values(int random_sets) {
 }
 
 bool needs_a_file() {
-    return std::ranges::any_of(subject_manifest().parameters,
-                               [](const Parameter& p) { return p.type == ParamType::file && !p.default_value; });
+    return std::ranges::any_of(subject_manifest().parameters, [](const Parameter& p) {
+        return p.type == ParamType::file && !p.default_value;
+    });
 }
 
 template <>

@@ -51,7 +51,7 @@ def build_plugins(prefix, scratch, compiler):
             shutil.copy(SHIPPED / kind / name / file, project / file)
         quiet("cmake", "-G", "Ninja", "-S", project, "-B", project / "build", "-DCMAKE_BUILD_TYPE=Release",
               f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_PREFIX_PATH={prefix}")
-        quiet("cmake", "--build", project / "build", "--target", f"candela_{kind}_{name}_manifest")
+        quiet("cmake", "--build", project / "build", "--target", f"candela_{kind}_{name}")
         for suffix in ("so", "json"):
             shutil.copy(project / "build" / f"{kind}-{name}.{suffix}", plugins)
     return plugins

@@ -1,8 +1,14 @@
 // What the documentation shows must be so.
 #include "candela/abi.h"
 
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
+#include <cctype>
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 
 #include "support/command.h"
@@ -24,6 +30,50 @@ std::string block(const fs::path& file, const std::string& language, int number 
         begin += fence.size();
     }
     return text.substr(begin, text.find("\n```", begin) + 1 - begin);
+}
+
+/// The names of the shipped plugins, by kind.
+std::map<std::string, std::set<std::string>> shipped() {
+    const std::string nowhere = scratch_directory().string();
+    const CommandResult list = run_candela(
+        {"list", "--json"}, {.input = "",
+                             .environment = {{"XDG_DATA_HOME", nowhere}, {"CANDELA_PLUGIN_PATH", ""}},
+                             .directory = {}});
+    std::map<std::string, std::set<std::string>> names;
+    for (const auto& plugin : nlohmann::json::parse(list.out)) names[plugin["kind"]].insert(plugin["name"]);
+    return names;
+}
+
+/// The rows of a page's tables whose first cell is `first`; all rows if it is empty.
+std::string table_rows(const fs::path& page, const std::string& first) {
+    std::istringstream lines(read_file(k_source / page));
+    std::string rows;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(first.empty() ? "| " : "| " + first + " |")) rows += line + "\n";
+    }
+    return rows;
+}
+
+/// What stands between backquotes.
+std::set<std::string> code_in(const std::string& text) {
+    std::set<std::string> words;
+    for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', at + 1)) {
+        const std::size_t end = text.find('`', at + 1);
+        REQUIRE(end != std::string::npos);
+        words.insert(text.substr(at + 1, end - at - 1));
+        at = end;
+    }
+    return words;
+}
+
+/// Each of `names` that is not among `others`, after `kind` and a slash.
+std::string missing_from(const std::set<std::string>& others, const std::set<std::string>& names,
+                         const std::string& kind) {
+    std::string missing;
+    for (const std::string& name : names) {
+        if (!others.contains(name)) missing += " " + kind + "/" + name;
+    }
+    return missing;
 }
 
 CommandResult check(const fs::path& file) { return run_candela({"check", file.string()}); }
@@ -74,4 +124,35 @@ TEST_CASE("the example scenes are valid") {
         ++checked;
     }
     CHECK(checked > 0);
+}
+
+TEST_CASE("the README's table of models names every shipped plugin, and nothing else") {
+    std::string unnamed, unknown;
+    for (const auto& [kind, names] : shipped()) {
+        const std::set<std::string> named =
+            code_in(table_rows("README.md", kind == "image" ? "picture" : kind));
+        unnamed += missing_from(named, names, kind);
+        unknown += missing_from(names, named, kind);
+    }
+    INFO("README.md, Models: not in the table:" << unnamed << "; in the table, but not shipped:" << unknown);
+    CHECK((unnamed.empty() && unknown.empty()));
+}
+
+TEST_CASE("docs/equations.md has a row for every shipped light, reflection model and shading model") {
+    std::string table = table_rows("docs/equations.md", "");
+    std::ranges::transform(table, table.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string missing;
+    for (const auto& [kind, names] : shipped()) {
+        if (kind != "light" && kind != "reflection" && kind != "shading") continue;
+        for (const std::string& name : names) {
+            std::istringstream words(name);
+            bool is_there = true;
+            for (std::string word; std::getline(words, word, '-');)
+                is_there = is_there && table.find(word) != std::string::npos;
+            if (!is_there) missing += " " + kind + "/" + name;
+        }
+    }
+    INFO("docs/equations.md has no row for" << missing);
+    CHECK(missing.empty());
 }

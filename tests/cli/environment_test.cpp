@@ -54,7 +54,7 @@ TEST_CASE("mistakes of the environment are said at its place") {
     expect(render("environment = \"sea.ppm\"", d), 3, {"scene.toml:5:15: error: 'sea.ppm' does not exist"});
     expect(render("environment = \".\"", d), 3, {"scene.toml:5:15: error: '.' is a directory, not a file"});
     expect(render("environment = 3", d), 3,
-           {"scene.toml:5:15: error: 'environment' is the whole number 3; expected"});
+           {"scene.toml:5:15: error: 'environment' is the integer 3; expected"});
     expect(render("background = [1, 2, 3]\nenvironment = \"sky.ppm\"", d), 0,
            {"scene.toml:5:1: warning: 'background' has no effect where there is an environment"});
 }

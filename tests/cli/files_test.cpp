@@ -101,7 +101,7 @@ TEST_CASE("includes that go round in circles, lead nowhere or come twice are err
     expect(included("\"c.toml\""), 3,
            {"scene.toml:2:11: error: 'include' is a string, \"c.toml\"; expected a list of paths"});
     expect(included("[3]"), 3,
-           {"scene.toml:2:12: error: 'include' holds the whole number 3; expected a quoted path"});
+           {"scene.toml:2:12: error: 'include' holds the integer 3; expected a quoted path"});
     expect(included("[\".\"]"), 1, {"directory"});
     write_file(d / "broken.toml", "[room\n");
     expect(included("[\"broken.toml\"]"), 3, {"broken.toml:1:6: error"});

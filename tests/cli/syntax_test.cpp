@@ -42,7 +42,7 @@ TEST_CASE("mistakes in values are said at their place, with what is wrong") {
         {"a = 007\n", "1:8", "'007' is no number, because it begins with 0"},
         {"a = 50%\n", "1:7", "'50%' is no number"},
         {"a = 30\xc2\xb0\n", "1:7", "'30\xc2\xb0' is no number"},
-        {"a = 99999999999999999999\n", "1:25", "'99999999999999999999' is too large for a whole number"},
+        {"a = 99999999999999999999\n", "1:25", "'99999999999999999999' is too large for an integer"},
         {"a = 1,5\n", "1:6", "expected the end of the line after the value, found ','"},
         {"a = 3 m\n", "1:7", "expected the end of the line after the value, found 'm'"},
         {"a = 1 b = 2\n", "1:7", "expected the end of the line after the value, found 'b'"},

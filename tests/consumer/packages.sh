@@ -14,7 +14,7 @@ quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
 for tool in dpkg dpkg-deb dpkg-query dpkg-shlibdeps file; do
     command -v "$tool" >/dev/null || skip "there is no $tool here"
 done
-for package in clang-19 clang-tools-19 cmake ninja-build; do
+for package in clang-19 clang-tools-19 cmake ninja-build catch2; do
     dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
         skip "candela-dev needs $package, which is not installed as a package here"
 done
@@ -78,7 +78,8 @@ code=0
 
 say "a plugin from nothing, with the installed packages alone"
 quiet package_manager -i "${development[@]}"
-bash "$here/templates.sh" --installed "$root/usr" "$scratch/templates" "$cmake" "$cxx"
+# One kind: what a kind needs of an installation beside the others' is tried by templates.sh with `cmake --install`.
+bash "$here/templates.sh" --installed "$root/usr" "$scratch/templates" "$cmake" "$cxx" light
 interface=$(sed -n 's/^#define CANDELA_INTERFACE_VERSION //p' "$root/usr/include/candela/abi.h")
 [ "$(dpkg-deb -f "${runtime[0]}" Provides)" = "candela-plugin-interface-$interface" ] || fail "the interface is not provided"
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,13 @@ int main(int argc, char** argv) try {
             files.emplace_back(argv[i]);
             continue;
         }
+        const std::size_t before = files.size();
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(argv[i])) {
             if (entry.is_regular_file()) files.push_back(entry.path());
         }
+        if (files.size() == before) throw std::runtime_error(std::string("no inputs in ") + argv[i]);
     }
-    if (files.empty()) {
-        std::fputs("replay: no inputs\n", stderr);
-        return 1;
-    }
+    if (files.empty()) throw std::runtime_error("no inputs");
     std::ranges::sort(files);
     for (const fs::path& file : files) {
         std::ifstream in(file, std::ios::binary);

@@ -16,6 +16,8 @@ f 1 12 6\nf 1 6 2\nf 1 2 8\nf 1 8 11\nf 1 11 12\nf 2 6 10\nf 6 12 5\nf 12 11 3\n
 f 4 10 5\nf 4 5 3\nf 4 3 7\nf 4 7 9\nf 4 9 10\nf 5 10 6\nf 3 5 12\nf 7 3 11\nf 9 7 8\nf 10 9 2
 """
 
+# What the parameters of some plugins are set to, for pictures that show much; of others, what their manifests allow
+# (setting()), so that a new plugin needs no line here.
 SHAPES = {
     "sphere": "radius = 0.62\nsegments = {segments}\n",
     "cube": "size = 0.85\nrotation = [{tilt}, {turn}, 10]\n",
@@ -45,11 +47,18 @@ class Catalogue:
     def names(self, kind):
         return sorted(name for k, name in self.parameters if k == kind)
 
+    def needs_file(self, kind, name):
+        return any(p["type"] == "file" and "default" not in p for p in self.parameters[kind, name])
+
+    def settings(self, kind, name, chance):
+        """Its required parameters, and colours of its own, as TOML."""
+        return "".join(f"{p['name']} = {value}\n" for p in self.parameters[kind, name] if (value := setting(p, chance)))
+
     def factors(self):
         # What is clear shows its surroundings, which generated programs do not have.
         reflections = [name for name in self.names("reflection") if name != "dielectric"]
         return {
-            "shape": self.names("shape"),
+            "shape": [name for name in self.names("shape") if name in SHAPES or not self.needs_file("shape", name)],
             "shading": self.names("shading"),
             "reflection": reflections,
             "light": self.names("light"),
@@ -77,6 +86,22 @@ def pairs_in(scene):
         for light in scene["lights"]:
             found |= pairs_of({**scene["frame"], **thing, "light": light})
     return found
+
+
+def setting(parameter, chance):
+    """A value that a parameter of a light or a shape needs, as TOML; None where its default will do."""
+    if parameter["type"] == "color":
+        return [chance.randrange(80, 256) for _ in range(3)]
+    if "default" in parameter:
+        return None
+    if parameter["type"] == "point":
+        return [round(chance.uniform(-2.5, 2.5), 2), 3.2, 2.5]
+    if parameter["type"] == "direction":
+        return [round(chance.uniform(-0.5, 0.5), 2), -1, -0.8]
+    if parameter["type"] in ("real", "integer"):
+        low, high = parameter.get("minimum", 0), parameter.get("maximum", parameter.get("minimum", 0) + 1)
+        return low + (high - low) // 2 if parameter["type"] == "integer" else low + 0.5 * (high - low)
+    return None
 
 
 def scenes(catalogue, count=SCENES):
@@ -128,13 +153,15 @@ def scene_text(catalogue, choices, number):
                   "attenuation": chance.choice(["inverse-square", "offset-linear", "none"])}
         if values["attenuation"] == "none":
             values["attenuation"] = "offset-linear"
-        text += f'[[light]]\ntype = "{light}"\n' + LIGHTS[light].format(**values)
+        text += f'[[light]]\ntype = "{light}"\n'
+        text += LIGHTS[light].format(**values) if light in LIGHTS else catalogue.settings("light", light, chance)
     for place, thing in enumerate(choices["objects"]):
         values = {"segments": chance.choice([9, 16, 40]), "tilt": chance.randrange(-40, 40), "turn": chance.randrange(90)}
         color = [chance.randrange(60, 256) for _ in range(3)]
         text += (f'[[object]]\ntype = "{thing["shape"]}"\nposition = [{-2.25 + 1.5 * place}, {0.35 * (-1) ** place}, '
                  f'{-0.3 * place}]\ncolor = {color}\nshading = "{thing["shading"]}"\nreflection = "{thing["reflection"]}"\n'
-                 + SHAPES[thing["shape"]].format(**values) + "[object.material]\n")
+                 + (SHAPES[thing["shape"]].format(**values) if thing["shape"] in SHAPES
+                    else catalogue.settings("shape", thing["shape"], chance)) + "[object.material]\n")
         for parameter in catalogue.parameters["reflection", thing["reflection"]]:
             value = value_text(parameter, chance)
             if value is not None:

@@ -82,7 +82,7 @@ WRONG = {
     "a number where a text is due": thing('name = 7\ntype = "cube"'),
     "a number where the name of a plugin is due": thing("type = 7"),
     "a boolean where a number is due": light('type = "ambient"\nintensity = true'),
-    "a fraction where a whole number is due": scene(image_more="height = 64.5"),
+    "a fraction where an integer is due": scene(image_more="height = 64.5"),
     "two numbers where three are due": light('type = "point"\nposition = [2.0, 3.0]'),
     "four numbers where three are due": thing('type = "cube"\nposition = [0.0, 0.0, 0.0, 1.0]'),
     "a text among three numbers": thing('type = "cube"\nrotation = [0.0, "30", 0.0]'),
@@ -196,7 +196,7 @@ BEYOND = {
     "an inner cone wider than the outer": light('type = "spot"\nposition = [2, 3, 3]\ndirection = [0, -1, 0]\ninner_angle = 30.0\nouter_angle = 20.0'),
     "two lights of one name": scene(light_more='name = "lamp"\n[[light]]\ntype = "ambient"\nname = "lamp"'),
     "a file that does not exist": thing('type = "mesh"\nfile = "nowhere.obj"'),
-    "1.0 where a whole number is due": scene(image="[image]\nwidth = 64.0"),
+    "1.0 where an integer is due": scene(image="[image]\nwidth = 64.0"),
     "nan": light('type = "ambient"\nintensity = nan'),
     "an observer that looks at itself": scene(observer="[observer]\nposition = [0, 1, 4]\nlook_at = [0, 1, 4]"),
 }

@@ -15,8 +15,8 @@
 import candela.parallel;
 
 using candela::Mesh;
-using candela::Transform;
 using candela::Shape;
+using candela::Transform;
 using candela::Vec3;
 
 namespace {

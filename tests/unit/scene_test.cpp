@@ -157,18 +157,17 @@ TEST_CASE("an unknown key is an error at its place, with a suggestion") {
 
 TEST_CASE("a wrong type is an error that says what was found and what is expected") {
     check_error(whole() + "color = \"red\"\n", 15, 9,
-                "'color' is a string, \"red\"; expected three whole numbers 0-255");
+                "'color' is a string, \"red\"; expected three integers 0-255");
     check_error(whole() + "color = [1, 2.5, 3]\n", 15, 9, "a list whose second value is the number 2.5");
     check_error(whole() + "color = [1, 2]\n", 15, 9, "a list of 2 values");
     check_error(whole() + "size = true\n", 15, 8, "'size' is true; expected a number, greater than 0");
-    check_error(whole() + "position = 3\n", 15, 12,
-                "'position' is the whole number 3; expected three numbers");
+    check_error(whole() + "position = 3\n", 15, 12, "'position' is the integer 3; expected three numbers");
     check_error(whole() + "type2 = 1979-05-27\n", 15, 1, "unknown key 'type2'");
     check_error(whole() + "size = 1979-05-27\n", 15, 8, "'size' is a date or time");
     check_error(whole() + "material = 3\n", 15, 12, "expected the table [object.material]");
     check_error(std::string("version = 1\nlight = 3\n") + k_observer + k_models, 2, 1,
                 "expected tables, each headed [[light]]");
-    check_error("version = 1.0\n" + whole().substr(12), 1, 11, "expected the whole number 1");
+    check_error("version = 1.0\n" + whole().substr(12), 1, 11, "expected the integer 1");
 }
 
 TEST_CASE("a value outside its range is an error that names the range") {

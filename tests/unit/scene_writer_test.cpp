@@ -273,7 +273,7 @@ TEST_CASE("what the format cannot say is refused, not changed") {
     CHECK(refusal(scene).empty());
     Scene other = scene;
     other.objects[0].color = {0.5f, 0, 0};
-    CHECK(refusal(other).find("0.5 in a colour is no whole number") != std::string::npos);
+    CHECK(refusal(other).find("0.5 in a colour is not an integer") != std::string::npos);
     other = scene;
     other.objects[0].label = "cube";
     CHECK(refusal(other).find("cube is neither a name in quotes nor 'number 0'") != std::string::npos);

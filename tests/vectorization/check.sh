@@ -5,38 +5,45 @@
 # file's record as vectorised, by at least 4, 8 and 16; and every directory must have such loops.
 set -euo pipefail
 
+# A line "LOOP WIDTH LEAST SYMBOL OBJECT" for each version of a loop in object files, whose symbols come from `nm -A`.
+widths() {
+    awk '
+        function read_record(record,    line, words, count, passed, name, loop, width) {
+            split("", widest)
+            while ((getline line < record) > 0) {
+                count = split(line, words, " ")
+                if (words[1] == "---") { passed = (words[2] == "!Passed"); name = ""; loop = "" }
+                else if (line ~ /^Name:/) name = words[2]
+                else if (line ~ /^Function:/) loop = words[2]
+                else if (line ~ /VectorizationFactor:/ && passed && name == "Vectorized") {
+                    width = words[count]
+                    gsub(/\x27/, "", width)
+                    if (width + 0 > widest[loop] + 0) widest[loop] = width
+                }
+            }
+            close(record)
+        }
+        $NF ~ /^_ZN7candela12MultiversionI/ {
+            least = $NF ~ /E8baseline/ ? 4 : $NF ~ /E4avx2/ ? 8 : $NF ~ /E6avx512/ ? 16 : 0
+            if (!least) next
+            object = $0
+            sub(/\.o:.*/, ".o", object)
+            if (object != last) { read_record(substr(object, 1, length(object) - 2) ".opt.yaml"); last = object }
+            print "LOOP", widest[$NF] + 0, least, $NF, object
+        }'
+}
+
 loops=0
 scalar=0
 empty=0
 for directory in "$@"; do
     before=$loops
-    while IFS= read -r object; do
-        record=${object%.o}.opt.yaml
-        # Function and width of each vectorised loop.
-        vectorized=
-        if [ -f "$record" ]; then
-            vectorized=$(awk '
-                /^--- !/ { passed = ($2 == "!Passed"); name = ""; function_name = "" }
-                /^Name:/ { name = $2 }
-                /^Function:/ { function_name = $2 }
-                /VectorizationFactor:/ { gsub(/\x27/, "", $NF); if (passed && name == "Vectorized") print function_name, $NF }
-            ' "$record")
-        fi
-        while IFS= read -r symbol; do
-            case $symbol in
-                *E8baseline*) least=4 ;;
-                *E4avx2*) least=8 ;;
-                *E6avx512*) least=16 ;;
-                *) continue ;;
-            esac
-            loops=$((loops + 1))
-            width=$(awk -v wanted="$symbol" '$1 == wanted && $2 > best { best = $2 } END { print best + 0 }' <<<"$vectorized")
-            if [ "$width" -lt "$least" ]; then
-                scalar=$((scalar + 1))
-                printf 'NOT VECTORIZED (width %s, expected %s): %s\n  in %s\n' "$width" "$least" "$(c++filt "$symbol")" "$object"
-            fi
-        done < <(nm --defined-only "$object" | awk '{ print $NF }' | grep '^_ZN7candela12MultiversionI' || true)
-    done < <(find "$directory" -name '*.o' | sort)
+    while read -r _ width least symbol object; do
+        loops=$((loops + 1))
+        [ "$width" -lt "$least" ] || continue
+        scalar=$((scalar + 1))
+        printf 'NOT VECTORIZED (width %s, expected %s): %s\n  in %s\n' "$width" "$least" "$(c++filt "$symbol")" "$object"
+    done < <(find "$directory" -name '*.o' -print0 | sort -z | xargs -0 -r nm -A --defined-only | widths)
     if [ "$loops" -eq "$before" ]; then
         empty=$((empty + 1))
         printf 'NO BATCH LOOPS in %s\n' "$directory"

@@ -30,16 +30,16 @@ constexpr std::string_view k_introduction = R"(# Scene reference
 Every table and key of the scene file, and everything that the installed plugins add to it. To learn by example, start with
 [scene-file.md](scene-file.md); for the equations and their sources, see [equations.md](equations.md).
 
-This page is made by `candela schema --format markdown`, from the same declarations by which scenes are checked. Do not edit it.
+This page is made by `candela schema --format markdown`, from the declarations that scenes are validated against. Do not edit it.
 
 ## How to read it
 
 | a value is | write | notes |
 |---|---|---|
-| a number | `2.5`, `2` | a whole number will do |
-| a whole number | `2` | `2.0` is an error |
-| a text, a path | `"lamp"` | a path is relative to the file that names it, and the file must exist |
-| one of some words | `"none"` | exactly as listed |
+| a number | `2.5`, `2` | an integer is accepted |
+| an integer | `2` | `2.0` is an error |
+| a string, a path | `"lamp"` | a path is relative to the file that names it, and the file must exist |
+| one of the listed words | `"none"` | exactly as listed |
 | three numbers | `[0.0, 1.5, -2.0]` | x, y, z: right-handed, y is up |
 | a direction | `[0.0, -1.0, 0.0]` | any length but zero; it need not be a unit vector |
 | a colour | `[255, 200, 0]` | red, green, blue, 0 to 255, sRGB-encoded; 256 counts as 255, with a warning |
@@ -47,7 +47,7 @@ This page is made by `candela schema --format markdown`, from the same declarati
 
 A key without a default is required. In formulas, N is the surface's normal, L points to the light and V to the observer (unit
 vectors all), R is L mirrored at N, C_o is the object's colour, I_L the light that arrives at the point, and A.B the dot product.
-What a plugin has *declared* are facts about it by which it is listed and tested.
+*Declared* properties are used for listing and testing.
 )";
 
 struct Section {
@@ -57,10 +57,10 @@ struct Section {
 };
 
 constexpr Section k_sections[] = {
-    {PluginKind::light, "Lights", "What shines: the `type` of a `[[light]]`."},
-    {PluginKind::shape, "Shapes", "What an object is made of: the `type` of an `[[object]]`."},
+    {PluginKind::light, "Lights", "The `type` of a `[[light]]`."},
+    {PluginKind::shape, "Shapes", "The `type` of an `[[object]]`."},
     {PluginKind::shading, "Shading models", "Which normals a surface is lit with, and where."},
-    {PluginKind::reflection, "Reflection models", "How a surface answers to light."},
+    {PluginKind::reflection, "Reflection models", "How a surface reflects light."},
     {PluginKind::image, "Picture formats",
      "By the extension of the picture's name: `candela render -o picture.exr`."},
 };
@@ -141,14 +141,16 @@ class ReferenceWriter {
 
     void key(const Parameter& p, const std::string& value) {
         const auto default_value = default_text(p);
-        const std::string shown = default_value ? code(*default_value) : p.default_value ? "" : "**required**";
+        const std::string shown = default_value     ? code(*default_value)
+                                  : p.default_value ? ""
+                                                    : "**required**";
         line("| `{}` | {} | {} | {} | {} |", p.name, cell(value), unit_word(p), cell(shown), cell(p.meaning));
     }
 
     /// What may stand as the value of one of the scene's own keys.
     std::string value_text(const TableSchema& schema, const Parameter& p) const {
         if (std::ranges::find(schema.lists, p.name) != schema.lists.end())
-            return "a list: each " + constraint_text(p);
+            return "a list, each " + constraint_text(p);
         for (const PluginKey& plugin_key : schema.plugins) {
             if (plugin_key.key != p.name) continue;
             std::vector<std::string> links;
@@ -228,7 +230,8 @@ class ReferenceWriter {
     /// A plugin that needs no parameters.
     std::optional<std::string> plain_plugin(PluginKind kind) const {
         for (const Manifest* m : all(kind)) {
-            if (std::ranges::all_of(m->parameters, [](const Parameter& p) { return p.default_value.has_value(); }))
+            if (std::ranges::all_of(m->parameters,
+                                    [](const Parameter& p) { return p.default_value.has_value(); }))
                 return m->name;
         }
         return std::nullopt;
@@ -283,11 +286,11 @@ class ReferenceWriter {
         line("\n| extension | format | holds | plugin |\n|---|---|---|---|");
         for (const auto& [format, m] : rows) {
             line("| `.{}` | {} | {} | `{}`{} |", format->extension, cell(format->title),
-                 format->pixels == PixelType::byte ? "8 bits a channel"
+                 format->pixels == PixelType::byte ? "8 bits per channel"
                                                    : "the computed intensities, as floats",
                  m->id(), m->property("fallback") ? ", fallback" : "");
         }
-        line("\nAn extension that several plugins write goes to one that is no fallback.\n");
+        line("\nIf several plugins write an extension, a dedicated one is preferred to a fallback.\n");
         for (const Manifest* m : all(PluginKind::image)) line("- `{}`: {}", m->id(), m->summary);
     }
 

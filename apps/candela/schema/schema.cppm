@@ -2,7 +2,6 @@
 // are installed, from the declarations that the reader itself works with.
 module;
 
-
 #include <optional>
 #include <span>
 #include <string>
@@ -17,7 +16,7 @@ export namespace candela {
 /// A JSON Schema (draft-07) of the scene file, for editors and other validators: every key with its type,
 /// range, default and meaning. A file may be a part of a scene, so that neither `version` nor [observer] is
 /// required. What no JSON Schema can say (relations, names that must differ, whether a file exists, 1.0 where
-/// a whole number is due) is left to read_scene(). Ends with a newline. Any thread.
+/// an integer is due) is left to read_scene(). Ends with a newline. Any thread.
 std::string scene_json_schema(std::span<const Manifest> installed);
 
 /// The same for people, with formulas, papers and picture formats: a page in Markdown. Any thread.

@@ -1,4 +1,3 @@
-// Arrays for batch loops.
 module;
 
 #include <bit>
@@ -17,16 +16,16 @@ import candela.math;
 
 export namespace candela {
 
-/// How many floats the widest vectors hold. Loops over so many points, or a multiple, have no remainder that
-/// they take one by one.
+/// The number of floats in the widest vectors. Loops over a multiple of it have no scalar remainder.
 inline constexpr std::size_t k_lanes = 16;
 
 /// `count` rounded up to whole vectors.
 constexpr std::size_t whole_vectors(std::size_t count) { return (count + k_lanes - 1) / k_lanes * k_lanes; }
 
-/// Memory that begins at a cache line, as a vector of 64 bytes that lies across two takes twice as long; and
-/// that the system zeroes page by page, for whichever thread writes to a page first. What is constructed
-/// without a value keeps what is there: zeros, but where a vector shrank and grows again, its old values.
+/// Memory aligned to cache lines, because accessing a 64-byte vector that straddles two lines takes twice as
+/// long. The system zeroes it page by page, for whichever thread touches a page first. Elements constructed
+/// without a value keep the memory's contents: zeros, except where a vector shrank and grew again, which has
+/// its old values.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
@@ -37,7 +36,7 @@ struct CacheLineAllocator {
     // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
     CacheLineAllocator(const CacheLineAllocator<Other>&) noexcept {}
 
-    // NOLINTBEGIN(cppcoreguidelines-no-malloc): nothing of the standard's gets such memory but calloc
+    // NOLINTBEGIN(cppcoreguidelines-no-malloc): only calloc offers such memory
     T* allocate(std::size_t count) {
         if (count > (static_cast<std::size_t>(-1) - 2 * k_line) / sizeof(T))
             throw std::bad_array_new_length();
@@ -63,7 +62,7 @@ struct CacheLineAllocator {
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
-/// Three arrays of their own memory.
+/// Three arrays that own their memory.
 struct Vec3Arrays {
     AlignedVector<float> x, y, z;
 
@@ -78,9 +77,9 @@ struct Vec3Arrays {
     inline ConstVec3Span span() const { return {x.data(), y.data(), z.data()}; }
 };
 
-/// Sixteen records of four floats or integers, column by column, inside a batch loop. To fetch each record as
-/// a whole, from wherever, and to transpose them takes far fewer operations and lines of the cache than to
-/// fetch every number by itself.
+/// Sixteen records of four floats or integers, column by column, inside a batch loop. Fetching each record as
+/// a whole, from anywhere, and transposing them takes far fewer operations and cache lines than fetching
+/// every number by itself.
 struct Columns {
     alignas(64) float real[4][k_lanes];
 
@@ -88,13 +87,14 @@ struct Columns {
         return std::bit_cast<std::int32_t>(real[column][record]);
     }
 
-    /// `record(i)` is where record i begins: 16 bytes.
+    /// `record(i)` is the address of record i: 16 bytes.
     template <class Record>
     [[gnu::always_inline]] inline void gather(Record record) {
         using Four = float __attribute__((vector_size(16)));
         using Eight = float __attribute__((vector_size(32)));
         using Sixteen = float __attribute__((vector_size(64)));
-        // Row r is records r, r + 4, r + 8 and r + 12: transposed quarter by quarter, all come out in order.
+        // Row r consists of records r, r + 4, r + 8 and r + 12: transposed quarter by quarter, all come out
+        // in order.
         Sixteen row[4];
         for (std::size_t r = 0; r < 4; ++r) {
             Four a, b, c, d;

@@ -1,4 +1,4 @@
-// What went wrong, as data: problems with a place in a file, and failures that end what was asked for.
+// Errors as data: problems at a position in a file, and failures.
 module;
 
 #include "candela/api.h"
@@ -40,7 +40,7 @@ struct Help {
     friend bool operator==(const Help&, const Help&) = default;
 };
 
-/// A failure that ends what was asked for. `what()` is one plain sentence for a person.
+/// A failure that ends the requested operation. `what()` is one plain sentence for a person.
 class CANDELA_API Error : public std::runtime_error {
   public:
     Error(ErrorCategory category, const std::string& message, Help help = {});
@@ -55,12 +55,12 @@ class CANDELA_API Error : public std::runtime_error {
 
 enum class Severity : int { warning, error };
 
-/// Lines and columns count from 1; line 0: the file as a whole.
+/// Lines and columns count from 1; line 0 means the file as a whole.
 struct SourcePlace {
     std::string file;
     int line = 0;
     int column = 0;
-    int length = 0;  // characters that the mark underlines; 0: unknown
+    int length = 0;  // characters to underline; 0: unknown
 
     friend bool operator==(const SourcePlace&, const SourcePlace&) = default;
 };
@@ -73,12 +73,12 @@ struct Diagnostic {
     Help help{};
 };
 
-/// All that was found in one run. Not thread safe.
+/// Everything found in one run. Not thread-safe.
 class CANDELA_API Diagnostics {
   public:
     /// The scene is wrong.
     void error(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
-    /// Something that the scene needs fails: a file that cannot be read, a plugin. An error, too.
+    /// Something that the scene needs fails: a file that cannot be read, a plugin. Counts as an error.
     void failure(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
     void warning(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
 
@@ -91,7 +91,7 @@ class CANDELA_API Diagnostics {
     std::optional<ErrorCategory> worst() const noexcept { return worst_; }
     /// Sorted by file (in the order in which the files were read), line and column.
     std::vector<Diagnostic> sorted() const;
-    /// Line `place.line` of a remembered file, or nothing.
+    /// Line `place.line` of a remembered file, if there is one.
     std::optional<std::string> source_line(const SourcePlace& place) const;
 
   private:

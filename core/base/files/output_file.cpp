@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
     throw Error(ErrorCategory::failure, fmt::format("'{}' {}: {}", shown, what, std::strerror(problem)));
 }
 
-/// Where a link leads, also where nothing is there yet.
+/// The target of a link, even if nothing exists there yet.
 fs::path behind_links(fs::path path) {
     constexpr int k_most_links = 40;  // as many as Linux follows
     std::error_code problem;
@@ -47,14 +47,14 @@ fs::path directory_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// A file without a name, or -1 where the file system has none (or /proc, through which it gets its name, is
-/// not there).
+/// A file without a name, or -1 if the file system does not support that (or /proc, through which it gets its
+/// name, is not mounted).
 int open_unnamed(const fs::path& directory, mode_t mode) {
     if (::access("/proc/self/fd", X_OK) != 0) return -1;
     return ::open(directory.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
 }
 
-/// Gives a file without a name one that nobody has; false, with errno, where that cannot be.
+/// Gives a nameless file a name that is not in use; false, with errno, if that fails.
 bool name_file(int descriptor, const char* name) {
     const std::string self = fmt::format("/proc/self/fd/{}", descriptor);
     return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
@@ -85,7 +85,7 @@ OutputFile::OutputFile(const fs::path& path) : shown_(path.string()) {
         return;
     }
     target_ = behind_links(path);
-    // Nobody may read a new version of a private file while it is written; see put_in_place().
+    // Nobody may read the new version of a private file while it is being written; see put_in_place().
     const mode_t mode = is_there ? 0600 : 0666;
     descriptor_ = open_unnamed(directory_of(target_), mode);
     if (descriptor_ >= 0) return;
@@ -129,8 +129,8 @@ void OutputFile::put_in_place() {
             if (name_file(descriptor_, target_.c_str())) return close();
             if (errno != EEXIST) fail(shown_, "cannot be put in its place");
         }
-        // A name can only be given if nobody has it: between this and the renaming, a kill leaves a (whole)
-        // file beside the old one.
+        // Only an unused name can be given: between this and the renaming, a kill leaves a (complete) file
+        // beside the old one.
         beside_ = std::make_unique<NameBeside>(directory_of(target_));
         if (!name_file(descriptor_, beside_->c_str())) fail(shown_, "cannot be put in its place");
     }

@@ -19,14 +19,15 @@ namespace candela {
 
 namespace {
 
-// More files written at once than there are slots are written all the same; only a signal does not find them.
+// If more files are written at once than there are slots, the rest are written as well; only a signal handler
+// does not find them.
 constinit std::array<std::atomic<std::string*>, 16> unfinished{};
 static_assert(std::atomic<std::string*>::is_always_lock_free, "a signal handler may not wait");
 
 std::string new_name(const std::filesystem::path& directory) {
     std::random_device random;
     const std::uint64_t number = (std::uint64_t{random()} << 32) | random();
-    // Not made of the file's own name, which may be as long as a name can be.
+    // Not derived from the file's own name, which may already have the maximum length.
     return (directory / fmt::format(".candela-{:016x}", number)).string();
 }
 
@@ -46,7 +47,7 @@ UnfinishedName::UnfinishedName(const std::filesystem::path& directory)
 UnfinishedName::~UnfinishedName() {
     std::string* expected = name_.get();
     if (slot_ != nullptr && !slot_->compare_exchange_strong(expected, nullptr)) {
-        // A signal handler has taken the name and may be reading it: it is not this thread's to free.
+        // A signal handler has taken the name and may be reading it, so this thread must not free it.
         static_cast<void>(name_.release());
         return;
     }

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint64_t k_unlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// The number that a file holds; none for "max", or where there is no such file.
+/// The number in a file; none for "max", or if there is no such file.
 std::optional<std::uint64_t> number_in(const char* file) {
     std::ifstream in(file);
     std::uint64_t number = 0;
@@ -44,7 +44,7 @@ std::uint64_t of_machine() {
     return k_unlimited;
 }
 
-/// Version 2, as containers see it; what is used includes files that are kept in memory and could be dropped.
+/// Version 2, as containers see it; usage includes cached files that could be dropped.
 std::uint64_t of_control_group() {
     const auto limit = number_in("/sys/fs/cgroup/memory.max");
     const auto used = number_in("/sys/fs/cgroup/memory.current");
@@ -72,7 +72,7 @@ std::uint64_t available_memory() { return std::min({of_machine(), of_control_gro
 
 void require_memory(std::uint64_t bytes, std::string_view what) {
     constexpr std::uint64_t k_worth_a_look = 64'000'000;
-    constexpr std::uint64_t k_reserve = 128'000'000;  // for all the small things
+    constexpr std::uint64_t k_reserve = 128'000'000;  // for everything small
     static std::atomic<std::uint64_t> unseen{0};
     if (bytes < k_worth_a_look && unseen.fetch_add(bytes) + bytes < k_worth_a_look) return;
     unseen = 0;

@@ -11,20 +11,20 @@ export module candela.simd;
 
 export namespace candela {
 
-/// From narrow to wide; a processor that has one has all before it.
+/// From narrow to wide; a processor that supports one supports all before it.
 enum class InstructionSet : int { baseline = 0, avx2 = 1, avx512 = 2 };
 
 inline constexpr InstructionSet k_instruction_sets[] = {InstructionSet::baseline, InstructionSet::avx2,
                                                         InstructionSet::avx512};
 
-/// The widest set this processor has.
+/// The widest set this processor supports.
 CANDELA_API InstructionSet best_instruction_set() noexcept;
 
 /// The set in use: the widest, unless use_instruction_set() chose another. Any thread.
 CANDELA_API InstructionSet instruction_set() noexcept;
 
-/// Chooses the set for all later batches of this process: for tests and measurements.
-/// Returns false, and changes nothing, where the processor lacks it.
+/// Chooses the set for all later batches of this process: for tests and measurements. Returns false and
+/// changes nothing if the processor does not support it.
 CANDELA_API bool use_instruction_set(InstructionSet set) noexcept;
 
 /// "baseline", "avx2" or "avx512".

@@ -1,4 +1,3 @@
-// What a misspelt name was most likely meant to be.
 module;
 
 #include <fmt/format.h>
@@ -19,7 +18,7 @@ namespace candela {
 
 namespace {
 
-/// Optimal string alignment distance, case ignored.
+/// Optimal string alignment distance, ignoring case.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
@@ -37,7 +36,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return d[a.size()][b.size()];
 }
 
-/// How many letters may be wrong between names of these lengths.
+/// How many letters may be wrong in names of these lengths.
 std::size_t allowed_distance(std::size_t a, std::size_t b) {
     return std::max<std::size_t>(1, (std::max(a, b) + 1) / 3);
 }
@@ -51,13 +50,13 @@ std::string suggestion(std::string_view name, std::span<const std::string> candi
 }
 
 std::optional<std::string> closest(std::string_view name, std::span<const std::string> candidates) {
-    // Nobody misspells what is longer than this; a wrong file may hold a name of millions.
+    // Nobody misspells longer names; a wrong file may contain one of millions of letters.
     constexpr std::size_t k_longest = 256;
     const std::string* best = nullptr;
     std::size_t best_distance = 0;
     if (name.size() > k_longest) return std::nullopt;
     for (const std::string& candidate : candidates) {
-        // Each letter that one has more is a wrong one.
+        // Each surplus letter counts as wrong.
         const std::size_t more =
             name.size() > candidate.size() ? name.size() - candidate.size() : candidate.size() - name.size();
         if (candidate.size() > k_longest || more > allowed_distance(name.size(), candidate.size())) continue;

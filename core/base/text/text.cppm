@@ -1,4 +1,3 @@
-// Text for messages.
 module;
 
 #include "candela/api.h"
@@ -15,7 +14,7 @@ export module candela.text;
 
 export namespace candela {
 
-/// As much of what somebody wrote as fits a message, on one line.
+/// As much of a user's text as fits a message, on one line.
 CANDELA_API std::string shortened(std::string_view text);
 
 /// The byte at which `text` stops being UTF-8, or nothing.
@@ -35,8 +34,8 @@ CANDELA_API std::string extension_of(const std::filesystem::path& file);
 CANDELA_API std::string suggestion(std::string_view name, std::span<const std::string> candidates,
                                    std::string_view prefix = {});
 
-/// The candidate that `name` was most likely meant to be, if one is near enough: at most a third of its
-/// letters wrong, a swap of neighbours counting once (Damerau 1964).
+/// The candidate that `name` was most likely meant to be, if one is close enough: at most a third of its
+/// letters wrong, with a swap of neighbours counted once (Damerau 1964).
 CANDELA_API std::optional<std::string> closest(std::string_view name,
                                                std::span<const std::string> candidates);
 

@@ -1,4 +1,3 @@
-// Loading a library, and the handshake.
 module;
 
 #include <fmt/format.h>
@@ -29,7 +28,7 @@ struct Loaded {
     const PluginDescriptor* descriptor = nullptr;
 };
 
-/// Never destroyed: unloading would leave dangling vtables and exceptions behind.
+/// Never destroyed, because unloading would leave dangling vtables and exceptions behind.
 std::map<fs::path, Loaded>& loaded_libraries() {
     static auto* const libraries = new std::map<fs::path, Loaded>;
     return *libraries;
@@ -39,7 +38,7 @@ std::map<fs::path, Loaded>& loaded_libraries() {
     throw Error(ErrorCategory::failure, fmt::format("plugin '{}' is refused: {}", library.string(), reason));
 }
 
-/// What the loader said, without the path that it repeats: "libfoo.so.1: cannot open shared object file: No
+/// The loader's message without the path that it repeats: "libfoo.so.1: cannot open shared object file: No
 /// such file …".
 std::string loader_message(const boost::dll::fs::system_error& problem, const fs::path& library) {
     std::string text = problem.what();
@@ -61,7 +60,7 @@ boost::dll::shared_library open_library(const fs::path& library) {
     }
 }
 
-/// Which parts of the manifest are not what the library says.
+/// Which parts of the manifest contradict the library.
 std::string differences(const Manifest& written, const Manifest& actual) {
     std::string parts;
     const auto compare = [&](std::string_view what, bool same) {

@@ -1,4 +1,3 @@
-// Loading a plugin's library, and the handshake before anything of it is used.
 module;
 
 #include "candela/api.h"
@@ -12,13 +11,13 @@ export import candela.manifest;
 
 export namespace candela {
 
-/// Loads a library and checks it against `manifest` (null: only the fingerprint), the handshake before
-/// anything else of it is called. Throws Error with a plain sentence. The library stays loaded until the
-/// process ends. Any thread.
+/// Loads a library and checks it against `manifest` (null: the fingerprint only); the handshake comes before
+/// any other call into it. Throws Error with a plain sentence. The library stays loaded until the process
+/// ends. Any thread.
 CANDELA_API const PluginDescriptor& load_plugin(const std::filesystem::path& library,
                                                 const Manifest* manifest);
 
-/// A plugin's exception as an Error that names the plugin; to be called in a catch block.
+/// Rethrows a plugin's exception as an Error that names the plugin; call it in a catch block.
 [[noreturn]] CANDELA_API void rethrow_as_plugin_error(PluginKind kind, std::string_view name);
 
 }  // namespace candela

@@ -1,4 +1,3 @@
-// Manifests as JSON and as made from a descriptor.
 module;
 
 #include "candela/abi.h"
@@ -49,7 +48,7 @@ Json json_of(const Value& value) {
     return std::visit(Writer{}, value);
 }
 
-/// A colour's channels are whole numbers.
+/// A colour's channels are integers.
 Json color_json(const Vec3& v) { return Json::array({std::lround(v.x), std::lround(v.y), std::lround(v.z)}); }
 
 Json json_of(const Parameter& p) {
@@ -118,7 +117,7 @@ std::int64_t whole_number(const Json& json) {
     const bool is_large =
         json.is_number_unsigned() &&
         json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    if (!json.is_number_integer() || is_large) refuse(json.dump() + " is no whole number that can be used");
+    if (!json.is_number_integer() || is_large) refuse(json.dump() + " is not an integer in range");
     return json.get<std::int64_t>();
 }
 
@@ -169,7 +168,8 @@ Parameter parameter_from(const Json& json) {
         wrong("its range is not one of numbers");
     }
     if (p.default_value) {
-        // That it is within its range is the conformance kit's affair; that it can be computed with is ours.
+        // Checking the default against its range is the conformance kit's task; here it only has to be
+        // representable.
         Parameter unbounded = p;
         unbounded.minimum = k_no_minimum;
         unbounded.maximum = k_no_maximum;

@@ -1,4 +1,3 @@
-// What stands beside a plugin's library: enough to list it, to describe it and to check a scene without loading it.
 module;
 
 #include "candela/api.h"
@@ -27,8 +26,8 @@ struct ManifestFormat {
     friend bool operator==(const ManifestFormat&, const ManifestFormat&) = default;
 };
 
-/// What a plugin says about itself, as it stands in the file beside its library: enough to list it, to
-/// describe it and to check a scene without loading it.
+/// What a plugin says about itself, as written in the file beside its library: enough to list it, describe it
+/// and check a scene without loading it.
 struct CANDELA_API Manifest {
     std::string abi;
     PluginKind kind = PluginKind::light;
@@ -42,7 +41,7 @@ struct CANDELA_API Manifest {
     std::vector<Relation> relations;
     std::vector<std::pair<std::string, std::string>> properties;
     std::vector<ManifestFormat> formats;
-    bool has_kernel = false;    // its mathematics can be exported; the text itself is in the library
+    bool has_kernel = false;    // its mathematics can be exported; the text is in the library
     std::string kernel_prefix;  // see KernelText
     std::string kernel_parameters;
 
@@ -58,12 +57,12 @@ CANDELA_API std::string_view host_abi() noexcept;
 
 CANDELA_API Manifest manifest_of(const PluginDescriptor& descriptor, std::string_view abi);
 CANDELA_API std::string to_json(const Manifest& manifest);
-/// The same for several, as one array.
+/// Several as one array.
 CANDELA_API std::string to_json(std::span<const Manifest> manifests);
 /// Throws Error with a plain sentence about `text`.
 CANDELA_API Manifest manifest_from_json(std::string_view text);
-/// What a plugin was built for, also where this Candela cannot read the rest of its manifest; empty where the
-/// manifest does not say.
+/// The fingerprint a plugin was built for, even if this Candela cannot read the rest of its manifest; empty
+/// if the manifest does not state it.
 CANDELA_API std::string abi_from_json(std::string_view text);
 
 }  // namespace candela

@@ -25,9 +25,8 @@ namespace candela {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> k_type_names = {"real",      "integer", "boolean", "choice",
-                                                           "text",      "file",    "vector",  "point",
-                                                           "direction", "color",   "rgb"};
+constexpr std::array<std::string_view, 11> k_type_names = {
+    "real", "integer", "boolean", "choice", "text", "file", "vector", "point", "direction", "color", "rgb"};
 constexpr std::array<std::string_view, 3> k_relation_names = {"less", "less-or-equal", "sum-at-most-one"};
 
 template <class Enum, std::size_t count>
@@ -39,7 +38,7 @@ std::optional<Enum> enum_named(const std::array<std::string_view, count>& names,
 
 Vec3 vec3_of(const ParamValue& value) { return {value.number[0], value.number[1], value.number[2]}; }
 
-/// A float in as few digits as name it exactly: 0.1, not 0.10000000149011612.
+/// The shortest decimal that identifies a float: 0.1, not 0.10000000149011612.
 double shortest(float x) {
     return std::isfinite(x) ? std::stod(fmt::format("{}", x)) : static_cast<double>(x);
 }
@@ -80,7 +79,7 @@ bool holds(const Value& value, ParamType type) {
     }
 }
 
-/// All components of a value that has numbers; one for a scalar.
+/// All components of a numeric value; one for a scalar.
 std::vector<double> numbers_of(const Value& value) {
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*whole)};
     if (const auto* real = std::get_if<double>(&value)) return {*real};
@@ -88,8 +87,7 @@ std::vector<double> numbers_of(const Value& value) {
     return {};
 }
 
-// A bound that is excluded is excluded for the float that comes of the number, too: 1e-50 is not greater than
-// 0.
+// An excluded bound is also excluded for the resulting float: 1e-50 is not greater than 0.
 bool below(double x, const Parameter& p) {
     return x < shortest(p.minimum) || (p.minimum_excluded && static_cast<float>(x) <= p.minimum);
 }
@@ -174,7 +172,7 @@ std::string constraint_text(const Parameter& p) {
             return "a number" + tail;
         case ParamType::integer:
             if (!p.choices.empty()) return fmt::format("one of {}", fmt::join(p.choices, ", "));
-            return "a whole number" + tail;
+            return "an integer" + tail;
         case ParamType::boolean:
             return "true or false";
         case ParamType::choice:
@@ -186,11 +184,11 @@ std::string constraint_text(const Parameter& p) {
         case ParamType::vector:
             return "three numbers" + (range.empty() ? "" : ", each " + range);
         case ParamType::point:
-            return "three numbers, a place in metres";
+            return "three numbers, a position in metres";
         case ParamType::direction:
             return "three numbers, not all zero";
         case ParamType::color:
-            return "three whole numbers 0-255";
+            return "three integers 0-255";
         case ParamType::rgb:
             return "a number, or three of them" + tail;
     }
@@ -264,8 +262,8 @@ void ParamSet::set(std::string_view name, Value value) {
         value = Vec3{x, x, x};
     }
     if (!holds(value, type)) {
-        throw std::invalid_argument(
-            fmt::format("{} for '{}': expected {}", text_of(value), name, constraint_text((*schema_)[index])));
+        throw std::invalid_argument(fmt::format("{} for '{}': expected {}", text_of(value), name,
+                                                constraint_text((*schema_)[index])));
     }
     if (const auto wrong = validation_error((*schema_)[index], value)) {
         throw std::invalid_argument(fmt::format("'{}': {}", name, *wrong));
@@ -348,7 +346,7 @@ std::optional<std::string> validation_error(const Relation& relation, const Para
                 if (!(left[i] <= right[i])) return sentence("not exceed");
                 break;
             case RelationType::sum_at_most_one:
-                // A hair of tolerance: 0.7 + 0.3 is a float above one.
+                // A small tolerance: as floats, 0.7 + 0.3 exceeds one.
                 if (left[i] + right[i] > 1 + 1e-6) {
                     return fmt::format("{} + {} is {:.6g}, more than 1: {}", relation.left, relation.right,
                                        left[i] + right[i], relation.meaning);

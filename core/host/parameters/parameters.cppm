@@ -1,5 +1,5 @@
-// Parameters, their values and what must hold between them, as the host keeps them: read from manifests, checked,
-// written in messages. `Value` is one value as a person wrote it.
+// Parameters, their values and the relations between them on the host's side: read from manifests, checked,
+// quoted in messages.
 module;
 
 #include "candela/api.h"
@@ -24,7 +24,7 @@ export namespace candela {
 /// A value as a person writes it. Vec3 holds vector, point, direction, color and rgb.
 using Value = std::variant<bool, std::int64_t, double, std::string, Vec3>;
 
-/// `ParamSpec` with its own memory.
+/// A `ParamSpec` that owns its memory.
 struct Parameter {
     std::string name{};
     ParamType type = ParamType::real;
@@ -40,7 +40,7 @@ struct Parameter {
     friend bool operator==(const Parameter&, const Parameter&) = default;
 };
 
-/// `RelationSpec` with its own memory.
+/// A `RelationSpec` that owns its memory.
 struct Relation {
     RelationType type = RelationType::less_or_equal;
     std::string left;
@@ -59,7 +59,7 @@ CANDELA_API std::optional<ParamType> param_type_named(std::string_view name) noe
 CANDELA_API std::string_view name_of(RelationType type) noexcept;
 CANDELA_API std::optional<RelationType> relation_type_named(std::string_view name) noexcept;
 
-/// What is expected of a value: "a number, at least 0", "three whole numbers 0-255", "one of 'a', 'b'".
+/// The constraint on a value: "a number, at least 0", "three integers 0-255", "one of 'a', 'b'".
 CANDELA_API std::string constraint_text(const Parameter& parameter);
 
 /// The range alone: "0 to 1", "greater than 0", or empty.
@@ -68,16 +68,16 @@ CANDELA_API std::string range_text(const Parameter& parameter);
 /// A value as a person would write it in a scene file.
 CANDELA_API std::string text_of(const Value& value);
 
-/// What a relation asks for: "inner_angle does not exceed outer_angle: the cone of full light …".
+/// What a relation requires: "inner_angle does not exceed outer_angle: the cone of full light …".
 CANDELA_API std::string text_of(const Relation& relation);
 
-/// What is wrong with `value` (which already has the parameter's type), or nothing.
+/// Why `value`, which already has the parameter's type, is invalid, or nothing.
 CANDELA_API std::optional<std::string> validation_error(const Parameter& parameter, const Value& value);
 
-/// A schema that many sets have in common. Never null.
+/// A schema shared by many sets. Never null.
 using SharedSchema = std::shared_ptr<const std::vector<Parameter>>;
 
-/// The values of one schema: every parameter has one, except required ones not yet set.
+/// The values of one schema: every parameter has one, except required ones that are not yet set.
 class CANDELA_API ParamSet {
   public:
     ParamSet();
@@ -85,22 +85,22 @@ class CANDELA_API ParamSet {
     explicit ParamSet(SharedSchema schema);
 
     const std::vector<Parameter>& schema() const noexcept { return *schema_; }
-    std::size_t index_of(std::string_view name) const noexcept;  // schema().size() where there is none
+    std::size_t index_of(std::string_view name) const noexcept;  // schema().size() if there is none
 
-    /// Throws std::invalid_argument where there is no such parameter or the value does not fit it.
+    /// Throws std::invalid_argument if there is no such parameter or the value is invalid.
     void set(std::string_view name, Value value);
     void set(std::size_t index, Value value) { values_[index] = std::move(value); }
 
-    /// The value, or nothing for a required one that is not set.
+    /// The value, or nothing if the parameter is required and not set.
     const std::optional<Value>& get(std::size_t index) const { return values_[index]; }
-    /// Throws std::invalid_argument where there is no such parameter or it is not set.
+    /// Throws std::invalid_argument if there is no such parameter or it is not set.
     const Value& get(std::string_view name) const;
 
-    /// The values as a plugin receives them, in the schema's order. The texts point into this set.
-    /// Throws std::invalid_argument where a required one is not set.
+    /// The values as a plugin receives them, in the schema's order. Texts point into this set. Throws
+    /// std::invalid_argument if a required one is not set.
     std::vector<ParamValue> delivered(ColorEncoding encoding) const;
 
-    /// The same schema and the same values.
+    /// Equal schemas and equal values.
     friend CANDELA_API bool operator==(const ParamSet& a, const ParamSet& b);
 
   private:
@@ -108,7 +108,7 @@ class CANDELA_API ParamSet {
     std::vector<std::optional<Value>> values_;
 };
 
-/// What is wrong between two parameters of `set`, or nothing.
+/// How `set` violates the relation, or nothing.
 CANDELA_API std::optional<std::string> validation_error(const Relation& relation, const ParamSet& set);
 
 }  // namespace candela

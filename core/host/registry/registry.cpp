@@ -1,4 +1,3 @@
-// Where plugins are looked for.
 module;
 
 #include <fmt/format.h>
@@ -33,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Shipped ones have two or three thousand bytes.
+/// The shipped ones have two or three thousand bytes.
 constexpr std::size_t k_largest_manifest = 1u << 20;
 
 std::string id_of(PluginKind kind, std::string_view name) {
@@ -58,7 +57,7 @@ std::string_view environment(const char* name) {
     return value != nullptr ? value : "";
 }
 
-/// "belongs to …" or "can be written to by everybody"; empty where only this user and root can change a file
+/// "belongs to …" or "can be written to by everybody"; empty if only this user and root can modify the file
 /// or folder.
 std::string who_else_can_write(const fs::path& path) {
     struct stat status{};
@@ -69,7 +68,7 @@ std::string who_else_can_write(const fs::path& path) {
     return {};
 }
 
-/// Whole, for its last part may be the one that differs; a manifest may also hold anything else in its place.
+/// In full, because its last part may be the one that differs; a manifest may contain anything in its place.
 std::string fingerprint_text(std::string_view abi) {
     constexpr std::size_t k_longest = 100;
     const bool is_plain =
@@ -87,7 +86,7 @@ std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
     } else if (const auto home = environment("HOME"); !home.empty()) {
         directories.push_back(fs::path(home) / ".local/share/candela/plugins");
     }
-    // Where this library is: lib/libcandela_core.so, so lib/candela/plugins.
+    // This library is lib/libcandela_core.so, so plugins are in lib/candela/plugins.
     directories.push_back(
         (boost::dll::this_line_location().parent_path() / "candela/plugins").lexically_normal());
     return directories;
@@ -229,7 +228,7 @@ std::vector<Refusal> Registry::refusals() const {
 }
 
 const PluginFile* Registry::find_format(std::string_view extension, FormatUse use) {
-    // The plugin called after its format is looked at first: it spares reading all the others' manifests.
+    // Trying the plugin named after its format first saves reading all other manifests.
     const auto is_able = [&](const PluginFile* file) {
         return std::ranges::any_of(file->manifest.formats, [&](const ManifestFormat& format) {
             return format.extension == extension && (use == FormatUse::write || format.reads);

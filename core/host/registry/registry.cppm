@@ -1,4 +1,3 @@
-// The installed plugins: where they are looked for, which of them are used, and instances of them.
 module;
 
 #include "candela/api.h"
@@ -32,10 +31,10 @@ struct PluginFile {
     Manifest manifest;
     std::filesystem::path library;
     SharedSchema schema;                           // the manifest's parameters
-    const PluginDescriptor* descriptor = nullptr;  // once it is loaded
+    const PluginDescriptor* descriptor = nullptr;  // once loaded
 };
 
-/// A candidate that cannot be used, and one sentence that says why and what to do.
+/// A candidate that cannot be used, with one sentence that says why and what to do.
 struct Refusal {
     std::filesystem::path file;
     std::string reason;
@@ -62,17 +61,17 @@ inline constexpr PluginKind k_kind_of<Shape> = PluginKind::shape;
 template <>
 inline constexpr PluginKind k_kind_of<ImageFormat> = PluginKind::image;
 
-/// Whose plugins are used. A plugin is code that runs with all the rights of who renders.
+/// Whose plugins are used. A plugin is code that runs with all the rights of the user.
 enum class PluginTrust : int {
-    own_and_system,  // of this user and of root, in folders and files that nobody else can write to
+    own_and_system,  // owned by this user or root, in files and folders that nobody else can write to
     any,
 };
 
-/// What a picture's file is to be done with.
+/// What to do with a picture file.
 enum class FormatUse : bool { write, read };
 
-/// The plugins of a search path. Reads a manifest when it is asked for, loads a library when an instance is
-/// wanted. Any thread; returned pointers live as long as the registry.
+/// The plugins of a search path. Reads a manifest when asked for it and loads a library when an instance is
+/// created. Any thread; returned pointers are valid as long as the registry exists.
 class CANDELA_API Registry {
   public:
     explicit Registry(std::vector<std::filesystem::path> search_path,
@@ -83,16 +82,16 @@ class CANDELA_API Registry {
 
     /// The first usable plugin of that name on the search path, or null.
     const PluginFile* find(PluginKind kind, std::string_view name);
-    /// Likewise; throws Error where there is none: what is not known, why a candidate was refused, and a
+    /// Same, but throws Error if there is none: what is unknown, why a candidate was refused, and a
     /// suggestion.
     const PluginFile& require(PluginKind kind, std::string_view name);
 
     /// All usable plugins, by kind and name.
     std::vector<const PluginFile*> list();
-    /// All usable plugins of a kind, by name; reads no other kind's manifests.
+    /// All usable plugins of a kind, by name; reads no manifests of other kinds.
     std::vector<const PluginFile*> list(PluginKind kind);
     std::vector<std::string> names(PluginKind kind);
-    /// The candidates that list() and find() have passed over.
+    /// The candidates that list() and find() skipped.
     std::vector<Refusal> refusals() const;
 
     /// The image plugin that writes, or reads, `.extension`, or null. One with the property "fallback" yields
@@ -101,10 +100,11 @@ class CANDELA_API Registry {
     /// All extensions that an image plugin writes, or reads, sorted.
     std::vector<std::string> extensions(FormatUse use = FormatUse::write);
 
-    /// An empty set of a plugin's parameters: its defaults. Throws Error as require() does.
+    /// A set of a plugin's parameters with their defaults. Throws Error like require().
     ParamSet parameters(PluginKind kind, std::string_view name);
 
-    /// Loads the plugin if need be and makes an instance. Throws Error, also for what the plugin throws.
+    /// Loads the plugin if necessary and creates an instance. Throws Error, including for what the plugin
+    /// throws.
     template <class Interface>
     std::unique_ptr<Interface> create(std::string_view name, const ParamSet& values, ColorEncoding encoding) {
         std::unique_ptr<Instance> made = create_instance(k_kind_of<Interface>, name, values, encoding);
@@ -127,8 +127,7 @@ class CANDELA_API Registry {
     PluginTrust trust_;
     mutable std::recursive_mutex mutex_;
     std::set<PluginKind> scanned_;
-    std::map<std::string, std::unique_ptr<PluginFile>, std::less<>>
-        found_;  // by id; null: looked for in vain
+    std::map<std::string, std::unique_ptr<PluginFile>, std::less<>> found_;  // by id; null: not found
     std::map<std::filesystem::path, Refusal> refused_;
 };
 

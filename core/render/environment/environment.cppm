@@ -1,4 +1,3 @@
-// What is seen where there is no object.
 module;
 
 #include "candela/api.h"
@@ -15,17 +14,16 @@ import candela.registry;
 
 export namespace candela {
 
-/// Intensity from far away, by direction: one for all, or that of a picture all around. Immutable; any
-/// thread.
+/// Intensity from far away, by direction: uniform, or that of an environment map. Immutable; any thread.
 class CANDELA_API Environment {
   public:
     explicit Environment(Rgb everywhere = {});
-    /// A picture of latitudes and longitudes (equirectangular): its middle is what one sees along -z, its
-    /// right half is along +x, its top row +y. `intensity`: per channel, interleaved, rows from the top.
+    /// An equirectangular picture: its centre is the view along -z, its right half is towards +x, its top row
+    /// +y. `intensity`: per channel, interleaved, rows from the top.
     Environment(int width, int height, std::vector<float> intensity);
 
     bool is_uniform() const noexcept { return width_ == 0; }
-    /// Blended between the pixels around; `towards` is a unit vector.
+    /// Interpolated between neighbouring pixels; `towards` is a unit vector.
     Rgb seen(Vec3 towards) const noexcept;
 
   private:
@@ -37,8 +35,8 @@ class CANDELA_API Environment {
     std::vector<float> intensity_;
 };
 
-/// Reads a picture as an environment; 8-bit colours are decoded as `encoding` says. Throws Error: no image
-/// plugin reads such files, or this one cannot be read.
+/// Reads a picture as an environment; 8-bit colours are decoded according to `encoding`. Throws Error if no
+/// image plugin reads such files, or this one cannot be read.
 CANDELA_API Environment read_environment(const std::filesystem::path& file, Registry& registry,
                                          ColorEncoding encoding);
 

@@ -1,4 +1,3 @@
-// An environment from a picture's file.
 module;
 
 #include <fmt/format.h>

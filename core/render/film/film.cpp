@@ -20,19 +20,18 @@ namespace candela {
 
 namespace {
 
-/// How an intensity x of 0 to 1 becomes a byte: a straight line up to `limit`, then the power of sRGB's
-/// curve.
+/// How an intensity between 0 and 1 becomes a byte: linear up to `limit`, then the power of sRGB's curve.
 struct ByteCurve {
     float limit, slope;
 };
-/// IEC 61966-2-1:1999, the curve of linear_to_srgb(), or no curve at all.
+/// The curve of linear_to_srgb() (IEC 61966-2-1:1999), or the identity.
 constexpr ByteCurve curve_of(bool srgb) {
     return srgb ? ByteCurve{0.0031308f, 255 * 12.92f} : ByteCurve{2, 255};
 }
 
-/// sRGB's power, times 255: to 0.0025, which is enough for a byte and a third of the work of kernel::pow.
-/// x^(1/2.4) is that of x's mantissa, a polynomial (Remez exchange), times that of its power of two, bit by
-/// bit of the exponent: for x from 2^-15 to 1.
+/// sRGB's power, times 255: accurate to 0.0025, which is enough for a byte and takes a third of the work of
+/// kernel::pow. x^(1/2.4) is that of x's mantissa, a polynomial (Remez exchange), times that of its power of
+/// two, bit by bit of the exponent: for x from 2^-15 to 1.
 [[gnu::always_inline]] inline float srgb_power_255(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     const auto m = std::bit_cast<float>((bits & 0x007f'ffffu) | 0x3f80'0000u);  // in [1, 2)
@@ -48,14 +47,14 @@ constexpr ByteCurve curve_of(bool srgb) {
     return p - 255 * 0.055f;
 }
 
-/// A channel to 8 bits: clamped, encoded, rounded. NaN counts as black.
+/// A channel to 8 bits: clamped, encoded, rounded. NaN becomes black.
 [[gnu::always_inline]] inline std::uint8_t byte_of(float intensity, ByteCurve curve) {
     const float x = intensity > 0.0f ? (intensity < 1.0f ? intensity : 1.0f) : 0.0f;
     const float encoded = x <= curve.limit ? curve.slope * x : srgb_power_255(x);
     return static_cast<std::uint8_t>(static_cast<std::int32_t>(encoded + 0.5f));
 }
 
-/// Where rows of pixels come from, and where they go to; how far the next row is.
+/// Source and destination of rows of pixels, and the distance to the next row.
 struct StoredRows {
     ConstVec3Span intensity;
     std::uint8_t* bytes;

@@ -1,4 +1,3 @@
-// The picture while it is made, and its way into a file.
 module;
 
 #include "candela/api.h"
@@ -20,20 +19,21 @@ import candela.registry;
 
 export namespace candela {
 
-/// Pixels as their file format wants them: 8-bit, clamped and encoded, or 32-bit float, as computed.
+/// The picture being made, with pixels as its file format wants them: 8-bit, clamped and encoded, or 32-bit
+/// float, as computed.
 class CANDELA_API Film {
   public:
-    /// Throws Error where there is not enough memory.
+    /// Throws Error if there is not enough memory.
     Film(int width, int height, PixelType pixels, ColorEncoding encoding);
 
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
 
-    /// Stores a rectangle of intensities, rows `stride` apart. Different threads may store different pixels
-    /// at once.
+    /// Stores a rectangle of intensities, with rows `stride` apart. Different threads may store different
+    /// pixels at the same time.
     void store(int x, int y, int width, int height, ConstVec3Span intensity, int stride);
 
-    /// Stores a rectangle of one intensity.
+    /// Stores one intensity in a rectangle.
     void fill(int x, int y, int width, int height, Rgb intensity);
 
     PictureView view() const noexcept;
@@ -49,7 +49,7 @@ class CANDELA_API Film {
     AlignedVector<float> reals_;
 };
 
-/// Which plugin writes a picture, and how it wants its pixels.
+/// Which plugin writes a picture, and in which form it wants the pixels.
 struct PictureFormat {
     std::string plugin;
     std::string extension;
@@ -57,11 +57,11 @@ struct PictureFormat {
 };
 
 /// The format of a path, by its extension; "-", standard output, is PNG. Throws Error for an extension that
-/// nobody writes.
+/// no plugin writes.
 CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
-/// Writes the picture as an OutputFile, which nobody ever finds half of. Plugins that encode on several
-/// threads use those of with_threads(). Throws Error.
+/// Writes the picture atomically, through an OutputFile. Plugins that encode on several threads use those of
+/// with_threads(). Throws Error.
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
                                const std::filesystem::path& path, Registry& registry);
 

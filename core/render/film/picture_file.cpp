@@ -1,4 +1,3 @@
-// From a picture in memory to a file of the format that its name asks for.
 module;
 
 #include <fmt/format.h>
@@ -27,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What an image plugin writes, into a file.
+/// Passes what an image plugin writes on to a file.
 class FileSink final : public ByteSink {
   public:
     explicit FileSink(OutputFile& file) : file_(file) {}

@@ -1,4 +1,3 @@
-// From the samples of a tile to fragments.
 module;
 
 #include <algorithm>
@@ -67,7 +66,7 @@ void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& v
 
 namespace {
 
-/// How far from `begin` on a row sees the same triangle.
+/// The end of the run from `begin` on a row that sees the same triangle.
 int end_of_run(const std::uint32_t* seen, int begin, int width) {
     constexpr int k_block = 16;
     const std::uint32_t triangle = seen[begin];
@@ -84,7 +83,7 @@ int end_of_run(const std::uint32_t* seen, int begin, int width) {
 
 }  // namespace
 
-/// One sample a pixel: runs of pixels that see the same triangle.
+/// One sample per pixel: runs of pixels that see the same triangle.
 void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility) {
     for (int row = 0; row < visibility.height; ++row) {
         const auto row_begin = static_cast<std::uint32_t>(row * visibility.stride);
@@ -114,13 +113,13 @@ void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibi
 
 namespace {
 
-/// A triangle that samples of one pixel see: how many, and the sum of their positions in sixteenths.
+/// A triangle seen by samples of one pixel: how many, and the sum of their positions in sixteenths.
 struct SeenTriangle {
     std::uint32_t triangle;
     int count, x, y;
 };
 
-/// The triangles that one pixel's samples see, in the order of the samples.
+/// The triangles seen by one pixel's samples, in the order of the samples.
 class SeenTriangles {
   public:
     SeenTriangles(const TileVisibility& visibility, std::span<const SamplePosition> pattern, int column,
@@ -152,7 +151,7 @@ bool continues(const std::vector<Run>& runs, std::uint32_t pixel, int column) {
 
 }  // namespace
 
-/// Several samples a pixel: what each of the triangles that a pixel's samples see contributes to it.
+/// Several samples per pixel: the contribution of each triangle that the pixel's samples see.
 void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisibility& visibility) {
     const int samples = visibility.samples;
     const float share = 1 / static_cast<float>(samples);
@@ -186,7 +185,7 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
                     background = weight;
                     continue;
                 }
-                // In the pixel's middle; where the triangle covers only part of the pixel, in the middle of
+                // At the centre of the pixel or, if the triangle covers only a part of it, in the middle of
                 // that part.
                 const float sixteenths = 16 * static_cast<float>(s.count);
                 const float x = seen.is_one() ? 0.5f : static_cast<float>(s.x) / sixteenths;

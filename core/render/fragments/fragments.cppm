@@ -1,4 +1,4 @@
-// From visibility to points of surfaces: faces, vertices and fragments, gathered in batches.
+// From visibility to surface points: faces, vertices and fragments, gathered in batches.
 module;
 
 #include "candela/api.h"
@@ -16,48 +16,48 @@ import candela.raster;
 
 export namespace candela {
 
-/// How many points are shaded at once: enough to hide a virtual call, few enough to stay in the first-level
+/// The number of points shaded at once: enough to hide a virtual call, few enough to stay in the first-level
 /// cache.
 inline constexpr std::size_t k_batch_size = 256;
 
-/// Points of one object's surface, structure of arrays with room for k_batch_size. Reused from batch to
+/// Points on one object's surface, as a structure of arrays with room for k_batch_size. Reused from batch to
 /// batch.
 struct CANDELA_API SurfacePoints {
     SurfacePoints();
 
     std::size_t count = 0;
-    std::size_t filled = 0;  // whole_vectors(count) or count: from `count` on, the last point again
+    std::size_t filled = 0;  // whole_vectors(count) or count: beyond `count`, the last point is repeated
     Vec3Arrays position;
     Vec3Arrays face_normal;    // unit
     Vec3Arrays vertex_normal;  // interpolated; not unit
     Vec3Arrays barycentric;
     AlignedVector<float> facing;  // 1, or -1 where an open surface is seen from behind
     bool any_from_behind = false;
-    AlignedVector<float> u, v;  // filled where attributes are asked for and the mesh has them, else zero
+    AlignedVector<float> u, v;  // filled if requested and the mesh has them, otherwise zero
     Vec3Arrays dpdu, dpdv;
 };
 
-/// Which attributes of a point somebody reads beyond those that all read.
+/// Which attributes of a point are needed beyond those that every model reads.
 struct PointNeeds {
     bool uv = false;
     bool derivatives = false;
 };
 
-/// Pixels of a row, side by side, to each of which one triangle contributes the same share.
+/// Adjacent pixels of a row to which one triangle contributes equal shares.
 struct FragmentRun {
     std::uint32_t triangle;  // of the object's mesh
     std::uint32_t pixel;     // the first: row * stride + column of the tile
     std::uint32_t count;
     float x,
-        y;  // where the first is evaluated, in pixels of the picture; the next one to the right, and so on
-    float weight;  // the share of a pixel's samples that see the triangle
+        y;         // of the first, in pixels of the picture; the others follow to the right
+    float weight;  // the fraction of a pixel's samples that see the triangle
 };
 
-/// The fragments of one object in one tile, in the order of their pixels: each is what one triangle
+/// The fragments of one object in one tile, in the order of their pixels. A fragment is what one triangle
 /// contributes to one pixel.
 struct FragmentList {
     std::uint32_t object = 0;
-    std::vector<FragmentRun> runs;  // cut where a batch of k_batch_size ends
+    std::vector<FragmentRun> runs;  // split where a batch of k_batch_size ends
 
     void begin(std::uint32_t of_object);
     inline void add(FragmentRun run) {
@@ -66,7 +66,7 @@ struct FragmentList {
         if (room_ == 0) room_ = k_batch_size;
         runs.push_back(run);
     }
-    /// Makes the last run longer by a pixel, unless a batch ends with it.
+    /// Extends the last run by a pixel, unless a batch ends with it.
     bool prolong();
 
   private:
@@ -76,25 +76,25 @@ struct FragmentList {
     std::uint32_t room_ = k_batch_size;  // in the last batch
 };
 
-/// Pixels of a row, side by side, that do not see one triangle alone: `weight` of each sees the background.
+/// Adjacent pixels of a row that see more than a single triangle: `weight` of each sees the background.
 struct BackgroundRun {
     std::uint32_t pixel;
     std::uint32_t count;
     float weight;
 };
 
-/// All fragments of a tile, one list an object, in the scene's order. Reused from tile to tile.
+/// All fragments of a tile, one list per object, in the scene's order. Reused from tile to tile.
 class CANDELA_API TileFragments {
   public:
-    /// Sorts what `visibility` holds.
+    /// Sorts the samples of `visibility` into fragments.
     void collect(const ProjectedScene& scene, const TileVisibility& visibility);
 
     std::span<const FragmentList> lists() const { return {lists_.data(), used_}; }
 
-    /// The pixels whose intensity is not one fragment's alone.
+    /// The pixels whose intensity does not come from a single fragment.
     std::span<const BackgroundRun> background() const { return background_; }
 
-    /// How many pixels see an object.
+    /// The number of pixels that see an object.
     std::size_t pixels_seen() const { return pixels_seen_; }
 
   private:
@@ -109,7 +109,7 @@ class CANDELA_API TileFragments {
     std::size_t last_ = 0;
 };
 
-/// The batches of k_batch_size fragments, or fewer in the last, that a list is made of.
+/// Splits a list into batches of k_batch_size fragments; the last may have fewer.
 class FragmentBatches {
   public:
     explicit FragmentBatches(const FragmentList& list) : rest_(list.runs) {}
@@ -146,52 +146,19 @@ CANDELA_API void gather_fragments(const ProjectedMesh& mesh, std::span<const Fra
 CANDELA_API void gather_faces(const ProjectedMesh& mesh, std::span<const std::uint32_t> triangles,
                               PointNeeds needs, SurfacePoints& points);
 
-/// A vertex, seen from the front or from behind.
+/// A vertex seen from the front or from behind.
 struct VertexSide {
     std::uint32_t vertex;
     bool is_back;
 };
 
-/// Fills `points` with vertices. A vertex has no face of its own: its face normal is its vertex normal.
+/// Fills `points` with vertices. A vertex has no face of its own, so its vertex normal also serves as its
+/// face normal.
 CANDELA_API void gather_vertices(const ProjectedMesh& mesh, std::span<const VertexSide> vertices,
                                  PointNeeds needs, SurfacePoints& points);
 
-/// Fills `points` with points on triangles, their barycentric coordinates given; all are seen from the front.
+/// Fills `points` with points on triangles, given their barycentric coordinates; all are seen from the front.
 CANDELA_API void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles,
                                ConstVec3Span barycentric, PointNeeds needs, SurfacePoints& points);
-
-}  // namespace candela
-
-namespace candela {
-
-/// A triangle's corners, as they are projected and as they are, and its normal.
-struct TriangleAttributes {
-    ProjectedVertex projected[3];
-    MeshVertex corner[3];
-    Vec3 face_normal;
-};
-
-/// What becomes of a fragment's place on its triangle.
-struct InterpolatedSpans {
-    Vec3Span barycentric, position, vertex_normal, face_normal;
-};
-
-/// Interpolates over `count` fragments of one triangle, at (x, y), and over what lies beyond them up to whole
-/// vectors.
-void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
-                 const InterpolatedSpans& points);
-
-/// A mesh and its vertices as they are projected.
-struct IndexedMesh {
-    const std::uint32_t* indices;
-    const ProjectedVertex* projected;
-    const MeshVertex* vertices;
-    ConstVec3Span face_normal;
-};
-
-/// Interpolates over `count` fragments of a triangle each, at (x, y), and over what lies beyond them up to
-/// whole vectors. The same numbers as interpolate().
-void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::uint32_t* triangle,
-                      const float* x, const float* y, const InterpolatedSpans& points);
 
 }  // namespace candela

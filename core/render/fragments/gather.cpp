@@ -1,4 +1,3 @@
-// Attributes of faces, vertices and fragments.
 module;
 
 #include "candela/multiversion.h"
@@ -13,6 +12,8 @@ module;
 #include <vector>
 
 module candela.fragments;
+
+import :interpolation;
 
 namespace candela {
 
@@ -70,7 +71,7 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
     if (needs.derivatives) {
         Corners dpdu, dpdv;
         if (mesh.dpdu.empty()) {
-            // A mesh without parameters has those of its triangles: the edges from the first corner.
+            // A mesh without a parametrisation uses that of its triangles: the edges from the first vertex.
             const Corners p = indices(mesh.position, vertices);
             for (std::size_t k = 0; k < 3; ++k) {
                 dpdu[k] = p[1] - p[0];
@@ -87,9 +88,9 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
     }
 }
 
-/// Point `i` of a batch: a place on a triangle.
+/// Evaluates point `i` of a batch, a position on a triangle.
 void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
-               SurfacePoints& points) {
+                    SurfacePoints& points) {
     const Indices vertices = corners_of(mesh, triangle);
     const MeshVertex &a = mesh.vertices[vertices[0]], &b = mesh.vertices[vertices[1]],
                      &c = mesh.vertices[vertices[2]];
@@ -103,7 +104,7 @@ void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, Point
 }  // namespace
 
 SurfacePoints::SurfacePoints() {
-    // Whole vectors of a batch's last triangle may begin anywhere.
+    // The whole vectors of a batch's last triangle may begin anywhere.
     for (Vec3Arrays* const arrays : {&position, &face_normal, &vertex_normal, &barycentric, &dpdu, &dpdv}) {
         arrays->resize(k_batch_size + k_lanes);
     }
@@ -147,8 +148,8 @@ IndexedMesh indexed(const ProjectedMesh& source) {
             .face_normal = source.mesh.face_normal.span()};
 }
 
-/// Most runs of a fine mesh are of one or two pixels: to write a whole vector, and the next run over what is
-/// too much of it, takes less time than to count.
+/// Most runs of a fine mesh are one or two pixels long: writing a whole vector, and overwriting the excess
+/// with the next run, takes less time than counting.
 struct PlacesLoop {
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y,
                                        std::uint32_t* triangle) {
@@ -171,8 +172,8 @@ struct PlacesLoop {
     }
 };
 
-/// The fragments of a batch: where they are, and on which triangle. Behind them comes the last one again and
-/// again: a batch is filled up with it, and whole vectors of what began anywhere reach beyond that.
+/// The fragments of a batch: their positions and triangles. The last one is repeated, to pad the batch and
+/// because whole vectors that begin anywhere reach beyond its end.
 struct Places {
     static constexpr std::size_t k_behind = 2 * k_lanes;
 
@@ -183,7 +184,7 @@ struct Places {
     Places(const Mesh& mesh, std::span<const FragmentRun> runs) {
         for (const FragmentRun& run : runs) {
             count += run.count;
-            // All at once, as they come from far away where the mesh is large.
+            // All at once, because in a large mesh they come from far apart.
             __builtin_prefetch(&mesh.indices[3 * std::size_t{run.triangle}]);
             __builtin_prefetch(&mesh.face_normal.x[run.triangle]);
             __builtin_prefetch(&mesh.face_normal.y[run.triangle]);
@@ -196,8 +197,8 @@ struct Places {
     }
 };
 
-/// Calls `visit(triangle, first, end)` for each triangle's fragments, side by side in a batch; the last
-/// triangle's end where the batch is filled to.
+/// Calls `visit(triangle, first, end)` for each triangle's fragments, which are adjacent in a batch; the last
+/// triangle's end where the padding ends.
 template <class Visit>
 void each_triangle(std::span<const FragmentRun> runs, std::size_t filled, Visit visit) {
     std::size_t first = 0;
@@ -210,7 +211,7 @@ void each_triangle(std::span<const FragmentRun> runs, std::size_t filled, Visit 
     }
 }
 
-/// Fills a batch that was put together point by point with its last one.
+/// Pads a batch that was assembled point by point with its last point.
 void fill_up(PointNeeds needs, SurfacePoints& points) {
     points.filled = whole_vectors(points.count);
     const auto fill = [&](AlignedVector<float>& array) {

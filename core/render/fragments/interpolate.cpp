@@ -1,4 +1,3 @@
-// Perspective-correct interpolation between the corners of triangles.
 module;
 
 #include "candela/multiversion.h"
@@ -8,25 +7,27 @@ module;
 
 module candela.fragments;
 
+import :interpolation;
+
 namespace candela {
 
 namespace {
 
-/// One fragment of one triangle. Corner k is at (x, y, w)_k, homogeneous pixels.
+/// One fragment of one triangle. Vertex k is at (x, y, w)_k, homogeneous pixels.
 struct Fragment {
     float b0, b1, b2;
 
     [[gnu::always_inline]] Fragment(float px, float py, float x0, float y0, float w0, float x1, float y1,
                                     float w1, float x2, float y2, float w2) {
-        // Corners relative to the fragment; areas of the three part triangles, perspective already undone by
-        // w.
+        // Vertices relative to the fragment; areas of the three sub-triangles, with the perspective already
+        // undone by w.
         x0 -= px * w0, y0 -= py * w0;
         x1 -= px * w1, y1 -= py * w1;
         x2 -= px * w2, y2 -= py * w2;
         b0 = x1 * y2 - x2 * y1;
         b1 = x2 * y0 - x0 * y2;
         b2 = x0 * y1 - x1 * y0;
-        // On the triangle, also where its fixed-point image reaches a hair further than the triangle.
+        // Stays on the triangle even where its fixed-point image reaches slightly beyond it.
         const float sign = b0 + b1 + b2 < 0.0f ? -1.0f : 1.0f;
         b0 = b0 * sign > 0.0f ? b0 * sign : 0.0f;
         b1 = b1 * sign > 0.0f ? b1 * sign : 0.0f;
@@ -72,7 +73,7 @@ struct RunLoop {
     }
 };
 
-/// What a vector of fragments reads of one corner each.
+/// What a vector of fragments reads of one vertex each.
 struct CornerColumns {
     Columns projected, position, normal;
 
@@ -83,14 +84,14 @@ struct CornerColumns {
     }
 };
 
-/// Each fragment fetches the corners of its triangle.
+/// Each fragment fetches the vertices of its triangle.
 struct FetchLoop {
     CANDELA_BATCH_LOOP static void run(IndexedMesh m, std::size_t count, const std::uint32_t* triangle,
                                        const float* px, const float* py, InterpolatedSpans out) {
         CornerColumns c0, c1, c2;
         for (std::size_t first = 0; first < count; first += k_lanes) {
             std::uint32_t vertex[3][k_lanes];
-// As numbers, one by one: they are addresses next, not vectors.
+// As scalars, one by one: they become addresses, not vectors.
 #pragma clang loop unroll(disable) vectorize(disable)
             for (std::size_t lane = 0; lane < k_lanes; ++lane) {
                 const std::uint32_t* const indices = m.indices + 3 * std::size_t{triangle[first + lane]};

@@ -1,4 +1,3 @@
-// Rays through triangles.
 module;
 
 #include "candela/api.h"
@@ -18,21 +17,21 @@ export namespace candela {
 /// Where a ray leaves a surface.
 struct RayExit {
     std::uint32_t triangle = 0;
-    float distance = 0;  // along the ray, in lengths of its direction
+    float distance = 0;  // along the ray, in multiples of its direction
     Vec3 barycentric;
 };
 
 /// Triangles, for rays that run inside of them. Immutable; any thread.
 class CANDELA_API TriangleTree {
   public:
-    /// Corners run counter-clockwise seen from outside.
+    /// Triangles are counter-clockwise seen from outside.
     TriangleTree(ConstVec3Span position, std::size_t vertex_count, std::span<const std::uint32_t> indices);
     TriangleTree(TriangleTree&&) noexcept;
     TriangleTree& operator=(TriangleTree&&) noexcept;
     ~TriangleTree();
 
-    /// The nearest triangle that the ray passes from its inside to its outside. One that it starts on, going
-    /// in, is none. Nothing where the surface is open there.
+    /// The nearest triangle that the ray passes from its inside to its outside. A triangle that it starts on,
+    /// going in, does not count. Nothing if the surface is open there.
     std::optional<RayExit> exit_of(Vec3 origin, Vec3 direction) const;
 
   private:

@@ -30,7 +30,7 @@ struct TriangleTree::Tree {
     std::vector<Vector3d> position;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     Eigen::KdBVH<double, 3, std::uint32_t> tree;
-    double rounding = 0;  // of a point on the surface, as floats
+    double rounding = 0;  // of a point on the surface, in float
 };
 
 TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
@@ -80,11 +80,11 @@ std::optional<RayExit> TriangleTree::exit_of(Vec3 origin, Vec3 direction) const 
             const auto& [ia, ib, ic] = tree.triangles[i];
             const Vector3d a = tree.position[ia] - point, b = tree.position[ib] - point,
                            c = tree.position[ic] - point;
-            // Volumes that the ray spans with the edges: all of one sign where it passes between them.
+            // The volumes spanned by the ray and the edges: all of one sign if it passes between them.
             const double u = triple_product(direction, b, c), v = triple_product(direction, c, a),
                          w = triple_product(direction, a, b);
             const double sum = u + v + w;
-            if (!(std::min({u, v, w}) >= 0 && sum > 0)) return false;  // missed, or it comes in there
+            if (!(std::min({u, v, w}) >= 0 && sum > 0)) return false;  // missed, or it enters there
             const double distance = triple_product(a, b, c) / sum;
             if (distance < -tree.rounding || distance >= static_cast<double>(nearest.distance)) return false;
             nearest = {
@@ -96,7 +96,7 @@ std::optional<RayExit> TriangleTree::exit_of(Vec3 origin, Vec3 direction) const 
         }
     };
     if (tree_->triangles.empty()) return std::nullopt;
-    // Never zero, so that a ray along a side of a box gives no 0 / 0.
+    // Never zero, so that a ray along a side of a box does not yield 0 / 0.
     const auto part = [](float x) { return x == 0 ? 1e-30 : static_cast<double>(x); };
     Ray ray{
         *tree_, {origin.x, origin.y, origin.z}, {part(direction.x), part(direction.y), part(direction.z)}};

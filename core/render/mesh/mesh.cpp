@@ -27,10 +27,10 @@ namespace candela {
 
 namespace {
 
-/// Metres. Squares of areas are floats, too.
+/// Metres. Squared areas must be representable as floats, too.
 constexpr float k_farthest = 1e9f;
 
-/// Roughly what a mesh takes while it is made, checked and drawn.
+/// The approximate memory for a mesh while it is made, checked and drawn.
 std::uint64_t memory_for(const MeshLayout& layout) {
     const std::uint64_t vectors =
         7u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) + (layout.has_derivatives ? 2u : 0u);
@@ -40,7 +40,7 @@ std::uint64_t memory_for(const MeshLayout& layout) {
     return layout.vertices * vectors * k_vector + layout.triangles * (k_triangle + edges);
 }
 
-/// What a shape writes, before it is placed.
+/// Receives what a shape writes, before it is transformed.
 class Collector final : public MeshSink {
   public:
     MeshSpans allocate(const MeshLayout& layout) override {
@@ -84,7 +84,7 @@ class Collector final : public MeshSink {
     bool allocated_ = false;
 };
 
-/// As many numbers as stay in the cache.
+/// As many floats as stay in the cache.
 constexpr Eigen::Index k_stretch = 1024;
 using Stretch = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, k_stretch, 1>;
 using Rows = Eigen::Map<Eigen::ArrayXf>;
@@ -124,7 +124,7 @@ Eigen::Matrix3f linear_part(const Transform& transform) {
 
 bool are_near(const AlignedVector<float>& coordinates) {
     bool are = true;
-    for (const float x : coordinates) are &= std::abs(x) <= k_farthest;  // a NaN is not
+    for (const float x : coordinates) are &= std::abs(x) <= k_farthest;  // false for NaN
     return are;
 }
 
@@ -164,12 +164,12 @@ void check(const Collector& collected) {
 /// Triangles or vertices: enough to be worth a thread's while.
 constexpr std::size_t k_per_task = 16384;
 
-/// CA DD8, in double: the product of two short edges must not vanish.
+/// CA DD8, in double: the product of two short edges must not underflow.
 struct FaceNormalLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span position, const std::uint32_t* indices,
                                        std::size_t count, Vec3Span normal) {
         CANDELA_VECTORIZE
-// Wider than doubles ask for, as most of it is fetching floats.
+// Wider than doubles call for, because most of the work is fetching floats.
 #pragma clang loop vectorize_width(16)
         for (std::size_t t = 0; t < count; ++t) {
             const Vec3 a = position[indices[3 * t]];
@@ -195,12 +195,12 @@ void make_face_normals(Mesh& mesh) {
     });
 }
 
-/// How many edges do not lie between two triangles that agree on what is outside. Vertices at one place count
-/// as one.
+/// The number of edges that are not shared by two triangles that agree on which side is outside. Vertices at
+/// the same position count as one.
 std::size_t count_open_edges(const Mesh& mesh) {
     const std::vector<std::uint32_t> place = welded(mesh.position.span(), mesh.vertex_count());
     struct Edge {
-        std::uint32_t end;  // the higher place
+        std::uint32_t end;  // the higher position
         std::int32_t direction;
     };
     const auto each_edge = [&](auto visit) {
@@ -210,13 +210,14 @@ std::size_t count_open_edges(const Mesh& mesh) {
             if (a != b) visit(std::min(a, b), Edge{std::max(a, b), a < b ? 1 : -1});
         }
     };
-    // By their lower place; `begin` moves to where the next one goes, and so to where its successor's begin.
+    // Sorted by the lower position; `begin` advances to where the next edge goes, and finally to where the
+    // next position's edges begin.
     std::vector<std::uint32_t> begin(mesh.vertex_count() + 1);
     each_edge([&](std::uint32_t low, Edge) { ++begin[low + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<Edge> edges(begin.back());
     each_edge([&](std::uint32_t low, Edge edge) { edges[begin[low]++] = edge; });
-    // Over a closed surface the directions of an edge add up to zero.
+    // On a closed surface the directions of an edge sum to zero.
     std::size_t open = 0, first = 0;
     for (const std::size_t end : begin) {
         std::ranges::sort(std::span(edges).subspan(first, end - first), {}, &Edge::end);
@@ -271,7 +272,7 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
         if (!are) are_finite = false;
     });
     if (are_finite) return;
-    // The first, whichever thread came upon which.
+    // The first one, whichever thread found one.
     const auto first = std::ranges::find_if_not(mesh.vertices, is_finite, &MeshVertex::normal);
     throw std::invalid_argument(
         fmt::format("the normal that it gives vertex {} is no finite number", first - mesh.vertices.begin()));

@@ -1,4 +1,3 @@
-// The triangles of one object: what a shape plugin gave, placed in the world.
 module;
 
 #include "candela/api.h"
@@ -19,7 +18,7 @@ import candela.transform;
 
 export namespace candela {
 
-/// What is read of a vertex wherever a triangle is seen, side by side: one line of the cache instead of six.
+/// What is read of a vertex wherever a triangle is seen, stored contiguously: one cache line instead of six.
 struct alignas(32) MeshVertex {
     Vec3 position;
     float padding = 0;  // four floats are fetched at once
@@ -27,16 +26,15 @@ struct alignas(32) MeshVertex {
     float more_padding = 0;
 };
 
-/// Triangles in world space. Vertices are shared; corners of a triangle run counter-clockwise seen from
-/// outside.
+/// Triangles in world space. Vertices are shared; triangles are counter-clockwise seen from outside.
 struct Mesh {
     Vec3Arrays position;  // for loops over all vertices
     AlignedVector<std::uint32_t> indices;
-    Vec3Arrays face_normal;  // a triangle each, unit; zero where it has no area
+    Vec3Arrays face_normal;  // per triangle, unit; zero if it has no area
     AlignedVector<MeshVertex> vertices;
-    AlignedVector<float> u, v;  // a vertex each, or empty
-    Vec3Arrays dpdu, dpdv;      // a vertex each, or empty
-    bool closed = false;        // else it is seen from both sides
+    AlignedVector<float> u, v;  // per vertex, or empty
+    Vec3Arrays dpdu, dpdv;      // per vertex, or empty
+    bool closed = false;        // otherwise visible from both sides
     std::size_t open_edges = 0;
 
     inline std::size_t vertex_count() const { return position.size(); }
@@ -49,19 +47,19 @@ struct Mesh {
     }
 };
 
-/// A mesh before it has normals, and what a shading model makes them from.
+/// A mesh before it has normals, and the input that a shading model makes them from.
 struct PlacedShape {
     Mesh mesh;
-    Vec3Arrays authored_normal;                 // a vertex each, unit, or empty
-    AlignedVector<std::uint32_t> smooth_group;  // a vertex each, or empty: each vertex is its own
+    Vec3Arrays authored_normal;                 // per vertex, unit, or empty
+    AlignedVector<std::uint32_t> smooth_group;  // per vertex, or empty: each vertex is its own
 };
 
 /// Tessellates `shape` and places it in the world.
-/// Throws std::exception: what the shape throws; std::invalid_argument for a mesh without triangles, with a
-/// corner that is no vertex, or with a position that is no finite number.
+/// Throws what the shape throws (std::exception), and std::invalid_argument for a mesh without triangles,
+/// with an index out of range, or with a position that is not finite.
 CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& transform);
 
-/// Gives a mesh its face normals, and the vertex normals of `shading`, with the threads that with_threads()
+/// Gives a mesh its face normals and the vertex normals of `shading`, with the threads that with_threads()
 /// allows. Throws what the shading model throws.
 CANDELA_API Mesh with_normals(PlacedShape placed, const ShadingModel& shading);
 

@@ -1,4 +1,3 @@
-// Triangles into tiles: culling, clipping, sorting.
 module;
 
 #include <algorithm>
@@ -11,32 +10,33 @@ module;
 
 module candela.raster;
 
+import :binning;
+import candela.transform;
+
 namespace candela {
 
 namespace {
 
-/// A vertex in homogeneous pixels: it is seen at (x / w, y / w).
+/// A vertex in homogeneous pixels: on the screen at (x / w, y / w).
 struct ClipVertex {
     float x, y, w;
-    float ahead;  // distance in front of the near plane
-    float
-        depth_w;  // depth times w: 1 in perspective (1/w), minus the distance in an orthographic view
+    float ahead;    // distance in front of the near plane
+    float depth_w;  // depth times w: 1 in perspective (1/w), minus the distance in an orthographic view
 };
 
 ClipVertex between(const ClipVertex& a, const ClipVertex& b, float t) {
     const auto mix = [t](float from, float to) { return from + t * (to - from); };
-    return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.ahead, b.ahead),
-            mix(a.depth_w, b.depth_w)};
+    return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.ahead, b.ahead), mix(a.depth_w, b.depth_w)};
 }
 
 /// Twice the signed area in homogeneous pixels, times the product of the w: its sign is the triangle's
-/// orientation on the screen, also where vertices lie behind the eye (Olano, Greer 1997).
+/// orientation on the screen, even if vertices lie behind the eye (Olano, Greer 1997).
 double orientation(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c) {
     const double ax = a.x, ay = a.y, aw = a.w, bx = b.x, by = b.y, bw = b.w, cx = c.x, cy = c.y, cw = c.w;
     return ax * (by * cw - cy * bw) - ay * (bx * cw - cx * bw) + aw * (bx * cy - cx * by);
 }
 
-/// Makes the fixed-point triangles of one stretch of a mesh and sorts them into tiles.
+/// Makes the fixed-point triangles of one range of a mesh and sorts them into tiles.
 class Binner {
   public:
     Binner(const ProjectedScene& scene, TriangleBin& bin)
@@ -93,7 +93,7 @@ class Binner {
         bin_.first_row = row0;
         bin_.columns = column1 - column0 + 1;
         bin_.rows = row1 - row0 + 1;
-        // Counting sort, so that a tile's triangles stay in the scene's order.
+        // A counting sort keeps a tile's triangles in the scene's order.
         bin_.start.assign(static_cast<std::size_t>(bin_.columns) * static_cast<std::size_t>(bin_.rows) + 1,
                           0);
         const auto each_tile = [&](const Range& range, auto&& visit) {
@@ -122,8 +122,8 @@ class Binner {
         return {v.x, v.y, v.w, v.distance, -v.distance};
     }
 
-    // Clipping against the picture itself would be needless work, as the rasteriser looks at the picture's
-    // pixels only; but fixed-point coordinates end somewhere: at half a picture beyond each edge.
+    // Clipping against the picture itself would be wasted work, because the rasteriser only visits the
+    // picture's pixels; but fixed-point coordinates are limited, to half a picture beyond each edge.
     static constexpr int k_guard_planes = 5;
     float beyond(const ClipVertex& v, int plane) const {
         switch (plane) {
@@ -139,8 +139,8 @@ class Binner {
                 return 1.5f * height_ * v.w - v.y;
         }
     }
-    /// Sutherland, Hodgman (1974). A cut point is always computed from the inner end of an edge to the outer,
-    /// so that both triangles at an edge are cut at the same point.
+    /// Sutherland, Hodgman (1974). An intersection is always computed from the inner end of an edge to the
+    /// outer, so that both triangles at an edge are cut at the same point.
     void clip_and_emit(const std::array<ClipVertex, 3>& triangle, std::uint32_t id, bool two_sided) {
         const bool is_front = orientation(triangle[0], triangle[1], triangle[2]) < 0;
         if (!is_front && !two_sided) return;
@@ -173,18 +173,17 @@ class Binner {
             const float inverse = 1 / corner->w;
             const float px = corner->x * inverse;
             const float py = corner->y * inverse;
-            // Beyond the guard band by more than rounding: a number that was no number.
+            // Beyond the guard band by more than rounding: the position was not finite.
             if (!(std::abs(px - 0.5f * width_) <= 1.01f * width_ &&
                   std::abs(py - 0.5f * height_) <= 1.01f * height_))
                 return;
             indices[k++] = {static_cast<std::int32_t>(std::lrint(px * one_)),
-                            static_cast<std::int32_t>(std::lrint(py * one_)), corner->depth_w * inverse,
-                            0};
+                            static_cast<std::int32_t>(std::lrint(py * one_)), corner->depth_w * inverse, 0};
         }
         emit(indices[0], indices[1], indices[2], id, two_sided);
     }
 
-    /// Corners that are clockwise, y down, where the triangle is seen from the front.
+    /// The vertices are clockwise, y down, if the triangle is seen from the front.
     void emit(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, std::uint32_t id,
               bool two_sided) {
         const std::int64_t area =
@@ -203,7 +202,8 @@ class Binner {
                                   .id = id});
     }
 
-    /// Whether no sample can be between the two, ends of a box along one axis of a picture of `size` pixels.
+    /// Whether no sample can be between the two, the ends of a box along one axis of a picture of `size`
+    /// pixels.
     bool misses_samples(std::int32_t low, std::int32_t high, int size) const {
         if (high < 0 || low >= size << scene_.subpixel_bits) return true;
         if (scene_.samples > 1) return false;

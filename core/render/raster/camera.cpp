@@ -7,6 +7,9 @@ module;
 
 module candela.raster;
 
+import candela.math;
+import candela.transform;
+
 namespace candela {
 
 Camera Camera::looking(Vec3 eye, Vec3 look_at, Vec3 up, Projection projection, float size, int width,

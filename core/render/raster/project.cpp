@@ -1,4 +1,3 @@
-// From world space to fixed-point pixels.
 module;
 
 #include "candela/kernel.h"
@@ -15,7 +14,10 @@ module;
 
 module candela.raster;
 
+import :binning;
+import candela.math;
 import candela.parallel;
+import candela.transform;
 
 namespace candela {
 
@@ -25,12 +27,12 @@ constexpr std::size_t k_triangles_per_bin = 4096;
 constexpr std::size_t k_vertices_per_task = 16384;
 constexpr float k_moderate = 0x1p40f;
 
-/// The bits of a magnitude, which as integers are in the same order.
+/// The bits of a magnitude, which are in the same order as integers.
 [[gnu::always_inline]] inline std::int32_t magnitude(float x) {
     return std::bit_cast<std::int32_t>(x) & 0x7fff'ffff;
 }
 
-/// Vertices to homogeneous pixels and to fixed-point ones. `*largest_bits`: the largest magnitude among
+/// Projects vertices to homogeneous and to fixed-point pixels. `*largest_bits`: the largest magnitude among
 /// homogeneous pixels and, times the largest picture's size, distances.
 struct ProjectLoop {
     CANDELA_BATCH_LOOP static void run(Camera camera, int subpixel_bits, ConstVec3Span position,
@@ -56,7 +58,7 @@ struct ProjectLoop {
             projected[i].w = w;
             projected[i].distance = distance;
 
-            // No && and ||, which are branches: stores behind one are made one by one.
+            // No && and ||: they are branches, and stores behind a branch are made one by one.
             const float ahead = perspective ? distance - k_near : distance;
             const float half_x = cx * w, half_y = cy * w;
             const std::uint32_t view = (ahead < 0 ? Outside::near : 0u) | (x < 0 ? Outside::left : 0u) |

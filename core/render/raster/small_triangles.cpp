@@ -1,4 +1,5 @@
-// Rasterisation of triangles of a pixel or so, many at once: meshes finer than the picture consist of them.
+// Rasterisation of triangles about a pixel large, many at once: meshes finer than the picture consist of
+// them.
 module;
 
 #include "candela/multiversion.h"
@@ -7,6 +8,9 @@ module;
 #include <cstdint>
 
 module candela.raster;
+
+import :small_triangles;
+import candela.arrays;
 
 namespace candela {
 
@@ -21,11 +25,11 @@ namespace {
     return ab > c ? ab : c;
 }
 
-/// An edge from one corner to the next, as an edge function: >= 0 inside.
+/// An edge from one vertex to the next, as an edge function: >= 0 inside.
 struct Edge {
     std::int32_t at_first, to_right, down;
 
-    /// All relative to the first sample; `one`: a pixel.
+    /// Everything relative to the first sample; `one`: a pixel.
     [[gnu::always_inline]] Edge(std::int32_t x, std::int32_t y, std::int32_t next_x, std::int32_t next_y,
                                 std::int32_t one) {
         const std::int32_t dx = next_x - x, dy = next_y - y;
@@ -36,7 +40,7 @@ struct Edge {
     }
 };
 
-/// Four samples of a row, as bits.
+/// Coverage of four samples of a row, as bits.
 [[gnu::always_inline]] inline std::int32_t covered_of_row(const Edge& a, const Edge& b, const Edge& c,
                                                           std::int32_t row) {
     const std::int32_t ea = a.at_first + row * a.down, eb = b.at_first + row * b.down,
@@ -56,7 +60,7 @@ struct SmallLoop {
     }
 
   private:
-    /// Sixteen from `first` on; where there are fewer, the last again and again.
+    /// Sixteen from `first` on; if there are fewer, the last is repeated.
     [[gnu::always_inline]] static void run_some(const RasterTriangle* all, const std::uint32_t* numbers,
                                                 std::size_t first, std::size_t count, int bits,
                                                 SmallTriangles* out) {
@@ -81,7 +85,7 @@ struct SmallLoop {
             const std::int32_t y1 = (most(ay, by, cy) - half) >> bits;
             const bool is_small = (x1 - x0 <= 3) & (y1 - y0 <= 3);
 
-            // Relative to the first sample; of a large triangle nothing, so that nothing overflows.
+            // Relative to the first sample; zero for a large triangle, so that nothing overflows.
             const std::int32_t sx = x0 * one + half, sy = y0 * one + half;
             const std::int32_t ux = is_small ? ax - sx : 0, uy = is_small ? ay - sy : 0;
             const std::int32_t vx = is_small ? bx - sx : 0, vy = is_small ? by - sy : 0;

@@ -13,6 +13,8 @@ module;
 
 module candela.raster;
 
+import :small_triangles;
+
 namespace candela {
 
 namespace {
@@ -26,15 +28,15 @@ struct SamplePlane {
     std::uint32_t* triangle;
 };
 
-/// A triangle relative to the tile's first sample; pixels as steps.
+/// A triangle relative to the tile's first sample, in steps of pixels.
 struct TileTriangle {
     std::int32_t e[3];       // edge functions, >= 0 inside
     std::int32_t ex[3];      // their steps to the right
-    std::int32_t ey[3];      // and down
+    std::int32_t ey[3];      // and downwards
     float z, zx, zy;         // depth at the anchor, and its steps
-    int anchor_x, anchor_y;  // a pixel at the triangle, whatever the tile: rounding must not depend on tiles
+    int anchor_x, anchor_y;  // a pixel near the triangle, independent of the tile, as rounding must be
     std::uint32_t id;
-    int x0, x1, y0, y1;  // pixels that its box covers; x0 and x1 multiples of k_block
+    int x0, x1, y0, y1;  // pixels covered by its box; x0 and x1 are multiples of k_block
 };
 
 struct TriangleLoop {
@@ -64,14 +66,14 @@ struct TriangleLoop {
     }
 };
 
-/// A tile's first sample in fixed point, and how far apart its pixels are.
+/// A tile's first sample in fixed point, and the distance between its pixels.
 struct SampleGrid {
     std::int64_t x, y;
     int bits;
     int width, height;
 };
 
-/// Sets up `t` for one sample of each pixel of the tile; false where the triangle misses them all.
+/// Sets up `t` for one sample per pixel of the tile; false if the triangle misses them all.
 bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& result) {
     const int bits = grid.bits;
     const auto last_x = static_cast<std::int64_t>(grid.width - 1);
@@ -85,7 +87,7 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
     const std::int64_t y0 = std::max<std::int64_t>((top - grid.y + up) >> bits, 0);
     const std::int64_t y1 = std::min<std::int64_t>((bottom - grid.y) >> bits, last_y);
     if (x0 > x1 || y0 > y1) return false;
-    // What is tested are whole blocks.
+    // Whole blocks are tested.
     const std::int64_t block0 = x0 / k_block * k_block;
     const std::int64_t block1 = (x1 / k_block + 1) * k_block - 1;
 
@@ -119,14 +121,13 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
     const double zx = (z10 * y20 - z20 * y10) / area;
     const double zy = (z20 * x10 - z10 * x20) / area;
     const auto one = static_cast<double>(std::int64_t{1} << bits);
-    // The sample next to the first corner.
+    // The sample next to the first vertex.
     result.anchor_x = static_cast<int>((t.x[0] - grid.x) >> bits);
     result.anchor_y = static_cast<int>((t.y[0] - grid.y) >> bits);
     const std::int64_t to_anchor_x = grid.x + (std::int64_t{result.anchor_x} << bits) - t.x[0];
     const std::int64_t to_anchor_y = grid.y + (std::int64_t{result.anchor_y} << bits) - t.y[0];
-    result.z =
-        static_cast<float>(static_cast<double>(t.depth[0]) + zx * static_cast<double>(to_anchor_x) +
-                           zy * static_cast<double>(to_anchor_y));
+    result.z = static_cast<float>(static_cast<double>(t.depth[0]) + zx * static_cast<double>(to_anchor_x) +
+                                  zy * static_cast<double>(to_anchor_y));
     result.zx = static_cast<float>(zx * one);
     result.zy = static_cast<float>(zy * one);
     result.id = t.id;
@@ -143,7 +144,7 @@ void clear(TileVisibility& visibility) {
     visibility.depth.assign(size, -std::numeric_limits<float>::infinity());
 }
 
-/// Sees one tile's triangles.
+/// Rasterises one tile's triangles.
 class TileRaster {
   public:
     TileRaster(const ProjectedScene& scene, TileVisibility& visibility)
@@ -159,7 +160,7 @@ class TileRaster {
     }
 
   private:
-    /// In their order, as of equally near ones the first is seen.
+    /// In their order, because the first of equally near ones is visible.
     void see_some(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count) {
         small_.set_up(all, numbers, count, scene_.subpixel_bits);
         for (std::size_t i = 0; i < count; ++i) {
@@ -183,7 +184,7 @@ class TileRaster {
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(visibility_.stride) +
                 static_cast<std::size_t>(x);
             const float depth = small_.depth[i] + static_cast<float>(column) * small_.to_right[i] +
-                                    static_cast<float>(row) * small_.down[i];
+                                static_cast<float>(row) * small_.down[i];
             if (!(depth > visibility_.depth[pixel])) continue;
             visibility_.depth[pixel] = depth;
             visibility_.triangle[pixel] = id;
@@ -203,9 +204,8 @@ class TileRaster {
             TileTriangle set;
             if (!set_up(triangle, grid, set)) continue;
             const std::size_t plane = s * visibility_.plane();
-            multiversion<TriangleLoop>(set,
-                                       SamplePlane{visibility_.stride, visibility_.depth.data() + plane,
-                                                   visibility_.triangle.data() + plane});
+            multiversion<TriangleLoop>(set, SamplePlane{visibility_.stride, visibility_.depth.data() + plane,
+                                                        visibility_.triangle.data() + plane});
         }
     }
 

@@ -1,5 +1,6 @@
 module;
 
+#include "candela/batch.h"
 #include "candela/kernel.h"
 #include "candela/multiversion.h"
 
@@ -19,9 +20,13 @@ module;
 
 module candela.shade;
 
+import :surroundings;
 import candela.diagnostics;
 import candela.library;
+import candela.light;
+import candela.raster;
 import candela.registry;
+import candela.shading;
 import candela.transform;
 
 namespace candela {
@@ -30,7 +35,7 @@ namespace {
 
 using kernel::vec3;
 
-/// V: towards the eye, or against the view in an orthographic picture.
+/// V: towards the eye, or against the view direction in an orthographic picture.
 struct ToObserverLoop {
     CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count,
                                        Vec3Span to_observer) {
@@ -39,10 +44,7 @@ struct ToObserverLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 d = perspective ? camera.eye - position[i] : against;
-            const vec3 v = kernel::normalize(vec3(d.x, d.y, d.z));
-            to_observer.x[i] = v.x;
-            to_observer.y[i] = v.y;
-            to_observer.z[i] = v.z;
+            kernel::store(to_observer, i, kernel::normalize(vec3(d.x, d.y, d.z)));
         }
     }
 };
@@ -51,9 +53,7 @@ struct FlipLoop {
     CANDELA_BATCH_LOOP static void run(const float* facing, std::size_t count, Vec3Span v) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            v.x[i] *= facing[i];
-            v.y[i] *= facing[i];
-            v.z[i] *= facing[i];
+            kernel::store(v, i, kernel::load(v, i) * facing[i]);
         }
     }
 };
@@ -64,12 +64,9 @@ struct TangentLoop {
                                        Vec3Span tangent) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const vec3 n(normal.x[i], normal.y[i], normal.z[i]);
-            const vec3 u(dpdu.x[i], dpdu.y[i], dpdu.z[i]);
-            const vec3 t = kernel::normalize(u - n * kernel::dot(n, u));
-            tangent.x[i] = t.x;
-            tangent.y[i] = t.y;
-            tangent.z[i] = t.z;
+            const vec3 n = kernel::load(normal, i);
+            const vec3 u = kernel::load(dpdu, i);
+            kernel::store(tangent, i, kernel::normalize(u - n * kernel::dot(n, u)));
         }
     }
 };
@@ -79,16 +76,13 @@ struct SumLoop {
                                        Vec3Span sum) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            sum.x[i] = a.x[i] + d.x[i] + s.x[i];
-            sum.y[i] = a.y[i] + d.y[i] + s.y[i];
-            sum.z[i] = a.z[i] + d.z[i] + s.z[i];
+            kernel::store(sum, i, kernel::load(a, i) + kernel::load(d, i) + kernel::load(s, i));
         }
     }
 };
 
-/// The largest magnitude among many numbers; what is no finite number counts as larger than all that are.
-/// Without their sign, the bits of floats are integers in the same order, and integers have a maximum that is
-/// vectorised.
+/// The largest magnitude among many numbers; a non-finite number counts as larger than all finite ones.
+/// Without their sign, the bits of floats are in the same order as integers, whose maximum is vectorised.
 struct LargestLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span v, std::size_t count, std::int32_t* bits) {
         constexpr std::int32_t k_magnitude = 0x7fff'ffff;
@@ -113,7 +107,7 @@ float largest_of(ConstVec3Span v, std::size_t count) {
     return std::bit_cast<float>(bits);
 }
 
-/// After the batch arrays' last element, a stretch that nobody may write to.
+/// A stretch after the batch arrays' last element that nobody may write to.
 constexpr std::size_t k_guard = 16;
 constexpr float k_mark = -1.2345e30f;
 
@@ -126,7 +120,7 @@ std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
     return surface.reflection->shows_surroundings() ? points.count : points.filled;
 }
 
-/// What a plugin throws, as an error that names it.
+/// Turns what a plugin throws into an error that names it.
 template <class Call>
 void guarded(PluginKind kind, const std::string& plugin, Call call) {
     try {
@@ -156,32 +150,32 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
     surface.shading->normals(batch, normal);
 }
 
-Lighting::Lighting() {
+SurfaceShader::SurfaceShader() {
     for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
     for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard);
     mark_ends();
 }
 
-Lighting::~Lighting() = default;
+SurfaceShader::~SurfaceShader() = default;
 
-void Lighting::begin(const LitScene& scene) {
+void SurfaceShader::begin(const LitScene& scene) {
     scene_ = scene;
     surroundings_.reset();
 }
 
-std::array<Vec3Arrays*, 7> Lighting::written_by_plugins() {
+std::array<Vec3Arrays*, 7> SurfaceShader::written_by_plugins() {
     return {&normal_, &to_light_, &light_diffuse_, &light_specular_, &ambient_, &diffuse_, &specular_};
 }
 
-void Lighting::mark_ends() {
+void SurfaceShader::mark_ends() {
     for (Vec3Arrays* const arrays : written_by_plugins()) {
         for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
             std::fill(array->begin() + k_batch_size, array->end(), k_mark);
     }
 }
 
-bool Lighting::are_ends_intact() {
-    // All of them, without a way out in between: that is a vector loop.
+bool SurfaceShader::are_ends_intact() {
+    // All of them, without an early exit: that is a vector loop.
     std::uint32_t differing = 0;
     for (const Vec3Arrays* const arrays : written_by_plugins()) {
         for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) {
@@ -193,8 +187,8 @@ bool Lighting::are_ends_intact() {
     return differing == 0;
 }
 
-void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
-                             std::initializer_list<const Vec3Arrays*> results) {
+void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
+                                  std::initializer_list<const Vec3Arrays*> results) {
     const auto fail = [&](const char* what) {
         throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} {}", name_of(kind), plugin, what),
                     {Help::Topic::plugin_conformance});
@@ -209,14 +203,14 @@ void Lighting::require_sound(PluginKind kind, const std::string& plugin, std::si
     }
 }
 
-void Lighting::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
+void SurfaceShader::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
     guarded(PluginKind::shading, surface.shading_plugin,
             [&] { shading_normals(surface, points, normal_.span()); });
     if (points.any_from_behind) multiversion<FlipLoop>(points.facing.data(), points.filled, normal_.span());
 }
 
-float Lighting::light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
-                      const Vec3Span& intensity) {
+float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interior,
+                           const SurfacePoints& points, const Vec3Span& intensity) {
     add_up(surface, interior, points, Scrutiny::none);
     const std::size_t count = lit_of(surface, points);
     multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
@@ -226,8 +220,8 @@ float Lighting::light(const SurfaceModels& surface, const Interior& interior, co
     return largest;
 }
 
-void Lighting::add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
-                      Scrutiny scrutiny) {
+void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interior,
+                           const SurfacePoints& points, Scrutiny scrutiny) {
     const std::size_t count = lit_of(surface, points);
     const auto look_at = [&](PluginKind kind, const std::string& plugin,
                              std::initializer_list<const Vec3Arrays*> results) {

@@ -1,5 +1,5 @@
-// Light on points of a surface: normals from the shading plugin, light from the light plugins, colour from
-// the reflection plugin.
+// Shading of surface points: normals from the shading plugin, light from the light plugins, reflected light
+// from the reflection plugin.
 module;
 
 #include "candela/api.h"
@@ -9,75 +9,39 @@ module;
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
-#include <span>
 #include <string>
-#include <vector>
 
 export module candela.shade;
 
-import candela.color;
-import candela.environment;
+export import :surface;
+import candela.arrays;
+import candela.descriptor;
 import candela.fragments;
-import candela.geometry;
-import candela.light;
 import candela.math;
-import candela.mesh;
-import candela.raster;
-import candela.reflection;
-import candela.shading;
+
+namespace candela {
+class ObjectSurroundings;
+}
 
 export namespace candela {
 
-/// A light that shines, and the plugin that it comes from.
-struct LitSource {
-    std::string plugin;
-    std::unique_ptr<Light> light;
-};
-
-/// How an object's surface looks.
-struct SurfaceModels {
-    Rgb color;
-    std::string shading_plugin;
-    std::unique_ptr<ShadingModel> shading;
-    std::string reflection_plugin;
-    std::unique_ptr<ReflectionModel> reflection;
-
-    PointNeeds needs() const;
-};
-
-/// An object's inside, for a model that light goes through.
-struct Interior {
-    const Mesh* mesh = nullptr;
-    const TriangleTree* tree =
-        nullptr;  // of that mesh; null: light that enters does not meet the object again
-};
-
-class ObjectSurroundings;
-
-/// What shines on a scene, and from where it is looked at.
-struct LitScene {
-    std::span<const LitSource> lights;
-    const Environment* environment = nullptr;
-    Camera camera;
-};
-
-/// Evaluates light, batch by batch. Holds the batch's arrays: one for each thread.
-class CANDELA_API Lighting {
+/// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
+class CANDELA_API SurfaceShader {
   public:
-    Lighting();
-    ~Lighting();
+    SurfaceShader();
+    ~SurfaceShader();
 
-    /// The scene that the calls to come are about.
+    /// Sets the scene for the following calls.
     void begin(const LitScene& scene);
 
-    /// Writes the intensity that `points` send to the observer: I_a + sum of I_d + I_s over the lights (CA
-    /// DD6), into arrays with room for `points.filled`. Returns the largest of them. Throws Error, naming the
-    /// plugin, where one throws, gives what is no finite number, or writes beyond its batch.
-    float light(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+    /// Writes the intensity that `points` send to the observer, I_a + the sum of I_d + I_s over the lights
+    /// (CA DD6), into arrays with room for `points.filled`. Returns the largest intensity. Throws Error,
+    /// naming the plugin, if one throws, yields a non-finite number, or writes beyond its batch.
+    float shade(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 const Vec3Span& intensity);
 
   private:
-    /// Looks at what each plugin gave right after its turn, instead of once at the end.
+    /// Checks the results of each plugin right after its turn, instead of once at the end.
     enum class Scrutiny : bool { none, each_step };
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 Scrutiny scrutiny);
@@ -89,44 +53,10 @@ class CANDELA_API Lighting {
                        std::initializer_list<const Vec3Arrays*> results);
 
     LitScene scene_;
-    std::unique_ptr<ObjectSurroundings> surroundings_;  // once a model asks
+    std::unique_ptr<ObjectSurroundings> surroundings_;  // created when a model asks
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;
     Vec3Arrays ambient_, diffuse_, specular_;
-};
-
-}  // namespace candela
-
-namespace candela {
-
-/// The normals that an object's shading model finds, on the side that triangles are seen from the front.
-void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
-
-/// What one object's models see of the world around it.
-class ObjectSurroundings final : public Surroundings {
-  public:
-    explicit ObjectSurroundings(const Environment& environment) : environment_(environment) {}
-
-    /// The object that the calls to come are about.
-    void set_object(const SurfaceModels& surface, const Interior& interior) {
-        surface_ = &surface;
-        interior_ = interior;
-    }
-
-    void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) override;
-    void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
-               const ExitBatch& exit) override;
-
-  private:
-    void leave_batch(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
-                     const ExitBatch& exit);
-
-    const Environment& environment_;
-    const SurfaceModels* surface_ = nullptr;
-    Interior interior_;
-    SurfacePoints points_;  // where rays left
-    Vec3Arrays barycentric_, normal_;
-    std::vector<std::uint32_t> triangles_, rays_;
 };
 
 }  // namespace candela

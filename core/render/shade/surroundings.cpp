@@ -1,4 +1,3 @@
-// What an object's models see of the world around it.
 module;
 
 #include <algorithm>
@@ -9,6 +8,8 @@ module;
 #include <utility>
 
 module candela.shade;
+
+import :surroundings;
 
 namespace candela {
 

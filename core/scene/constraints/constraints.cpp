@@ -26,10 +26,10 @@ namespace candela {
 
 namespace {
 
-/// Floats round: what stands on the floor may be a hair below it.
+/// Floats round: what stands on the floor may be slightly below it.
 constexpr float k_hair = 1e-5f;  // of the room's size
 
-/// More would only repeat what the first thousand say, and might be billions.
+/// More would only repeat the first thousand, and there might be billions.
 constexpr std::size_t k_most_overlaps = 1000;
 
 constexpr std::array<char, 3> k_axis_names = {'x', 'y', 'z'};
@@ -41,7 +41,7 @@ std::string at(const SourcePlace& place) {
                           : std::string();
 }
 
-/// The place of a light that is somewhere; an ambient or a directional one is not.
+/// A light's position, if it has one; ambient and directional lights do not.
 std::optional<Vec3> position_of(const LightSource& light) {
     const ParamSet& parameters = light.model.parameters;
     const std::size_t index = parameters.index_of("position");
@@ -98,7 +98,7 @@ class Checker {
         }
     }
 
-    /// One message, about the axis along which it is farthest outside.
+    /// One message, for the axis along which it is farthest outside.
     void report_if_outside(const std::string& what, const Box& box, Vec3 half, const SourcePlace& place) {
         const auto low = components(box.low), high = components(box.high), room = components(half);
         std::size_t worst = 0;
@@ -169,7 +169,7 @@ class Checker {
         }
     }
 
-    /// Made when first asked for: most objects are far from all else.
+    /// Created on demand: most objects are far from everything else.
     const Body& body(std::size_t i) {
         if (!bodies_[i]) {
             const SurfaceView& surface = surfaces_[i];

@@ -32,7 +32,7 @@ Vector3d vector(Vec3 p) { return {p.x, p.y, p.z}; }
 
 double triple_product(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return a.dot(b.cross(c)); }
 
-/// Which number of connected parts a vertex belongs to: union by the smaller, paths halved.
+/// Union-find over the connected parts that vertices belong to: union by size, path halving.
 class Parts {
   public:
     explicit Parts(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -51,7 +51,7 @@ class Parts {
     std::vector<std::uint32_t> parent_;
 };
 
-/// Whether the segment p q passes through a triangle.
+/// Whether the segment p q passes through the triangle.
 bool pierces(const Vector3d& p, const Vector3d& q, const Triangle& t) {
     const Vector3d a = t[0] - p, b = t[1] - p, c = t[2] - p, d = q - p;
     const double u = triple_product(d, c, b), v = triple_product(d, a, c), w = triple_product(d, b, a);
@@ -70,12 +70,12 @@ bool they_cross(const Triangle& s, const Triangle& t) {
 }  // namespace
 
 struct Body::Surface {
-    std::vector<Vector3d> position;  // drawn inwards
+    std::vector<Vector3d> position;  // shrunk
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::uint32_t> parts;  // a vertex of each connected part
+    std::vector<std::uint32_t> parts;  // one vertex of each connected part
     Eigen::KdBVH<double, 3, std::uint32_t> tree;
     AlignedBox box;
-    double margin = 0;  // by which it was drawn inwards
+    double margin = 0;  // by which the surface was shrunk
     bool closed = false;
 
     Triangle triangle(std::uint32_t i) const {
@@ -104,7 +104,7 @@ double Body::Surface::signed_volume() const {
     return six_volumes / 6;
 }
 
-/// Moves each vertex against the normals around it, so far that the faces move by `margin`.
+/// Moves each vertex against the normals around it, far enough to move the faces by `margin`.
 void Body::Surface::draw_inwards() {
     constexpr double k_touching = 1e-5;  // of the size
     constexpr double k_rounding = 3e-7;  // of the coordinates, as floats
@@ -122,8 +122,8 @@ void Body::Surface::draw_inwards() {
         for (std::size_t k = 0; k < 3; ++k) {
             const Vector3d p = t[(k + 1) % 3] - t[k];
             const Vector3d q = t[(k + 2) % 3] - t[k];
-            // Weighed by angle, the sum does not depend on how a face is cut into triangles (Thürmer,
-            // Wüthrich 1998).
+            // With angle weights, the sum does not depend on how a face is triangulated (Thürmer, Wüthrich
+            // 1998).
             around[triangles[i][k]] += std::atan2(p.cross(q).norm(), p.dot(q)) * face[i];
         }
     }
@@ -135,13 +135,12 @@ void Body::Surface::draw_inwards() {
                 steepest[vertex] = std::min(steepest[vertex], around[vertex].dot(face[i]));
         }
     }
-    constexpr double k_spike = 0.2;  // sharper ones would move far
+    constexpr double k_spike = 0.2;  // sharper ones would move too far
     for (std::size_t i = 0; i < position.size(); ++i)
         position[i] -= margin / std::max(steepest[i], k_spike) * around[i];
 }
 
-/// How often, counted with its sign, a ray leaves the surface; nothing where it meets an edge, or starts on
-/// the surface.
+/// The signed number of times a ray leaves the surface; nothing if it hits an edge or starts on the surface.
 std::optional<int> Body::Surface::crossings(const Vector3d& point, const Vector3d& direction) const {
     struct Ray {
         const Surface& surface;
@@ -191,7 +190,8 @@ double Body::Surface::solid_angle(const Vector3d& point) const {
         const Triangle t = triangle(i);
         const Vector3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
         const double na = a.norm(), nb = b.norm(), nc = c.norm();
-        sum += 2 * std::atan2(triple_product(a, b, c), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
+        sum += 2 * std::atan2(triple_product(a, b, c),
+                              na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
     }
     return sum;
 }
@@ -199,7 +199,7 @@ double Body::Surface::solid_angle(const Vector3d& point) const {
 bool Body::Surface::contains(const Vector3d& point) const {
     if (!box.contains(point)) return false;
     if (closed) {
-        // None is along an axis or a diagonal, where edges lie.
+        // None is along an axis or a diagonal, where edges tend to lie.
         static const std::array k_directions = {Vector3d(0.61803, 0.74314, 0.25672).normalized(),
                                                 Vector3d(-0.35355, 0.81915, -0.45061).normalized(),
                                                 Vector3d(0.19509, -0.63439, 0.74805).normalized(),
@@ -258,8 +258,8 @@ bool overlap(const Body& a_body, const Body& b_body) {
     const Surface& a = *a_body.surface_;
     const Surface& b = *b_body.surface_;
     if (a.triangles.empty() || b.triangles.empty() || !a.box.intersects(b.box)) return false;
-    // Equal bodies side by side have planes in common. A shift far smaller than the margins, in no particular
-    // direction, parts those, so that only crossings of an edge with a face remain to be looked for.
+    // Equal bodies side by side have planes in common. A shift far smaller than the margins, in an arbitrary
+    // direction, separates them, so that only crossings of an edge with a face remain to be found.
     const Vector3d shift = 0.1 * std::min(a.margin, b.margin) * Vector3d(0.6177, 0.5371, 0.5743);
     struct Crossing {
         const Surface& a;
@@ -287,7 +287,7 @@ bool overlap(const Body& a_body, const Body& b_body) {
     Crossing crossing{a, b, shift};
     Eigen::BVIntersect(a.tree, b.tree, crossing);
     if (crossing.found) return true;
-    // No surface crosses the other: each connected part is inside as a whole, or outside.
+    // Neither surface crosses the other, so each connected part is entirely inside or entirely outside.
     return std::ranges::any_of(a.parts, [&](std::uint32_t v) { return b.contains(a.position[v] - shift); }) ||
            std::ranges::any_of(b.parts, [&](std::uint32_t v) { return a.contains(b.position[v] + shift); });
 }

@@ -30,7 +30,7 @@ bool share_space(const Box& a, const Box& b) {
            along(a.low.z, a.high.z, b.low.z, b.high.z);
 }
 
-/// Collects what meets a box.
+/// Collects what intersects a box.
 template <class Test>
 struct Collector {
     AlignedBox where;
@@ -40,7 +40,7 @@ struct Collector {
     bool intersectVolume(const AlignedBox& volume) const { return volume.intersects(where); }
     bool intersectObject(std::uint32_t box) {
         if (test(box)) found.push_back(box);
-        return false;  // go on
+        return false;  // continue the search
     }
 };
 

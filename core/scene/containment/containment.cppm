@@ -1,4 +1,3 @@
-// Containment and overlap tests.
 module;
 
 #include "candela/api.h"
@@ -15,7 +14,7 @@ import candela.math;
 
 export namespace candela {
 
-/// An axis-aligned box; low > high where it is empty.
+/// An axis-aligned box; low > high if it is empty.
 struct Box {
     Vec3 low;
     Vec3 high;
@@ -29,27 +28,26 @@ struct Box {
 
 CANDELA_API Box box_around(ConstVec3Span position, std::size_t count);
 
-/// The space that a surface of triangles encloses. Immutable; any thread.
+/// The space enclosed by a surface of triangles. Immutable; any thread.
 ///
-/// Bodies that touch share no space, and floats round: so the surface is drawn inwards by a
-/// hundred-thousandth of the body's size (less for thin ones) before anything is asked of it.
+/// Touching bodies do not overlap, and floats round, so the surface is shrunk by a hundred-thousandth of the
+/// body's size (less for thin ones) before any query.
 class CANDELA_API Body {
   public:
-    /// Corners run counter-clockwise seen from outside; where a closed surface has it the other way round,
-    /// that is noticed. `closed`: each edge lies between two triangles.
+    /// Triangles are counter-clockwise seen from outside; a closed surface with the opposite orientation is
+    /// detected. `closed`: each edge is shared by two triangles.
     Body(ConstVec3Span position, std::size_t vertex_count, std::span<const std::uint32_t> indices,
          bool closed);
     Body(Body&&) noexcept;
     Body& operator=(Body&&) noexcept;
     ~Body();
 
-    /// Whether `point` is inside: the winding number is not zero; of a surface that is not closed, whether
-    /// more than half of what is seen from the point is the surface's inside (Jacobson, Kavan,
-    /// Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized winding numbers", section
-    /// 3).
+    /// Whether `point` is inside: the winding number is not zero or, for an open surface, more than half of
+    /// the full solid angle shows the surface's inside (Jacobson, Kavan, Sorkine-Hornung 2013, "Robust
+    /// inside-outside segmentation using generalized winding numbers", section 3).
     bool contains(Vec3 point) const;
 
-    /// Whether two bodies share space: their surfaces cross, or a part of one is inside the other.
+    /// Whether two bodies overlap: their surfaces cross, or a part of one is inside the other.
     friend CANDELA_API bool overlap(const Body& a, const Body& b);
 
   private:
@@ -59,7 +57,7 @@ class CANDELA_API Body {
 
 CANDELA_API bool overlap(const Body& a, const Body& b);
 
-/// Which of many boxes meet.
+/// Finds the boxes that intersect, out of many.
 class CANDELA_API BoxTree {
   public:
     explicit BoxTree(std::vector<Box> boxes);
@@ -67,10 +65,9 @@ class CANDELA_API BoxTree {
     BoxTree& operator=(BoxTree&&) noexcept;
     ~BoxTree();
 
-    /// The boxes that hold `point`, in ascending order.
+    /// The boxes that contain `point`, in ascending order.
     std::vector<std::size_t> at(Vec3 point) const;
-    /// The boxes, other than `box` itself, that share space with it, in ascending order; those that only
-    /// touch do not.
+    /// The boxes, other than `box` itself, that overlap it, in ascending order; touching does not count.
     std::vector<std::size_t> meeting(std::size_t box) const;
 
   private:

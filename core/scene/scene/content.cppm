@@ -30,10 +30,10 @@ struct Observer {
     Vec3 up{0, 1, 0};
     Projection projection = Projection::perspective;
     float fov = 40;    // perspective: full vertical angle, degrees
-    float height = 4;  // orthographic: metres that fit the picture's height
+    float height = 4;  // orthographic: height of the view, metres
     SourcePlace position_place{};
 
-    /// Wherever it stands in its file.
+    /// Ignores where it is in its file.
     friend inline bool operator==(const Observer& a, const Observer& b) {
         return a.position == b.position && a.look_at == b.look_at && a.up == b.up &&
                a.projection == b.projection && a.fov == b.fov && a.height == b.height;
@@ -45,11 +45,11 @@ struct ImageSettings {
     int height = 512;
     int samples = 1;
     Vec3 background;            // 0-255
-    std::string environment{};  // absolute path of an equirectangular map; empty: the background
+    std::string environment{};  // absolute path of an equirectangular environment map; empty: the background
     SourcePlace environment_place{};
     ColorEncoding color_management = ColorEncoding::srgb;
 
-    /// Wherever it stands in its file.
+    /// Ignores where it is in its file.
     friend inline bool operator==(const ImageSettings& a, const ImageSettings& b) {
         return a.width == b.width && a.height == b.height && a.samples == b.samples &&
                a.background == b.background && a.environment == b.environment &&
@@ -57,7 +57,7 @@ struct ImageSettings {
     }
 };
 
-/// A plugin, and values for its parameters.
+/// A plugin with values for its parameters.
 struct Model {
     std::string name;
     ParamSet parameters;
@@ -66,12 +66,12 @@ struct Model {
 };
 
 struct LightSource {
-    std::string label;  // 'lamp', as the scene's author calls it, or number 2
+    std::string label;  // 'lamp', as the scene's author calls it, or an index
     Model model;
     SourcePlace place;
     SourcePlace position_place{};  // of its 'position', or of the whole light
 
-    /// Wherever they stand in their files.
+    /// Ignores where they are in their files.
     friend inline bool operator==(const LightSource& a, const LightSource& b) {
         return a.label == b.label && a.model == b.model;
     }
@@ -87,15 +87,15 @@ struct Object {
     SourcePlace place;
     SourcePlace position_place{};  // of its 'position', or of the whole object
 
-    /// Wherever they stand in their files.
+    /// Ignores where they are in their files.
     friend inline bool operator==(const Object& a, const Object& b) {
         return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
                a.shading == b.shading && a.reflection == b.reflection;
     }
 };
 
-/// Every value has been checked; every plugin named is installed (none is loaded). Containment and
-/// overlap, which need triangles, are checked later: candela.constraints.
+/// Every value has been checked; every plugin named is installed (none is loaded). Constraints that only
+/// triangles can decide come later: candela.constraints.
 struct Scene {
     Room room;
     Observer observer;

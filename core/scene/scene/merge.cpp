@@ -1,4 +1,3 @@
-// Several files, what they include, and the settings of the command line, as one document.
 module;
 
 #include <fmt/format.h>
@@ -34,7 +33,7 @@ std::string place_text(const SourcePlace& place) {
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
-// Far beyond what people write; a program that writes scenes may go wrong.
+// Far beyond what people write, but a program that writes scenes may go wrong.
 constexpr int k_deepest_include = 32;
 constexpr std::size_t k_most_files = 1000;
 constexpr std::size_t k_most_lights_or_objects = 100'000;
@@ -148,13 +147,13 @@ class Gatherer {
     Diagnostics& diagnostics_;
     TableNode root_;
     std::unordered_map<std::string, std::size_t> index_;  // of the root's keys
-    std::map<fs::path, bool> files_;                      // whether it is being read
+    std::map<fs::path, bool> files_;                      // whether it is currently being read
     ReadingLimits left_;
     int depth_ = 0;
     bool too_many_files_ = false;
 };
 
-/// A setting's path, cut at its dots; "quoted parts" may hold dots.
+/// A setting's path, split at its dots; "quoted parts" may contain dots.
 std::vector<std::string> parts_of(std::string_view path) {
     std::vector<std::string> parts(1);
     bool quoted = false;
@@ -170,7 +169,6 @@ std::vector<std::string> parts_of(std::string_view path) {
     return parts;
 }
 
-/// Applies one setting.
 class Setter {
   public:
     Setter(const Setting& setting, TableNode& root, Diagnostics& diagnostics)
@@ -216,7 +214,7 @@ class Setter {
         return table;
     }
 
-    /// The light or object of that name, or of that number from 0.
+    /// The light or object with that name, or with that index from 0.
     TableNode* element(const std::string& kind, const std::string& which) {
         TableNode::Entry* const entry = root_.find(kind);
         ArrayNode* const all = entry != nullptr ? entry->node.array() : nullptr;
@@ -262,7 +260,7 @@ std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagn
         merged.place.file = request.files.front().string();
         for (const fs::path& file : request.files) gatherer.add_file(file, nullptr);
     }
-    // What cannot be read would only bring forth a heap of errors about what seems to be missing.
+    // A file that cannot be read would only cause errors about what seems to be missing.
     if (diagnostics.has_errors()) return std::nullopt;
     merged.root = gatherer.take();
     report_too_many(merged.root, diagnostics);

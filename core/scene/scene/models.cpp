@@ -1,4 +1,3 @@
-// Which shading and which reflection model each object gets.
 module;
 
 #include <fmt/format.h>
@@ -46,7 +45,7 @@ ModelChooser::ModelChooser(const SceneRequest& request, SceneTables& tables)
     if (reflection_) tables.known(PluginKind::reflection, reflection_->name, reflection_->place);
 }
 
-/// By a setting, or by the `model` of a table.
+/// The model named by a setting, or by the `model` of a table.
 std::optional<ModelChooser::Named> ModelChooser::named(const std::string& table_name,
                                                        const std::optional<ModelSetting>& setting) {
     if (setting) return Named{setting->name, {setting->origin, 0, 0, 0}};
@@ -58,7 +57,8 @@ std::optional<ModelChooser::Named> ModelChooser::named(const std::string& table_
     return Named{text(values, "model"), table->find("model")->node.place};
 }
 
-/// By an object itself, unless a setting overrides it. That the value is a text is checked with the object.
+/// The model named by the object itself, unless a setting overrides it. That the value is a string is checked
+/// with the object.
 std::optional<ModelChooser::Named> ModelChooser::named_by(const TableNode& object, const std::string& key,
                                                           const std::optional<ModelSetting>& setting) const {
     const TableNode::Entry* const entry = object.find(key);
@@ -67,7 +67,7 @@ std::optional<ModelChooser::Named> ModelChooser::named_by(const TableNode& objec
     return name != nullptr ? std::optional(Named{*name, entry->node.place}) : std::nullopt;
 }
 
-/// Whether a table that names a model is missing, and some object needs it.
+/// Whether a table that names a model is missing although some object needs it.
 bool ModelChooser::is_missing(const std::string& table) const {
     const TableNode::Entry* const objects = tables_.root().find("object");
     if (tables_.root().find(table) != nullptr || objects == nullptr || objects->node.array() == nullptr)
@@ -88,7 +88,7 @@ void ModelChooser::use_defaults_if_agreed() {
     if (no_shading) defaults.push_back(fmt::format("{} shading", k_default_shading));
     if (no_reflection) defaults.push_back(fmt::format("{} reflection", k_default_reflection));
     const std::string both = fmt::format("{}", fmt::join(defaults, " and "));
-    // A scene that is wrong already is not worth a question.
+    // Do not ask about a scene that is already wrong.
     const bool agreed =
         request_.use_defaults ||
         (request_.ask && (tables_.diagnostics().has_errors() ||
@@ -102,7 +102,7 @@ void ModelChooser::use_defaults_if_agreed() {
     if (no_reflection) reflection_ = Named{k_default_reflection, tables_.whole()};
 }
 
-/// [shading] also holds the parameters of its model.
+/// [shading] also contains the parameters of its model.
 void ModelChooser::read_shading_table() {
     if (!shading_) return;
     const PluginFile* const plugin = tables_.known(PluginKind::shading, shading_->name, shading_->place);
@@ -120,7 +120,7 @@ Model ModelChooser::shading_for(const TableNode& object) {
         const PluginFile* const plugin = tables_.known(PluginKind::shading, own->name, own->place);
         return plugin != nullptr ? Model{own->name, ParamSet(plugin->schema)} : Model{};
     }
-    // A model that is not installed has been reported with [shading].
+    // A missing model has been reported with [shading].
     const PluginFile* const plugin =
         shading_ ? tables_.registry().find(PluginKind::shading, shading_->name) : nullptr;
     if (plugin == nullptr) return {};
@@ -140,7 +140,7 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
     const auto own = named_by(object, "reflection", request_.reflection);
     const auto& model = own ? own : reflection_;
     if (!model) return {};
-    // A model that is not installed has been reported with [reflection], if it stands there.
+    // A missing model has been reported with [reflection], if it is named there.
     const PluginFile* const plugin = own ? tables_.known(PluginKind::reflection, own->name, own->place)
                                          : tables_.registry().find(PluginKind::reflection, model->name);
     if (plugin == nullptr) return {};
@@ -152,8 +152,8 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
     return {model->name, tables_.read_plugin(material, *plugin, context)};
 }
 
-/// With a reflection model set for all objects, a material written for another model is no mistake: what the
-/// model in use does not know is left out.
+/// With a reflection model set for all objects, a material written for another model is not an error: keys
+/// unknown to the model in use are ignored.
 void ModelChooser::report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
                                                 const TableContext& context) {
     const std::vector<std::string> known_keys = names_in(plugin.manifest.parameters);

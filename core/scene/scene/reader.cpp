@@ -1,4 +1,3 @@
-// From one document to a checked scene.
 module;
 
 #include <fmt/format.h>
@@ -61,7 +60,7 @@ class Reader {
     }
 
   private:
-    /// Whether `read` comes upon no error.
+    /// Whether `read` encounters no error.
     template <class Read>
     bool is_clean(Read read) const {
         const std::size_t before = diagnostics_.error_count();
@@ -83,9 +82,8 @@ class Reader {
         }
         const auto* const number = std::get_if<std::int64_t>(&version->node.value);
         if (number == nullptr) {
-            diagnostics_.error(
-                version->node.place,
-                fmt::format("'version' is {}; expected the whole number 1", description(version->node)));
+            diagnostics_.error(version->node.place, fmt::format("'version' is {}; expected the integer 1",
+                                                                description(version->node)));
         } else if (*number != 1) {
             diagnostics_.error(
                 version->node.place,
@@ -107,7 +105,8 @@ class Reader {
         }
         const ParamSet values = tables_.read_plain("observer");
         Observer& observer = scene_.observer;
-        // A unit vector stays as it is, to the last bit, so that a scene that was written is read as it was.
+        // A unit vector stays unchanged to the last bit, so that a scene that was written is read back as it
+        // was.
         const Vec3 up = vector(values, "up");
         observer.up = std::abs(length(up) - 1) < 1e-6f ? up : normalized(up);
         observer.projection =
@@ -122,7 +121,7 @@ class Reader {
         check_view(*table);
     }
 
-    /// Whether the observer sees something definite.
+    /// Whether the observer's view is well defined.
     void check_view(const TableNode& table) {
         const Observer& observer = scene_.observer;
         const SourcePlace& look_at = table.find("look_at")->node.place;
@@ -178,7 +177,7 @@ class Reader {
         for (std::size_t i = 0; i < all->size(); ++i) visit(*(*all)[i].table(), (*all)[i].place, i);
     }
 
-    /// The name of a light or object for messages; reports where another of its kind has it.
+    /// The name of a light or object for messages; reports a name that is already taken.
     std::string label_of(const std::string& kind, const TableNode& table, std::size_t index) {
         const TableNode::Entry* const entry = table.find("name");
         const auto* const name = entry != nullptr ? std::get_if<std::string>(&entry->node.value) : nullptr;
@@ -192,7 +191,7 @@ class Reader {
         return fmt::format("'{}'", shortened(*name));
     }
 
-    /// A plugin named by `type`, with its parameters, which stand beside the table's own keys.
+    /// A plugin named by `type` with its parameters, which are beside the table's own keys.
     std::optional<Model> read_typed(const std::string& table_name, PluginKind kind, const TableNode& table,
                                     const ParamSet& own, TableContext context,
                                     std::vector<std::string> more_keys) {

@@ -15,7 +15,7 @@ export namespace candela {
 struct Setting {
     std::string origin;  // who says so, for diagnostics: "--width"
     std::string path;    // "image.width", "light.lamp.intensity", "object.0.material.kd"
-    std::string value;   // as it would stand in the file; bare words are strings
+    std::string value;   // as it would be written in the file; bare words are strings
 };
 
 /// The name of a plugin given beside the files; it overrides what they say.
@@ -29,8 +29,8 @@ struct SceneRequest {
     std::vector<Setting> settings;
     std::optional<ModelSetting> shading;                   // of every object
     std::optional<ModelSetting> reflection;                // likewise
-    bool use_defaults = false;                             // where no shading or reflection model is named
-    std::function<bool(const std::string& question)> ask;  // asked instead of failing then; may be empty
+    bool use_defaults = false;                             // if no shading or reflection model is named
+    std::function<bool(const std::string& question)> ask;  // called instead of failing then; may be empty
 };
 
 }  // namespace candela

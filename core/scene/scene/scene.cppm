@@ -1,4 +1,4 @@
-// A scene: read from files, checked, immutable.
+// A scene: read from files, validated, immutable.
 module;
 
 #include "candela/api.h"
@@ -18,26 +18,26 @@ import candela.registry;
 
 export namespace candela {
 
-/// A scene as far as it was understood, so that what remains can be checked, too.
+/// A scene as far as it was understood, so that the rest can be checked as well.
 struct SceneDraft {
-    Scene scene;  // without the lights and objects in which there were errors
+    Scene scene;  // without the lights and objects that have errors
     bool has_room = true;
     bool has_observer = true;
     bool is_complete = true;  // there were no errors
 };
 
-/// Reads, merges and checks. Reports all that is wrong; returns nothing where a file cannot be read as TOML.
+/// Reads, merges and validates. Reports all problems; returns nothing if a file cannot be read as TOML.
 CANDELA_API std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
                                                   Diagnostics& diagnostics);
 
-/// The same; returns the scene if nothing but warnings were found.
+/// Same, but returns the scene only if nothing worse than warnings was found.
 CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
                                             Diagnostics& diagnostics);
 
-/// A scene as one file; read again, it is the same scene. All that a scene holds is said, defaults too, and
-/// the paths of files are absolute. Throws Error (failure) where the format has no words for a scene that no
-/// file has brought about: texts that are not UTF-8, colours between whole numbers, labels that are no names
-/// in quotes, parameters of shading models that differ from object to object.
+/// A scene as one file, which reads back as the same scene: all defaults filled in, absolute paths. Throws
+/// Error (failure) if the format cannot express a scene that did not come from a file: texts that are not
+/// UTF-8, fractional colours, labels that are not quoted names, shading parameters that differ between
+/// objects.
 CANDELA_API std::string scene_text(const Scene& scene);
 
 /// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection

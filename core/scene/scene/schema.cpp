@@ -1,4 +1,4 @@
-// The scene file's own keys, typed in the same way as the parameters of plugins.
+// The scene file's own keys, typed in the same way as plugins' parameters.
 module;
 
 #include <array>
@@ -31,12 +31,12 @@ constexpr const char* k_versions[] = {"1"};
 constexpr ParamSpec k_top[] = {
     {.name = "version",
      .type = Type::integer,
-     .meaning = "of the scene file's format; required, once over all files",
+     .meaning = "of the scene file's format; required, exactly once over all files",
      .required = true,
      .choices = k_versions},
     {.name = "include",
      .type = Type::file,
-     .meaning = "files that are read as if they stood here; relative to this one, none of them twice"},
+     .meaning = "files included here; relative to this one, each at most once"},
 };
 constexpr ParamSpec k_room[] = {
     {.name = "height",
@@ -67,13 +67,16 @@ constexpr ParamSpec k_observer[] = {
     {.name = "look_at",
      .type = Type::point,
      .unit = "m",
-     .meaning = "the point in the middle of the picture",
+     .meaning = "the point at the centre of the picture",
      .required = true},
     {.name = "up",
      .type = Type::direction,
-     .meaning = "what is up in the picture",
+     .meaning = "the up direction of the picture",
      .default_value = {{0, 1, 0}}},
-    {.name = "projection", .type = Type::choice, .meaning = "how distance shows", .choices = k_projections},
+    {.name = "projection",
+     .type = Type::choice,
+     .meaning = "perspective or orthographic projection",
+     .choices = k_projections},
     {.name = "fov",
      .unit = "deg",
      .meaning = "perspective: the full vertical angle of view",
@@ -84,7 +87,7 @@ constexpr ParamSpec k_observer[] = {
      .maximum_excluded = true},
     {.name = "height",
      .unit = "m",
-     .meaning = "orthographic: what fits the picture's height",
+     .meaning = "orthographic: metres that fit the picture's height",
      .default_value = {{4}},
      .minimum = 0,
      .minimum_excluded = true},
@@ -104,7 +107,7 @@ constexpr ParamSpec k_image[] = {
      .maximum = 65536},
     {.name = "samples",
      .type = Type::integer,
-     .meaning = "samples per pixel, against jagged edges",
+     .meaning = "samples per pixel, for anti-aliasing",
      .default_value = {.integer = 1},
      .choices = k_sample_counts},
     {.name = "background",
@@ -113,27 +116,24 @@ constexpr ParamSpec k_image[] = {
      .default_value = {{0, 0, 0}}},
     {.name = "environment",
      .type = Type::file,
-     .meaning = "an equirectangular environment map, seen where there is no object and in mirror reflections "
-                "and refractions; it replaces the background",
+     .meaning = "an equirectangular environment map, seen where there is no object and in objects that "
+                "mirror or refract; replaces background",
      .default_value = {.text = ""}},
     {.name = "color_management",
      .type = Type::choice,
      .meaning = "\"srgb\": colours are decoded, light is added up in linear light, 8-bit pictures are "
                 "encoded again; "
-                "\"none\": numbers are used as they are",
+                "\"none\": values are used as they are",
      .choices = k_encodings},
 };
 constexpr ParamSpec k_shading[] = {
     {.name = "model",
      .type = Type::text,
-     .meaning = "shading plugin of all objects that name none; its parameters may follow",
+     .meaning = "default shading plugin; its parameters may follow",
      .required = true},
 };
 constexpr ParamSpec k_reflection[] = {
-    {.name = "model",
-     .type = Type::text,
-     .meaning = "reflection plugin of all objects that name none",
-     .required = true},
+    {.name = "model", .type = Type::text, .meaning = "default reflection plugin", .required = true},
 };
 constexpr ParamSpec k_light[] = {
     {.name = "name", .type = Type::text, .meaning = "unique; names it in messages and settings"},
@@ -162,10 +162,8 @@ constexpr ParamSpec k_object[] = {
      .type = Type::color,
      .meaning = "colour of the surface",
      .default_value = {{200, 200, 200}}},
-    {.name = "shading", .type = Type::text, .meaning = "shading plugin, instead of that of [shading]"},
-    {.name = "reflection",
-     .type = Type::text,
-     .meaning = "reflection plugin, instead of that of [reflection]"},
+    {.name = "shading", .type = Type::text, .meaning = "shading plugin; overrides [shading]"},
+    {.name = "reflection", .type = Type::text, .meaning = "reflection plugin; overrides [reflection]"},
 };
 
 TableSchema table(std::string_view name, std::string_view title, std::string_view meaning,
@@ -181,7 +179,7 @@ TableSchema table(std::string_view name, std::string_view title, std::string_vie
 
 const TableSchema& top_schema() {
     static const TableSchema k_table = [] {
-        TableSchema result = table("", "the top of the file", "before all tables", k_top);
+        TableSchema result = table("", "the top of the file", "keys before all tables", k_top);
         result.lists = {"include"};
         return result;
     }();
@@ -190,22 +188,21 @@ const TableSchema& top_schema() {
 
 std::span<const TableSchema> scene_schema() {
     static const std::array k_tables = {
-        table("room", "[room]", "a box around the origin that all things lie in; optional", k_room),
-        table("observer", "[observer]", "who sees the scene; required, once over all files", k_observer),
+        table("room", "[room]", "a box centred on the origin that contains everything; optional", k_room),
+        table("observer", "[observer]", "who sees the scene; required, exactly once over all files",
+              k_observer),
         table("image", "[image]", "the picture; optional", k_image),
         table("shading", "[shading]", "how normals are found; if omitted, Candela asks", k_shading,
               {{"model", PluginKind::shading, ""}}),
         table("reflection", "[reflection]", "how light is reflected; if omitted, Candela asks", k_reflection,
               {{"model", PluginKind::reflection}}),
-        table("light", "[[light]]", "a light; as many as you like", k_light,
-              {{"type", PluginKind::light, ""}}),
-        table(
-            "object", "[[object]]",
-            "an object; as many as you like. [object.material] holds the parameters of its reflection model",
-            k_object,
-            {{"type", PluginKind::shape, ""},
-             {"shading", PluginKind::shading},
-             {"reflection", PluginKind::reflection, "material"}}),
+        table("light", "[[light]]", "a light; any number", k_light, {{"type", PluginKind::light, ""}}),
+        table("object", "[[object]]",
+              "an object; any number. [object.material] holds the parameters of its reflection model",
+              k_object,
+              {{"type", PluginKind::shape, ""},
+               {"shading", PluginKind::shading},
+               {"reflection", PluginKind::reflection, "material"}}),
     };
     return k_tables;
 }

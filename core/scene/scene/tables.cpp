@@ -1,4 +1,3 @@
-// What is asked of all tables of a scene.
 module;
 
 #include <fmt/format.h>
@@ -71,7 +70,7 @@ ParamSet SceneTables::read_plain(const std::string& name) {
     static const TableNode k_empty;
     const TableNode* const table = single(name);
     const std::vector<Parameter>& parameters = schema_of(name).parameters;
-    // What is no table has been reported; that it lacks keys goes without saying.
+    // A value that is not a table has been reported; its missing keys go without saying.
     if (table == nullptr && root_.find(name) != nullptr) return ParamSet(parameters);
     const TableContext context = context_of(name);
     if (table != nullptr) report_unknown_keys(*table, names_in(parameters), context, diagnostics_);
@@ -92,7 +91,7 @@ ParamSet SceneTables::read_plugin(const TableNode& table, const PluginFile& plug
                                   const TableContext& context) {
     const std::size_t before = diagnostics_.error_count();
     ParamSet values = read_parameters(table, plugin.schema, context, diagnostics_);
-    // Where a value was refused its default stands, which nobody chose beside the others.
+    // A rejected value leaves its default, which was not chosen to go with the others.
     if (diagnostics_.error_count() == before)
         check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
     return values;

@@ -1,4 +1,3 @@
-// From a scene back to one file.
 module;
 
 #include <fmt/format.h>
@@ -38,7 +37,7 @@ std::string vector_text(Vec3 v) {
 std::string color_text(Vec3 color) {
     for (const float channel : {color.x, color.y, color.z}) {
         if (channel != std::floor(channel))
-            cannot_say(fmt::format("{} in a colour is no whole number", channel));
+            cannot_say(fmt::format("{} in a colour is not an integer", channel));
     }
     return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", color.x, color.y, color.z);
 }
@@ -54,7 +53,7 @@ std::string value_text(const Value& value, ParamType type) {
     return type == ParamType::color ? color_text(v) : type == ParamType::rgb ? rgb_text(v) : vector_text(v);
 }
 
-/// A label that says a name, not a number, has that name.
+/// The name that a label states, if it is not an index.
 std::optional<std::string> name_of(const std::string& label, std::size_t index) {
     if (label.size() > 2 && label.starts_with('\'') && label.ends_with('\'')) {
         return label.substr(1, label.size() - 2);
@@ -65,7 +64,7 @@ std::optional<std::string> name_of(const std::string& label, std::size_t index) 
     return std::nullopt;
 }
 
-/// Whether the parameters are those of a model that is named and told nothing.
+/// Whether the model has only default parameters.
 bool is_plain(const Model& model) { return model.parameters == ParamSet(model.parameters.schema()); }
 
 /// The model that most objects have, so that few need to name one.
@@ -105,7 +104,7 @@ class Writer {
     void add(std::string_view key, std::string value) {
         entries_.emplace_back(toml_key(key), std::move(value));
     }
-    /// Writes what was added, the equals signs below one another.
+    /// Writes what was added, with the equals signs aligned.
     void end() {
         std::size_t longest = 0;
         for (const auto& [key, value] : entries_) longest = std::max(longest, key.size());
@@ -138,7 +137,7 @@ class Writer {
         add("look_at", vector_text(observer.look_at));
         add("up", vector_text(observer.up));
         add("projection", perspective ? "\"perspective\"" : "\"orthographic\"");
-        // What has no effect draws a warning; but if it was said, it is said again.
+        // A value without effect draws a warning; but if it was set, it is written again.
         if (perspective || observer.fov != standard.fov) add("fov", toml_text(observer.fov));
         if (!perspective || observer.height != standard.height) add("height", toml_text(observer.height));
         end();
@@ -155,8 +154,8 @@ class Writer {
         end();
     }
 
-    /// The model of [shading]. Only there can a file say parameters of a shading model: an object that names
-    /// a model gets it with its defaults.
+    /// The model of [shading]. Only that table can set parameters of a shading model: an object that names a
+    /// model gets its defaults.
     static Model shared_shading(const std::vector<Object>& objects) {
         const Object* told = nullptr;
         for (const Object& object : objects) {
@@ -199,7 +198,7 @@ class Writer {
     }
 
     std::string text_;
-    std::vector<std::pair<std::string, std::string>> entries_;  // of the table that is being written
+    std::vector<std::pair<std::string, std::string>> entries_;  // of the table being written
     Model shading_;
     std::string reflection_;
 };

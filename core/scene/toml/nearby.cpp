@@ -1,4 +1,3 @@
-// Which file was meant.
 module;
 
 #include <fmt/format.h>
@@ -19,7 +18,7 @@ namespace candela {
 
 std::string file_suggestion(const std::filesystem::path& missing) {
     namespace fs = std::filesystem;
-    constexpr std::size_t k_most = 10'000;  // a folder may hold any number
+    constexpr std::size_t k_most = 10'000;  // a folder may contain any number
     const fs::path folder = missing.has_parent_path() ? missing.parent_path() : fs::path(".");
     std::error_code problem;
     if (!fs::is_directory(folder, problem))

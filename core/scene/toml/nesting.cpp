@@ -1,5 +1,5 @@
-// How deep a text nests and how much it holds, found out before a parser, and all that walks its tree, goes
-// down there by recursion.
+// How deep a text nests and how much it contains, determined before a parser, and everything that walks its
+// tree, descends by recursion.
 module;
 
 #include <fmt/format.h>
@@ -18,12 +18,12 @@ namespace candela {
 
 namespace {
 
-/// Far more than any scene has: object.material.kd is three parts long, its value one list deep.
+/// Far more than any scene has: object.material.kd has three parts, and its value is one list deep.
 constexpr int k_most_parts = 32;
 constexpr int k_most_brackets = 32;
 
-/// Goes through a text, over strings and comments. In a text that is no TOML it may take a string for
-/// something else; but only after the place at which the parser stops.
+/// Walks through a text, skipping strings and comments. In invalid TOML it may mistake something for a
+/// string, but only after the position where the parser stops.
 class Scan {
   public:
     Scan(std::string_view text, std::size_t& values_left) : text_(text), values_left_(values_left) {}
@@ -79,7 +79,7 @@ class Scan {
   private:
     void advance(std::size_t count) { at_ = std::min(at_ + count, text_.size()); }
 
-    /// "…", '…', """…""" and '''…'''; only the first and third know escapes.
+    /// "…", '…', """…""" and '''…'''; only the first and third have escapes.
     void skip_string(char quote) {
         const std::string_view three = text_.substr(at_, 3);
         const bool many_lines = three == std::string(3, quote);
@@ -104,7 +104,7 @@ class Scan {
     std::size_t at_ = 0;
     std::size_t& values_left_;
     int brackets_ = 0;
-    int parts_ = 1;  // of the key or value that is being read
+    int parts_ = 1;  // of the key or value being read
 };
 
 }  // namespace

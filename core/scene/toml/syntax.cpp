@@ -20,9 +20,9 @@ namespace candela {
 
 namespace {
 
-/// `while_reading` and `says` are parts of what toml++ says: "Error while parsing <while_reading>: <…says…>".
-/// In `message` and `hint`, {word} is what stands at the problem's place up to the next space or separator,
-/// {found} its first {character} or what else is there, {quoted} what toml++ put in quotes.
+/// `while_reading` and `says` are parts of toml++'s message: "Error while parsing <while_reading>: <…says…>".
+/// In `message` and `hint`, {word} is the text at the problem's position up to the next space or separator,
+/// {found} its first {character} or whatever else is there, {quoted} what toml++ put in quotes.
 struct Rule {
     std::string_view while_reading;
     std::string_view says;
@@ -39,7 +39,7 @@ constexpr std::array k_rules = {
     Rule{"string", "unknown escape sequence", "\\{character} means nothing in a text",
          "a backslash is written \\\\, or the text stands in 'single quotes'"},
     // Numbers and words
-    Rule{"integer", "not representable", "{word} is too large for a whole number",
+    Rule{"integer", "not representable", "{word} is too large for an integer",
          "with a point, as in 1.0e20, it is a real number"},
     Rule{"integer", "leading zeroes", "{word} is no number, because it begins with 0", ""},
     Rule{"integer", "", "{word} is no number", "numbers are written 12, 0.5 or 2e-3, without a unit"},
@@ -98,7 +98,7 @@ std::size_t offset_of(std::string_view line, int column) {
     return at;
 }
 
-/// What a person would take for one word or number around the place.
+/// What a person would take for one word or number around the position.
 std::string word_at(std::string_view line, std::size_t at) {
     const auto ends = [](char c) {
         return std::string_view(" \t,=[]{}#\"").find(c) != std::string_view::npos;
@@ -111,7 +111,7 @@ std::string word_at(std::string_view line, std::size_t at) {
     return begin == end ? "this" : quoted(line.substr(begin, end - begin));
 }
 
-/// What toml++ itself puts into quotes; the last such.
+/// The last text that toml++ itself put in quotes.
 std::string quoted_in(std::string_view description) {
     const std::size_t end = description.rfind('\'');
     const std::size_t begin =

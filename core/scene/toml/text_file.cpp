@@ -1,4 +1,3 @@
-// The text of a file, or why there is none.
 module;
 
 #include <fcntl.h>
@@ -31,7 +30,7 @@ namespace fs = std::filesystem;
 class Descriptor {
   public:
     explicit Descriptor(const fs::path& file)
-        // What a file turns into after it was looked at, such as a pipe, must not keep us waiting.
+        // A file that is replaced after the check, for instance by a pipe, must not block.
         : number_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {}
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
@@ -40,7 +39,7 @@ class Descriptor {
     }
     bool is_open() const { return number_ >= 0; }
 
-    /// All that is there; a little more than `most` where there is more. Nothing, and errno, on failure.
+    /// The whole file, or slightly more than `most` if it is larger. Nothing, with errno, on failure.
     std::optional<std::string> read(std::uintmax_t most) const {
         std::string text;
         std::array<char, 65536> part;
@@ -106,10 +105,10 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
         return fail(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
     auto text = descriptor.read(bytes_left);
     if (!text) return fail(fmt::format("the file cannot be read: {}", std::strerror(errno)));
-    // Some files, as those of /proc, do not know their size.
+    // Some files, such as those in /proc, report no size.
     if (text->size() > bytes_left) return too_large(fmt::format("more than {}", bytes_left));
     bytes_left -= text->size();
-    // Columns count what is to be seen; a byte-order mark is not.
+    // Columns count what is visible, which a byte-order mark is not.
     if (text->starts_with("\xef\xbb\xbf")) text->erase(0, 3);
     if (text->find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");
     if (is_utf16(*text)) return no_scene("the file's text is UTF-16; a scene is UTF-8", "save it as UTF-8");

@@ -72,7 +72,6 @@ Node plain(const toml::node& node, const std::string& file) {
     return result;
 }
 
-/// The line of a place.
 std::string_view line_of(std::string_view text, int number) {
     for (; number > 1 && !text.empty(); --number) {
         const std::size_t end = text.find('\n');
@@ -87,13 +86,13 @@ void report(const toml::parse_error& problem, std::string_view text, const std::
             Diagnostics& diagnostics) {
     SourcePlace place = place_of(problem.source(), shown_name);
     const std::string_view line = line_of(text, place.line);
-    // At the end of the file toml++ counts the last line's end as a character.
+    // At the end of the file toml++ counts the last line ending as a character.
     place.column = std::min(place.column, 1 + static_cast<int>(character_count(line)));
     SyntaxProblem said = syntax_problem(problem.description(), line, place.column);
     diagnostics.error(std::move(place), std::move(said.message), std::move(said.hint));
 }
 
-/// Whether toml++ may see the text at all; reports where not.
+/// Whether toml++ can parse the text safely; reports if not.
 bool can_be_parsed(std::string_view text, const std::string& shown_name, std::size_t& values_left,
                    Diagnostics& diagnostics) {
     if (const auto invalid = first_invalid_byte(text)) {
@@ -104,7 +103,7 @@ bool can_be_parsed(std::string_view text, const std::string& shown_name, std::si
     const auto excess = first_excess(text, values_left);
     if (!excess) return true;
     const SourcePlace place = place_at(text, excess->offset, shown_name);
-    // It may be too deep only because a bracket was not closed before.
+    // It may be too deep only because an earlier bracket was not closed.
     constexpr std::size_t k_worth_parsing = 1u << 20;
     try {
         if (excess->offset < k_worth_parsing) {
@@ -138,7 +137,7 @@ TableNode::Entry* TableNode::find(std::string_view key) {
 std::string description(const Node& node) {
     struct Describer {
         std::string operator()(bool b) const { return b ? "true" : "false"; }
-        std::string operator()(std::int64_t i) const { return fmt::format("the whole number {}", i); }
+        std::string operator()(std::int64_t i) const { return fmt::format("the integer {}", i); }
         std::string operator()(double d) const { return fmt::format("the number {}", d); }
         std::string operator()(const std::string& s) const {
             return fmt::format("a string, \"{}\"", shortened(s));

@@ -1,4 +1,4 @@
-// TOML as a tree of plain values, each with its place in its file.
+// TOML as a tree of plain values, each with its position in its file.
 module;
 
 #include "candela/api.h"
@@ -21,7 +21,7 @@ export namespace candela {
 
 struct Node;
 
-/// Entries in the order in which they stand in the file; no key twice.
+/// Entries in file order; keys are unique.
 struct TableNode {
     struct Entry;
     std::vector<Entry> entries;
@@ -51,11 +51,11 @@ struct TableNode::Entry {
     Node node;
 };
 
-/// What a value is, to a person: `a string, "red"`, "the number 0.5", "a table".
+/// A value described for people: `a string, "red"`, "the number 0.5", "a table".
 CANDELA_API std::string description(const Node& node);
 
-/// What the files of one scene may be together: far more than anybody writes, but a wrong file named by
-/// mistake may be anything, and a tree of values takes a hundred times a text's memory.
+/// Limits on the files of one scene together: far more than anybody writes, but a file named by mistake may
+/// be anything, and a tree of values takes a hundred times the memory of its text.
 struct ReadingLimits {
     std::uintmax_t bytes = k_most_bytes;
     std::size_t values = k_most_values;
@@ -64,27 +64,25 @@ struct ReadingLimits {
     static constexpr std::size_t k_most_values = 5'000'000;  // counted by their separators
 };
 
-/// Reads and parses a file. Reports what is wrong (R11: each way of not being readable has its own message)
-/// and returns nothing then. `shown_name` is how the file is called in diagnostics. A file beyond `left` is
-/// refused; else what it holds is taken off.
+/// Reads and parses a file. Reports problems (R11: each way of being unreadable has its own message) and then
+/// returns nothing. `shown_name` is the file's name in diagnostics. A file that exceeds `left` is refused;
+/// otherwise its size is subtracted.
 CANDELA_API std::optional<TableNode> read_document(const std::filesystem::path& file,
                                                    const std::string& shown_name, ReadingLimits& left,
                                                    Diagnostics& diagnostics);
 
-/// "did you mean 'scene.toml'?", from what lies where `missing` does not; or empty.
+/// "did you mean 'scene.toml'?", from the files where `missing` is not; or empty.
 CANDELA_API std::string file_suggestion(const std::filesystem::path& missing);
 
-/// Parses a text.
 CANDELA_API std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
                                                     Diagnostics& diagnostics);
 
-/// A value as it stands after a `=`; bare words are strings. Reports what is wrong, at `place`.
+/// A value as it is written after a `=`; bare words are strings. Reports problems at `place`.
 CANDELA_API std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
                                             Diagnostics& diagnostics);
 
-/// Values as TOML says them: a text in double quotes, with escapes (throws Error where it is not UTF-8); a
-/// number in as few digits as read back as the same number (throws Error where it is not finite); a key, in
-/// quotes if need be.
+/// Values as TOML: a string in double quotes, with escapes (throws Error if it is not UTF-8); a number in as
+/// few digits as read back as the same number (throws Error if it is not finite); a key, quoted if necessary.
 CANDELA_API std::string toml_text(std::string_view text);
 CANDELA_API std::string toml_text(double x);
 CANDELA_API std::string toml_text(float x);

@@ -1,6 +1,6 @@
-// toml++ 3.3, without what it promises the optimiser and does not keep: that "[!x]" begins with a key, and
-// that "é" outside of quotes, or after a line's end in a text, does not exist. Without these promises it
-// reports the one as an error and reads the other, as it should.
+// toml++ 3.3, without the promises that it makes to the optimiser and does not keep: that "[!x]" begins with
+// a key, and that "é" outside of quotes, or after a line ending in a text, does not occur. Without them it
+// reports the former as an error and reads the latter, as it should.
 #pragma once
 
 #include <toml++/impl/preprocessor.h>
@@ -10,7 +10,7 @@
 #define TOML_ASSERT(condition) static_assert(true)
 #define TOML_ASSERT_ASSUME(condition) static_assert(true)
 
-// The questions in this header ("is it a space?") have the answer no where it says that they are not asked.
+// The predicates in this header ("is it a space?") return false where they claim to be unreachable.
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false

@@ -1,4 +1,3 @@
-// Values as TOML.
 module;
 
 #include <fmt/format.h>
@@ -42,7 +41,7 @@ std::string escaped(char c) {
     }
 }
 
-/// 2 would be a whole number.
+/// 2 would be an integer.
 std::string as_real(std::string digits) {
     return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
 }
@@ -72,7 +71,7 @@ std::string toml_text(double x) {
 std::string toml_text(float x) {
     require_finite(static_cast<double>(x));
     const std::string digits = fmt::format("{}", x);
-    // TOML's numbers are doubles: in rare cases, rounding twice leads to the float's neighbour.
+    // TOML's numbers are doubles: in rare cases, rounding twice yields the float's neighbour.
     double read = 0;
     std::from_chars(digits.data(), digits.data() + digits.size(), read);
     return static_cast<float>(read) == x ? as_real(digits) : toml_text(static_cast<double>(x));

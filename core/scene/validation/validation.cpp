@@ -31,14 +31,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A number; a whole number where only those count.
+/// A number; only an integer if `whole_only`.
 std::optional<double> number(const Node& node, bool whole_only) {
     if (const auto* i = std::get_if<std::int64_t>(&node.value)) return static_cast<double>(*i);
     if (const auto* d = std::get_if<double>(&node.value); d != nullptr && !whole_only) return *d;
     return std::nullopt;
 }
 
-/// Too large for a float becomes infinity, which the range check then reports with the rest.
+/// A value too large for a float becomes infinity, which the range check then reports.
 std::optional<Vec3> three_numbers(const Node& node, bool whole_only) {
     const ArrayNode* const array = node.array();
     if (array == nullptr || array->size() != 3) return std::nullopt;
@@ -79,7 +79,7 @@ std::optional<Value> as_value(const Node& node, const Parameter& p) {
     }
 }
 
-/// What is wrong within a list, when three numbers were expected: "its second value is a string, …".
+/// What is wrong in a list where three numbers were expected: "its second value is a string, …".
 std::string found(const Node& node, const Parameter& p) {
     const ArrayNode* const array = node.array();
     const bool takes_three = p.type >= ParamType::vector;
@@ -97,10 +97,10 @@ std::string joined(const std::string& a, const std::string& b) {
     return a.empty() || b.empty() ? a + b : a + "  " + b;
 }
 
-/// Checks that a file is there; its absolute path.
+/// Checks that a file exists; returns its absolute path.
 std::optional<std::string> existing_file(const std::string& written, const SourcePlace& place,
                                          Diagnostics& diagnostics) {
-    // What comes from the command line (line 0) is relative to where the command runs.
+    // Paths from the command line (line 0) are relative to the working directory.
     const fs::path base = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
     std::error_code problem;
     const fs::path file = fs::absolute(base / written, problem).lexically_normal();

@@ -18,7 +18,7 @@ using namespace candela::sdk;
 
 namespace {
 
-/// A file in memory, which some path leads to: it cannot stay behind.
+/// A file in memory with a path, which cannot be left behind.
 class MemoryFile {
   public:
     MemoryFile() : descriptor_(::memfd_create("candela", MFD_CLOEXEC)) {
@@ -46,8 +46,8 @@ class MemoryFile {
     int descriptor_;
 };
 
-/// All the formats that OpenImageIO writes. Some of its writers insist on a file of their own, so the bytes
-/// take a detour.
+/// All formats that OpenImageIO writes. Some of its writers insist on a file of their own, so the bytes take
+/// a detour.
 class OpenImageIo final : public candela::ImageFormat {
   public:
     explicit OpenImageIo(const NoParams&) {}
@@ -64,7 +64,8 @@ class OpenImageIo final : public candela::ImageFormat {
             spec.attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
         }
         spec.attribute("Software", "Candela");
-        // Left out, some writers put the time of writing there, and no two files of one picture are the same.
+        // If it is missing, some writers insert the current time, and no two files of one picture are the
+        // same.
         spec.attribute("DateTime", "");
         spec.attribute("CompressionQuality", 95);
         const void* const pixels = is_float ? static_cast<const void*>(picture.reals.data())
@@ -83,7 +84,7 @@ class OpenImageIo final : public candela::ImageFormat {
         if (spec.nchannels < 1) throw std::runtime_error("it has no channels");
         const bool is_float = spec.format.is_floating_point();
         const std::span<float> pixels = sink.allocate(spec.width, spec.height, !is_float);
-        // Grey pictures have one channel; what comes after the third is alpha and the like.
+        // Grey pictures have one channel; channels after the third are alpha and the like.
         const int channels = std::min(spec.nchannels, 3);
         std::vector<float> row(static_cast<std::size_t>(spec.width) *
                                static_cast<std::size_t>(spec.nchannels));

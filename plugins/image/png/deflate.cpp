@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Room for what `deflate` makes; not less than the band itself with the frame of stored blocks.
+/// Memory for the output of `deflate`; at least the band itself with the frames of stored blocks.
 class Room {
   public:
     std::span<std::uint8_t> for_band(std::size_t size) {
@@ -33,8 +33,8 @@ class IsalDeflater final : public Deflater {
         const std::span<std::uint8_t> room = room_.for_band(band.size());
         isal_deflate_stateless_init(&stream_);
         stream_.level = 1;
-        // Looks back for runs only. Rows less their neighbours are runs for the most part, and what else
-        // isa-l finds further back costs more bits than it saves: files grow by a tenth to a quarter.
+        // Looks for runs only. Rows minus their neighbours are mostly runs, and other matches that isa-l
+        // finds cost more bits than they save: files grow by a tenth to a quarter.
         stream_.hist_bits = 1;
         stream_.level_buf = workspace_.data();
         stream_.level_buf_size = static_cast<std::uint32_t>(workspace_.size());
@@ -50,14 +50,14 @@ class IsalDeflater final : public Deflater {
 
   private:
     std::vector<std::uint8_t> workspace_ = std::vector<std::uint8_t>(ISAL_DEF_LVL1_SMALL);
-    isal_zstream stream_{};  // isa-l's own initialisation leaves some of it as it is
+    isal_zstream stream_{};  // isa-l's own initialisation leaves parts of it unset
     Room room_;
 };
 
 class ZlibDeflater final : public Deflater {
   public:
     explicit ZlibDeflater(int level) {
-        constexpr int k_raw = -15;  // bits of the window; negative: no frame of zlib's
+        constexpr int k_raw = -15;  // bits of the window; negative: without a zlib header
         if (deflateInit2(&stream_, level, Z_DEFLATED, k_raw, 8, Z_DEFAULT_STRATEGY) != Z_OK)
             throw std::bad_alloc();
     }
@@ -88,7 +88,7 @@ class ZlibDeflater final : public Deflater {
 Deflater::~Deflater() = default;
 
 std::unique_ptr<Deflater> Deflater::create(int compression) {
-    // Up to its third level zlib's files are larger than isa-l's.
+    // Up to level three, zlib's files are larger than isa-l's.
     if (compression >= 1 && compression <= 3) return std::make_unique<IsalDeflater>();
     return std::make_unique<ZlibDeflater>(compression);
 }

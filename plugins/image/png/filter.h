@@ -1,4 +1,4 @@
-// What PNG does to a row before it is compressed.
+// PNG's filters, applied to a row before it is compressed.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 /// Bytes of a pixel: red, green, blue.
 inline constexpr std::size_t k_pixel = 3;
 
-/// Writes a row as the file has it, which is a byte longer: the filter's number, then the row less the pixels
-/// to the left of it or above, whichever leaves more zeros. `above`: a row of the same length; null for the
-/// first.
+/// Writes a row as in the file, one byte longer: the filter's number, then the row minus the pixels to the
+/// left of it or above, whichever leaves more zeros. `above`: a row of the same length; null for the first
+/// row.
 void filter_row(std::span<const std::uint8_t> row, const std::uint8_t* above, std::uint8_t* result);

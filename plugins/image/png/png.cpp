@@ -1,5 +1,5 @@
-// Bands of rows are filtered and compressed by different threads. Where they begin depends on the picture's
-// size alone, so that the file is the same for any number of threads.
+// Bands of rows are filtered and compressed by different threads. Where they begin depends only on the
+// picture's size, so that the file is the same for any number of threads.
 #include <isa-l/igzip_lib.h>
 #include <zlib.h>
 
@@ -25,8 +25,8 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
-constexpr std::size_t k_band = std::size_t{1} << 18;         // of pixels, about; but a row at least
-constexpr std::size_t k_longest_row = std::size_t{1} << 30;  // a band of one row is to fit into a chunk
+constexpr std::size_t k_band = std::size_t{1} << 18;         // of pixels, approximately; at least one row
+constexpr std::size_t k_longest_row = std::size_t{1} << 30;  // a band of one row must fit into a chunk
 constexpr std::uint32_t k_adler_of_nothing = 1;
 
 Bytes big_endian(std::uint32_t value) {
@@ -49,14 +49,13 @@ void append_chunk(Bytes& bytes, std::string_view type, std::initializer_list<Byt
                       crc32(0, &bytes[checked], static_cast<uInt>(bytes.size() - checked)))));
 }
 
-/// What one thread works with.
 struct Tools {
     explicit Tools(int compression) : deflater(Deflater::create(compression)) {}
     std::unique_ptr<Deflater> deflater;
     Bytes filtered;
 };
 
-/// The rows from `begin` to `end`, compressed; and what they add to the checksum of all.
+/// The rows from `begin` to `end`, compressed, and their contribution to the checksum of the whole.
 struct Band {
     std::size_t begin = 0, end = 0;
     Bytes chunk{};
@@ -83,7 +82,7 @@ class Png final : public candela::ImageFormat {
         std::vector<Band> bands(count);
         for (std::size_t i = 0; i < count; ++i)
             bands[i] = {.begin = height * i / count, .end = height * (i + 1) / count};
-        // New memory for each band takes longer to come by than the band to compress.
+        // Allocating memory for each band takes longer than compressing it.
         candela::Pool<Tools> pool;
         const auto make = [&] { return std::make_unique<Tools>(options_.compression); };
         candela::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
@@ -93,7 +92,7 @@ class Png final : public candela::ImageFormat {
         });
 
         Bytes head = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-        const std::array<std::uint8_t, 5> kind = {8, 2, 0, 0, 0};  // bits; red, green, blue; no choices
+        const std::array<std::uint8_t, 5> kind = {8, 2, 0, 0, 0};  // bits; red, green, blue; no options
         append_chunk(head, "IHDR",
                      {big_endian(static_cast<std::uint32_t>(width)),
                       big_endian(static_cast<std::uint32_t>(height)), kind});
@@ -138,7 +137,7 @@ class Png final : public candela::ImageFormat {
 constexpr auto k_fields = fields(
     integer(&PngOptions::compression, "compression", 1, "from 0, none, to 9, smallest file").range(0, 9));
 
-constexpr candela::FileFormat k_formats[] = {{"png", "Portable Network Graphics, 8 bits a channel"}};
+constexpr candela::FileFormat k_formats[] = {{"png", "Portable Network Graphics, 8 bits per channel"}};
 
 }  // namespace
 

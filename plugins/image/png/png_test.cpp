@@ -51,7 +51,8 @@ Picture noise(int width, int height) {
     return picture;
 }
 
-/// Like what is rendered: grows to the right in the upper half and downwards in the lower, with some edges.
+/// Like a rendered picture: increasing to the right in the upper half and downwards in the lower, with some
+/// edges.
 Picture gradient(int width, int height) {
     Picture picture = flat(width, height);
     for (int y = 0; y < height; ++y) {
@@ -75,7 +76,7 @@ Bytes png_of(const Picture& picture, int compression = 1, int threads = 2,
     return memory.bytes;
 }
 
-/// As libpng reads it, without a word of validation_error.
+/// As libpng reads it, without a warning.
 Picture read_by_libpng(const Bytes& file) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -101,7 +102,7 @@ struct Chunk {
     Bytes contents;
 };
 
-/// The chunks behind the signature; each must have the right checksum.
+/// The chunks after the signature; each must have the right checksum.
 std::vector<Chunk> chunks_of(const Bytes& file) {
     std::vector<Chunk> chunks;
     for (std::size_t place = 8; place < file.size();) {
@@ -115,7 +116,7 @@ std::vector<Chunk> chunks_of(const Bytes& file) {
     return chunks;
 }
 
-/// The whole zlib stream must be one, with the right checksum at its end and nothing behind it.
+/// The chunks must contain a single zlib stream, with the right checksum at its end and nothing after it.
 void check_stream(const std::vector<Chunk>& chunks, const Picture& picture) {
     Bytes stream;
     for (const Chunk& chunk : chunks) {
@@ -149,12 +150,12 @@ void check_round_trip(const Picture& picture, int compression) {
     CHECK((back.pixels == picture.pixels));
 }
 
-/// Some are of one band, some of two or more: a band is of about 256 kB, but of one row at least.
+/// Some consist of one band, some of two or more: a band has about 256 kB, but at least one row.
 constexpr std::pair<int, int> k_sizes[] = {{1, 1},       {1, 700},     {700, 1},   {2, 3},
                                            {333, 217},   {256, 341},   {256, 342}, {257, 343},
                                            {1, 100'000}, {100'001, 3}, {641, 479}};
 
-/// A disk with room for so many bytes.
+/// A disk with room for a limited number of bytes.
 class FullDisk final : public candela::ByteSink {
   public:
     explicit FullDisk(std::size_t room) : room_(room) {}

@@ -16,7 +16,7 @@ using namespace candela::sdk;
 
 namespace {
 
-/// The two formats that a dozen lines can write and a few more can read.
+/// The two formats that take a dozen lines to write and a few more to read.
 class Pnm final : public candela::ImageFormat {
   public:
     explicit Pnm(const NoParams&) {}
@@ -29,7 +29,7 @@ class Pnm final : public candela::ImageFormat {
             sink.write(std::as_bytes(picture.bytes));
             return;
         }
-        // The sign of the scale tells the byte order; rows run from the bottom.
+        // The sign of the scale gives the byte order; rows run from the bottom.
         put(sink, "PF\n" + size + (std::endian::native == std::endian::little ? "-1.0\n" : "1.0\n"));
         const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
         for (int y = picture.height - 1; y >= 0; --y) {
@@ -52,11 +52,11 @@ class Pnm final : public candela::ImageFormat {
     }
 
   private:
-    /// What stands between white space; what follows # on a line is a comment.
+    /// The next word between white space; # begins a comment that ends with the line.
     static std::string word(std::istream& file) {
         std::string text;
         while (file >> text && text.starts_with('#')) std::getline(file, text);
-        file.get();  // the one white space after it, which pixels may follow
+        file.get();  // the single white space after it, which pixels may follow
         if (!file) throw std::runtime_error("its header ends too early");
         return text;
     }
@@ -76,7 +76,7 @@ class Pnm final : public candela::ImageFormat {
             throw std::runtime_error("it ends before its last pixel");
     }
 
-    /// One byte a channel up to 255, else two, the larger first.
+    /// One byte per channel up to 255, otherwise two, most significant first.
     static void read_pixmap(std::istream& file, int largest, std::span<float> pixels) {
         const std::size_t size = largest > 255 ? 2 : 1;
         std::vector<char> bytes(size * pixels.size());
@@ -110,7 +110,7 @@ class Pnm final : public candela::ImageFormat {
 };
 
 constexpr candela::FileFormat k_formats[] = {
-    {"ppm", "Portable pixmap, 8 bits a channel, not compressed", candela::PixelType::byte, true},
+    {"ppm", "Portable pixmap, 8 bits per channel, not compressed", candela::PixelType::byte, true},
     {"pfm", "Portable float map", candela::PixelType::real, true}};
 
 }  // namespace

@@ -17,6 +17,6 @@ constexpr auto k_fields = fields(light_color(&AmbientLight::color),
 CANDELA_AMBIENT_LIGHT_PLUGIN(
     ambient, AmbientLight, k_fields,
     {.title = "Ambient light",
-     .summary = "Light from everywhere: it stands for all that other surfaces pass on.",
+     .summary = "Light from everywhere: approximates the light that other surfaces reflect.",
      .formula = "I_ambient = color intensity",
      .reference = "Shreiner, Angel (2012), Interactive computer graphics, 6th edition"})

@@ -13,7 +13,7 @@ constexpr float k_longest = 1000;
 
 constexpr auto k_fields = fields(
     light_color(&DistributedLight::color),
-    light_intensity(&DistributedLight::intensity, "intensity of all of it at one metre, before attenuation")
+    light_intensity(&DistributedLight::intensity, "total intensity at one metre, before attenuation")
         .maximum(1e20f),
     point(&DistributedLight::position, "position", "the middle of the line or rectangle"),
     three(&DistributedLight::edge_u, candela::ParamType::vector, "edge_u", vec3(1.0f, 0.0f, 0.0f),

@@ -139,7 +139,7 @@ TEST_CASE("light/distributed: more samples come nearer to the integral over the 
     struct Receiver {
         Vec3 position, normal;
     };
-    // Below the panel, beside it, near it, and one that sees a part of it only.
+    // Below the panel, beside it, near it, and one that sees only a part of it.
     for (const auto& [position, normal] :
          {Receiver{{0, 0, 0}, {0, 1, 0}}, Receiver{{3, 1, 1}, {-0.8f, 0.6f, 0}},
           Receiver{{0.5f, 1.5f, -0.5f}, {0, 1, 0}}, Receiver{{0.6f, 1.0f, -0.5f}, {1, 0, 0}}}) {

@@ -10,11 +10,11 @@ using namespace candela::sdk;
 namespace {
 
 constexpr auto k_fields = fields(
-    color(&HemisphereLight::sky_color, "sky_color", vec3(255.0f), "what surfaces receive that face up"),
-    color(&HemisphereLight::ground_color, "ground_color", vec3(0.0f), "what surfaces receive that face down"),
+    color(&HemisphereLight::sky_color, "sky_color", vec3(255.0f), "received by surfaces facing up"),
+    color(&HemisphereLight::ground_color, "ground_color", vec3(0.0f), "received by surfaces facing down"),
     light_intensity(&HemisphereLight::intensity, "intensity, the same everywhere"),
     three(&HemisphereLight::up, candela::ParamType::direction, "up", vec3(0.0f, 1.0f, 0.0f),
-          "the way to the sky"));
+          "direction of the sky"));
 
 }  // namespace
 

@@ -21,7 +21,7 @@ std::vector<Vec3> received(const Light& light, const std::vector<Vec3>& normals)
     return result;
 }
 
-/// The share of a matt surface's light that comes from above the horizon, where the whole world is equally
+/// The share of a matt surface's light that comes from above the horizon if the whole world is equally
 /// bright: the integral of max(N.w, 0) / pi over the directions w with w.up > 0, by the midpoint rule.
 double seen_of_the_sky(double angle_to_up) {
     constexpr int k_steps = 600;

@@ -9,16 +9,15 @@ using namespace candela::sdk;
 
 namespace {
 
-constexpr auto k_fields = fields(ambient_coefficient(&AshikhminShirleyMaterial::ka),
-                                 diffuse_coefficient(&AshikhminShirleyMaterial::kd),
-                                 coefficient(&AshikhminShirleyMaterial::ks, "ks", 0.1f,
-                                             "R_s: how much is mirrored where light falls straight on it"),
-                                 real(&AshikhminShirleyMaterial::exponent_u, "exponent_u", 10,
-                                      "the larger, the narrower the highlight along u")
-                                     .range(0, 10000),
-                                 real(&AshikhminShirleyMaterial::exponent_v, "exponent_v", 100,
-                                      "the larger, the narrower the highlight across u")
-                                     .range(0, 10000));
+constexpr auto k_fields = fields(
+    ambient_coefficient(&AshikhminShirleyMaterial::ka), diffuse_coefficient(&AshikhminShirleyMaterial::kd),
+    coefficient(&AshikhminShirleyMaterial::ks, "ks", 0.1f, "R_s: reflectance at normal incidence"),
+    real(&AshikhminShirleyMaterial::exponent_u, "exponent_u", 10,
+         "the larger, the narrower the highlight along u")
+        .range(0, 10000),
+    real(&AshikhminShirleyMaterial::exponent_v, "exponent_v", 100,
+         "the larger, the narrower the highlight across u")
+        .range(0, 10000));
 
 constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}};
 

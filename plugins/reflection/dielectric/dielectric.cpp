@@ -8,16 +8,16 @@ using candela::kernel::DielectricMaterial;
 using namespace candela::sdk;
 
 constexpr auto k_fields = fields(
-    coefficient(&DielectricMaterial::ks, "ks", 1.0f, "how bright lamps are mirrored"),
+    coefficient(&DielectricMaterial::ks, "ks", 1.0f, "brightness of lamp reflections"),
     real(&DielectricMaterial::shininess, "shininess", 400, "the larger, the smaller the image of a lamp")
         .minimum(0),
     real(&DielectricMaterial::ior, "ior", 1.5f, "index of refraction: water 1.33, glass 1.5, diamond 2.42")
         .range(1, 4),
-    real(&DielectricMaterial::depth, "depth", 1, "after which white light has the object's colour")
+    real(&DielectricMaterial::depth, "depth", 1, "distance after which white light has the object's colour")
         .above(0)
         .unit("m"),
     integer(&DielectricMaterial::internal_reflections, "internal_reflections", 4,
-            "how often light is followed that stays within")
+            "number of internal reflections followed")
         .range(0, 16));
 
 CANDELA_REFRACTION_PLUGIN(

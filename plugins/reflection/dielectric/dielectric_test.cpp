@@ -49,8 +49,8 @@ class BallSurroundings final : public candela::Surroundings {
     }
 };
 
-/// A surface that the first ray within meets at a given angle, and no other ray. Only what is looked at
-/// second, where that ray leaves, can be seen.
+/// A surface that only the first ray within meets, at a given angle. Only the second direction looked in,
+/// where that ray leaves, is visible.
 class Wall final : public candela::Surroundings {
   public:
     explicit Wall(double angle) : angle_(angle) {}
@@ -74,7 +74,7 @@ class Wall final : public candela::Surroundings {
     int hits_ = 0;
 };
 
-/// What the observer sees of the ball at the point with normal +z, looking at `angle` to it, from +x.
+/// What the observer sees of the ball at the point with normal +z, looking at `angle` to it from +x.
 Vec3 seen_at(const ReflectionModel& model, double angle, candela::Surroundings& around,
              candela::Rgb color = {1, 1, 1}) {
     float normal[] = {0, 0, 1}, position[] = {0, 0, 1};
@@ -98,7 +98,7 @@ std::unique_ptr<ReflectionModel> dielectric(double ior, std::int64_t internal_re
         "dielectric", {{"ior", ior}, {"internal_reflections", internal_reflections}, {"depth", depth}});
 }
 
-/// The share that is mirrored: only towards the mirror image, which is on the -x side, something is seen.
+/// The mirrored share: something is seen only towards the mirror image, which is on the -x side.
 double mirrored_share(double ior, double angle) {
     BallSurroundings around;
     const Double3 mirror{-std::sin(angle), 0, std::cos(angle)};

@@ -9,11 +9,10 @@ using namespace candela::sdk;
 
 namespace {
 
-constexpr auto k_fields =
-    fields(ambient_coefficient(&HalfLambertMaterial::ka), diffuse_coefficient(&HalfLambertMaterial::kd),
-           real(&HalfLambertMaterial::exponent, "exponent", 2,
-                "n: 2 is the published model, 1 leaves out the square")
-               .minimum(0));
+constexpr auto k_fields = fields(
+    ambient_coefficient(&HalfLambertMaterial::ka), diffuse_coefficient(&HalfLambertMaterial::kd),
+    real(&HalfLambertMaterial::exponent, "exponent", 2, "n: 2 is the published model, 1 omits the square")
+        .minimum(0));
 
 constexpr candela::Property k_properties[] = {{"isotropic"}, {"lights-below-horizon"}};
 

@@ -13,7 +13,7 @@ TEST_CASE("reflection/half-lambert is k_d C_o (N.L / 2 + 1/2)^n on both sides of
             [&](Double3 n, Double3, Double3 l, Double3 color) -> ExactPair {
                 return {0.6 * std::pow(0.5 * dot(n, l) + 0.5, exponent) * color, {}};
             },
-            // At grazing light from behind, the base is a small difference of two numbers near one half.
+            // At grazing light from behind, the base is a small difference of two numbers close to one half.
             exponent * 2e-5);
     }
 }

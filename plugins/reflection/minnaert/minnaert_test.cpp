@@ -17,7 +17,7 @@ TEST_CASE(
             [&](Double3 n, Double3 v, Double3 l, Double3 color) -> ExactPair {
                 const double light = dot(n, l), observer = std::max(dot(n, v), 1e-4);
                 if (light <= 0) return {};
-                // Cosines below 0.0001 count as that.
+                // Cosines are clamped to at least 0.0001.
                 const double factor =
                     light * std::pow(std::max(light, 1e-4), k - 1) * std::pow(observer, k - 1);
                 return {0.8 * factor * color, {}};
@@ -39,8 +39,8 @@ TEST_CASE("reflection/minnaert with k = 1/2 shows the full moon as a disc of eve
 
 TEST_CASE(
     "reflection/minnaert sends 2 (N.V)^(k - 1) / (k + 1) of even light from everywhere to an observer") {
-    // The integral of (N.L)^k / pi over the hemisphere is 2 / (k + 1). Above 1 for k < 1 and a low observer:
-    // not bounded.
+    // The integral of (N.L)^k / pi over the hemisphere is 2 / (k + 1): above 1 for k < 1 and an observer at a
+    // grazing angle, so not bounded.
     for (const double k : {0.5, 1.0, 2.5}) {
         const auto model = instance<ReflectionModel>("minnaert", {{"kd", 1.0}, {"k", k}});
         for (const double cosine : {1.0, 0.5, 0.1}) {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr const char* k_forms[] = {"full", "qualitative", "fujii"};
 
-// Nearer to 1 the published formulas send out more light than they receive: full 5 %, Fujii's 3 %,
-// qualitative 1.5 %.
+// Closer to 1 the published formulas reflect more light than they receive: the full form 5 %, Fujii's 3 %,
+// the qualitative form 1.5 %.
 constexpr float k_largest_kd = 0.95f;
 
 constexpr auto k_fields =

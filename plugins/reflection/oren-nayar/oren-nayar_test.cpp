@@ -57,9 +57,9 @@ std::unique_ptr<ReflectionModel> oren_nayar(const std::string& form, double degr
     return instance<ReflectionModel>("oren-nayar", {{"form", form}, {"sigma", degrees}, {"kd", kd}});
 }
 
-/// What light reflected once, by Lambertian facets in V-shaped grooves that hide and shade one another, comes
-/// to over rho cos(theta_i): the integral (Oren, Nayar 1994) that the full form
-/// approximates. The facets' angles from N are distributed normally.
+/// Light reflected once by Lambertian facets in V-shaped grooves that hide and shade one another, relative to
+/// rho cos(theta_i): the integral (Oren, Nayar 1994) that the full form approximates. The facets' angles from
+/// N are normally distributed.
 double grooves(Double3 v, Double3 l, double sigma) {
     const auto share = [&](Double3 a) { return std::exp(-std::pow(std::acos(a.y) / sigma, 2) / 2); };
     const double sum = over_hemisphere(
@@ -73,7 +73,7 @@ double grooves(Double3 v, Double3 l, double sigma) {
     return sum / over_hemisphere(share, 200) / l.y;
 }
 
-/// What is reflected in the plane of incidence, over that of normal incidence on Lambert's surface.
+/// The reflected light in the plane of incidence, relative to that at normal incidence on Lambert's surface.
 double seen(const ReflectionModel& model, double light_degrees, double observer_degrees) {
     const auto towards = [](double degrees) {
         return Vec3{static_cast<float>(std::sin(degrees * k_pi / 180)),
@@ -96,7 +96,7 @@ TEST_CASE("reflection/oren-nayar is the paper's function of angles, in each form
                 [&](Double3 n, Double3 v, Double3 l, Double3 color) -> ExactPair {
                     const double cosine = dot(n, l);
                     if (cosine <= 0) return {};
-                    // Behind the surface there is no observer; the cosine is held at zero.
+                    // There is no observer behind the surface; the cosine is clamped to zero.
                     const Double3 above = dot(n, v) < 0 ? v - dot(n, v) * n : v;
                     const Angles a = angles_of(n, above, l);
                     const auto channel = [&](double c) {
@@ -151,7 +151,7 @@ TEST_CASE(
 TEST_CASE(
     "reflection/oren-nayar's full form follows the integral over V-shaped grooves that it approximates, to 7 "
     "%") {
-    // A dark surface, whose facets hardly light one another.
+    // A dark surface, where interreflection between facets is negligible.
     constexpr double k_dark = 0.01;
     const auto at = [](double theta, double phi) {
         return Double3{std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
@@ -180,7 +180,7 @@ TEST_CASE(
 
 TEST_CASE(
     "reflection/oren-nayar sends out at most what it receives, even along the surface, and little less") {
-    // The largest sums over light from everywhere are those of surfaces that are a little rough.
+    // Slightly rough surfaces have the largest sums over light from everywhere.
     const auto albedo = [](const std::string& form, double sigma, double degrees) {
         const double theta = degrees * k_pi / 180;
         return directional_albedo(*oren_nayar(form, sigma, 0.95), {static_cast<float>(std::sin(theta)),

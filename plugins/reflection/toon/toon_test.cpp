@@ -47,7 +47,7 @@ TEST_CASE("reflection/toon with two bands changes at 60 degrees, where N.L is 1/
 
 TEST_CASE("reflection/toon's highlight ends where the half vector is `highlight` from N") {
     const auto model = instance<ReflectionModel>("toon", {{"ks", 0.6}, {"highlight", 10.0}});
-    // The half vector halves the angle between light and observer.
+    // The angle to the half vector is half the angle between light and observer.
     CHECK(agree(seen(*model, 50, -30.2).specular, Vec3{0.6f, 0.6f, 0.6f}, 1e-6));
     CHECK(seen(*model, 50, -29.8).specular == Vec3{});
     CHECK(seen(*model, 95, -85).specular == Vec3{});

@@ -19,7 +19,7 @@ constexpr auto k_fields = fields(
     choice(&WardMaterial::form, "form", k_forms,
            "Ward's own, or the one that does not darken at grazing angles and whose energy is bounded"));
 
-// Not "energy-bounded": Ward's own form is not in the last half degree above the surface.
+// Not "energy-bounded": Ward's original form is unbounded in the last half degree above the surface.
 constexpr candela::Property k_properties[] = {{"reciprocal"}};
 
 }  // namespace

@@ -12,8 +12,8 @@ using candela::Vec3;
 
 namespace {
 
-/// A cube with eight vertices whose six faces are cut along one diagonal or the other, as the bits of `cuts`
-/// say.
+/// A cube with eight vertices whose six faces are split along one diagonal or the other, according to the
+/// bits of `cuts`.
 Polyhedron cut_cube(unsigned cuts) {
     Polyhedron cube;
     for (const float x : {-1.0f, 1.0f}) {
@@ -40,7 +40,7 @@ std::vector<Double3> diagonals(const Polyhedron& cube) {
     return result;
 }
 
-/// The corner of a cube whose three faces are cut into 1, 2 and 5 triangles there, in uneven parts.
+/// The corner of a cube whose three faces are split there into 1, 2 and 5 triangles of unequal size.
 Polyhedron uneven_corner() {
     Polyhedron corner;
     corner.position = {{0, 0, 0}};

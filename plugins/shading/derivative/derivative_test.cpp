@@ -102,8 +102,8 @@ Deviation deviation(const Shape& shape, const char* shading, SurfaceNormal exact
     return result;
 }
 
-/// The derivative's mean error must be less than `share` of Phong's, and none where the shape says what they
-/// are.
+/// The derivative's mean error must be less than `share` of Phong's, and zero where the shape states the
+/// derivatives.
 void check_better_than_phong(const Shape& shape, SurfaceNormal exact_normal, double share) {
     const Deviation own = deviation(shape, "derivative", exact_normal);
     const Deviation phong = deviation(shape, "phong", exact_normal);
@@ -147,7 +147,7 @@ TEST_CASE("shading/derivative is the normalised dp/du x dp/dv, on the side of th
             const Vec3 vertex_normal = random.direction();
             const double side = dot(n, exact(vertex_normal));
             if (length(n) < 0.05 || std::abs(side) < 0.01) continue;
-            const float scale = any_length();  // the same for both but for a factor of up to 10
+            const float scale = any_length();  // the same for both, except for a factor of up to 10
             u = scale * u;
             v = static_cast<float>(scale * random.number(0.1, 1)) * v;
             points.push_back({random.direction(), vertex_normal, u, v});
@@ -190,7 +190,7 @@ TEST_CASE("shading/derivative gives cubes and meshes from files the colours of t
     write_file(directory / "tetrahedron.obj",
                "v 0.5 0.5 0.5\nv -0.5 -0.5 0.5\nv -0.5 0.5 -0.5\nv 0.5 -0.5 -0.5\n"
                "f 1 2 4\nf 1 3 2\nf 1 4 3\nf 2 3 4\n");
-    // A distant light and a matt surface: the colour is a matter of the normal alone.
+    // A distant light and a matt surface: the colour depends on the normal alone.
     const fs::path file = write_file(directory / "scene.toml", R"(version = 1
 [observer]
 position = [0.5, 1.2, 3]

@@ -11,8 +11,8 @@ using candela::Vec3;
 
 namespace {
 
-/// A sphere whose vertices are spread unevenly: an octahedron, each face cut into 8 x 8, the vertices pushed
-/// about on the sphere. Its centre is (1, 2, -1), its radius 1.5.
+/// A sphere with unevenly distributed vertices: an octahedron, each face split into 8 x 8, and the vertices
+/// displaced on the sphere. Its centre is (1, 2, -1), its radius 1.5.
 struct IrregularSphere {
     Polyhedron body;
     std::vector<Double3> normal;
@@ -25,8 +25,8 @@ struct IrregularSphere {
                 for (int i = -n; i <= n; ++i) push(sign, i, j, n, random);
             }
         }
-        // A square with corners (+-n, 0), (0, +-n) folded over each half; squares are cut along the lines i +
-        // j or i - j.
+        // A square with corners (+-n, 0), (0, +-n) folded over each half; squares are split along the lines i
+        // + j or i - j.
         for (const int sign : {1, -1}) {
             for (int j = -n; j < n; ++j) {
                 for (int i = -n; i < n; ++i) cut(sign, i, j, n);

@@ -8,8 +8,8 @@ struct CubeShape {
     float size;
 };
 
-/// A cube about the origin. Each face has four vertices of its own, so that every shading model keeps the
-/// edges sharp.
+/// A cube centred on the origin. Each face has four vertices of its own, so that every shading model keeps
+/// the edges sharp.
 class Cube final : public candela::Shape {
   public:
     explicit Cube(const CubeShape& shape) : shape_(shape) {}

@@ -14,7 +14,7 @@ struct Derivatives {
     Vec3 du, dv;
 };
 
-/// Of a triangle with edges `p` and `q` whose texture coordinates change by (pu, pv) and (qu, qv) along them.
+/// For a triangle with edges `p` and `q` along which the texture coordinates change by (pu, pv) and (qu, qv).
 Derivatives of_triangle(Vec3 p, Vec3 q, float pu, float pv, float qu, float qv) {
     const float scale = 1 / (pu * qv - qu * pv);
     return {scale * (qv * p - pv * q), scale * (pu * q - qu * p)};

@@ -5,7 +5,7 @@
 
 import candela.shape;
 
-/// Fills `mesh.dpdu` and `mesh.dpdv` of `vertices` vertices: of each, the mean over its triangles, by area,
-/// of the derivatives along the texture coordinates. Zero where all its triangles have theirs on a line or a
-/// point.
+/// Fills `mesh.dpdu` and `mesh.dpdv` for `vertices` vertices, with the area-weighted mean over each vertex's
+/// triangles of the derivatives with respect to the texture coordinates. Zero if the texture coordinates of
+/// all its triangles are collinear or coincide.
 void derivatives_from_uv(const candela::MeshSpans& mesh, std::size_t vertices);

@@ -33,8 +33,8 @@ std::string lower_extension(const std::filesystem::path& file) {
     return extension;
 }
 
-/// assimp also looks into a file for what its name does not say, with forty readers of which we promise none.
-/// Only the one that the extension names may.
+/// If the extension does not decide, assimp guesses from the content, with forty readers of which we support
+/// none. Only the reader for the extension may be used.
 void keep_one_format(Assimp::Importer& importer, const std::string& file) {
     constexpr std::array<std::string_view, 5> k_extensions = {".obj", ".ply", ".stl", ".gltf", ".glb"};
     const std::string extension = lower_extension(file);
@@ -51,7 +51,7 @@ void keep_one_format(Assimp::Importer& importer, const std::string& file) {
     }
 }
 
-/// assimp 5.2 reads on for ever where a PLY file's header has no end.
+/// assimp 5.2 never stops reading a PLY file whose header has no end.
 void require_end_of_header(const std::string& file) {
     constexpr std::string_view k_end = "end_header";
     constexpr std::size_t k_longest_header = 1 << 20;
@@ -69,7 +69,7 @@ void require_end_of_header(const std::string& file) {
     throw std::runtime_error("'" + file + "' is no PLY file: it has no line 'end_header'");
 }
 
-/// The triangles of a file, its parts put together and its node transformations applied.
+/// The triangles of a file, with its parts joined and its node transformations applied.
 class FileMesh final : public candela::Shape {
   public:
     explicit FileMesh(const MeshShape& shape) : file_(shape.file != nullptr ? shape.file : "") {}
@@ -93,11 +93,11 @@ class FileMesh final : public candela::Shape {
             layout.has_normals = layout.has_normals && part->HasNormals();
             layout.has_uv = layout.has_uv && part->HasTextureCoords(0);
         }
-        // An STL file has normals of facets, not of vertices.
+        // STL files have facet normals, not vertex normals.
         if (lower_extension(file_) == ".stl") layout.has_normals = false;
         layout.has_smooth_groups = !layout.has_normals;
-        // Zero without texture coordinates: then a triangle's edges, which differ from its neighbours', would
-        // be no better as tangents.
+        // Zero without texture coordinates: a triangle's edges, which differ from its neighbours', would make
+        // no better tangents.
         layout.has_derivatives = request.derivatives;
         if (layout.triangles == 0) throw std::runtime_error("'" + file_ + "' has no triangles");
 

@@ -87,7 +87,7 @@ TEST_CASE("shape/mesh reads the formats that it names, by their extension, and n
         CHECK(validation_error(name, triangle).find("extension of a mesh: .obj, .ply, .stl, .gltf or .glb") !=
               std::string::npos);
     }
-    // assimp itself would look into the file, and find a reader for it.
+    // assimp itself would look into the file and find a reader for it.
     const std::string off = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     CHECK_FALSE(validation_error("off.obj", off).empty());
     CHECK_FALSE(validation_error("off.stl", off).empty());
@@ -129,7 +129,7 @@ TEST_CASE("shape/mesh reads PLY, STL and glTF") {
     CHECK(mesh_of(ply).triangle_count() == 1);
     CHECK(mesh_of(gltf).triangle_count() == 1);
     CHECK(mesh_of(gltf).position.span()[0].z == 5);
-    // Facet normals are no vertex normals: where facets touch, the surface is smooth.
+    // Facet normals are not vertex normals: where facets touch, the surface is smooth.
     const Mesh facets = mesh_of(stl);
     CHECK(facets.triangle_count() == 2);
     const float half = 1 / std::sqrt(2.0f);

@@ -6,8 +6,8 @@ namespace {
 
 using candela::Vec3;
 
-/// A ring of a surface of revolution: radius and height, and where the inner control points of a quarter turn
-/// stand (0.56 of the radius, Newell's circle; the knob has a rounder one).
+/// A ring of a surface of revolution: radius and height, and the positions of the inner control points of a
+/// quarter turn (0.56 of the radius, Newell's circle; the knob has a rounder one).
 struct Ring {
     float radius;
     float height;
@@ -57,7 +57,7 @@ Patch quarter_turn(const Profile& profile) {
     return patch;
 }
 
-/// By a right angle about y, +x to +z: exact, so that neighbours keep sharing their boundary.
+/// Rotates by a right angle about y, +x to +z: exact, so that neighbours still share their boundary.
 Patch turned(const Patch& patch) {
     Patch result;
     for (std::size_t row = 0; row < 4; ++row) {
@@ -69,7 +69,7 @@ Patch turned(const Patch& patch) {
     return result;
 }
 
-/// In the plane z = 0, u reversed, so that dpdu x dpdv still points outwards.
+/// Mirrors in the plane z = 0, with u reversed so that dpdu x dpdv still points outwards.
 Patch mirrored(const Patch& patch) {
     Patch result;
     for (std::size_t row = 0; row < 4; ++row) {

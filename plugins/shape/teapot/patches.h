@@ -13,8 +13,8 @@ namespace teapot {
 /// Control points, rows along v, columns along u; dpdu x dpdv points outwards.
 using Patch = std::array<std::array<candela::Vec3, 4>, 4>;
 
-/// All 32 patches, y up, resting on y = 0. Patches that meet share their boundary's control points to the
-/// last bit.
+/// All 32 patches, y up, resting on y = 0. Adjacent patches share their boundary's control points to the last
+/// bit.
 std::vector<Patch> patches();
 
 inline constexpr float k_height = 3.15f;

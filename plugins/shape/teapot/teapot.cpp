@@ -21,7 +21,7 @@ struct TeapotShape {
 
 using Weights = std::array<float, 4>;
 
-/// Cubic Bernstein polynomials; at the ends exactly 0 and 1, so that patches that share a boundary meet
+/// Cubic Bernstein polynomials; exactly 0 and 1 at the ends, so that patches that share a boundary meet
 /// exactly.
 Weights bernstein(float t) {
     const float s = 1 - t;
@@ -40,13 +40,13 @@ Vec3 combine(const Points& points, const Weights& weights) {
     return sum;
 }
 
-/// The patch's point or derivative, as the weights say.
+/// The patch's point or derivative, depending on the weights.
 Vec3 blend(const teapot::Patch& patch, const Weights& u, const Weights& v) {
     return combine({combine(patch[0], u), combine(patch[1], u), combine(patch[2], u), combine(patch[3], u)},
                    v);
 }
 
-/// The patch's point; where a row of control points is one point, exactly that.
+/// The patch's point; if a row of control points coincides, exactly that point.
 Vec3 point(const teapot::Patch& patch, float u, float v) {
     const Weights weights = bernstein(u);
     const auto row = [&](const Points& p) {
@@ -65,8 +65,8 @@ class Teapot final : public candela::Shape {
         const std::size_t width = n + 1;
         const float scale = shape_.size / teapot::k_height;
 
-        // Where a patch ends in a point, one of two triangles has no area; which, is known once the vertices
-        // are.
+        // Where a patch ends in a point, one of two triangles has no area; which one is only known once the
+        // vertices are.
         std::vector<Vec3> position;
         position.reserve(patches.size() * width * width);
         for (const teapot::Patch& patch : patches) {
@@ -114,12 +114,11 @@ class Teapot final : public candela::Shape {
                 }
             }
         }
-        // One normal a place: smooth across the seams of the patches.
+        // One normal per position: smooth across the seams of the patches.
         weld_by_position(mesh.position, position.size(), mesh.smooth_group);
     }
 
   private:
-    /// u and v of a patch's vertex.
     std::pair<float, float> parameters(std::size_t vertex) const {
         const std::size_t width = static_cast<std::size_t>(shape_.segments) + 1;
         const std::size_t row = vertex / width;

@@ -21,7 +21,7 @@ Mesh teapot(double size, std::int64_t segments) {
 
 TEST_CASE("shape/teapot has 32 patches of n x n cells, less a triangle where a patch ends in a point") {
     for (const std::int64_t n : {1, 2, 5, 10}) {
-        // The knob's and the bottom's four patches end in a point each: n triangles fewer.
+        // The knob's and the bottom's four patches each end in a point: n triangles fewer.
         CHECK(teapot(1, n).triangle_count() == static_cast<std::size_t>(32 * n * n * 2 - 8 * n));
     }
 }

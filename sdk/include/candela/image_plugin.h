@@ -1,5 +1,5 @@
-// An image-format plugin: a class derived from candela::ImageFormat with a constructor that takes its
-// parameters (candela::sdk::NoParams, usually), and
+// An image-format plugin: a class derived from candela::ImageFormat whose constructor takes its parameters
+// (usually candela::sdk::NoParams), and
 //
 //     CANDELA_PLUGIN(image, MyFormat, candela::sdk::k_no_fields, {.title = …, .formats = k_formats})
 #pragma once

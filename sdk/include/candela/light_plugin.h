@@ -3,7 +3,7 @@
 //     Incident x_illuminate(XLight light, Receiver r)     what a light with one direction sends
 //     vec3 x_illuminate_ambient(XLight light, Receiver r) what an ambient light sends
 //
-// A source that is modelled by several samples, which add up:
+// A source modelled by several samples, which add up:
 //
 //     int x_sample_count(XLight light)                          at least 1
 //     Incident x_illuminate(XLight light, Receiver r, int index) what sample `index` sends, 0 to the count
@@ -30,7 +30,7 @@ constexpr Field<P> light_intensity(float P::* member, const char* meaning) {
 inline constexpr const char* k_attenuations[] = {"inverse-square", "offset-linear", "none"};
 template <class P>
 constexpr Field<P> attenuation(std::int32_t P::* member) {
-    return choice(member, "attenuation", k_attenuations, "how the light fades with distance r");
+    return choice(member, "attenuation", k_attenuations, "attenuation with distance r");
 }
 template <class P>
 constexpr Field<P> attenuation_offset(float P::* member) {
@@ -40,18 +40,12 @@ constexpr Field<P> attenuation_offset(float P::* member) {
 }
 
 CANDELA_KERNEL_INLINE kernel::Receiver receiver_at(const ReceiverBatch& batch, std::size_t i) {
-    return {kernel_vector(batch.position[i]), kernel_vector(batch.normal[i])};
-}
-
-CANDELA_KERNEL_INLINE void put(const Vec3Span& span, std::size_t i, vec3 v) {
-    span.x[i] = v.x;
-    span.y[i] = v.y;
-    span.z[i] = v.z;
+    return {load(batch.position, i), load(batch.normal, i)};
 }
 
 template <class Params, auto illuminate>
 struct IlluminateLoop {
-    /// `index` is the number of the sample where the kernel function asks for it.
+    /// Passes `index`, the number of the sample, if the kernel function takes it.
     template <class... Index>
     CANDELA_BATCH_LOOP static void run(Params light, ReceiverBatch receivers, IncidentBatch incident,
                                        Index... index) {
@@ -59,9 +53,9 @@ struct IlluminateLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const kernel::Incident sent = call<illuminate>(light, receiver_at(receivers, i), index...);
-            put(incident.to_light, i, sent.to_light);
-            put(incident.diffuse, i, sent.diffuse);
-            put(incident.specular, i, sent.specular);
+            store(incident.to_light, i, sent.to_light);
+            store(incident.diffuse, i, sent.diffuse);
+            store(incident.specular, i, sent.specular);
         }
     }
 };
@@ -72,7 +66,7 @@ struct IlluminateAmbientLoop {
         const std::size_t count = receivers.count;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            put(ambient, i, call<illuminate_ambient>(light, receiver_at(receivers, i)));
+            store(ambient, i, call<illuminate_ambient>(light, receiver_at(receivers, i)));
         }
     }
 };
@@ -127,7 +121,7 @@ class KernelAmbientLight final : public Light {
     CANDELA_KERNEL_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), \
                           prefix, Params, fields, __VA_ARGS__)
 
-/// A plugin from the kernel functions `prefix_illuminate` and `prefix_sample_count` of a source of several
+/// A plugin from the kernel functions `prefix_illuminate` and `prefix_sample_count` of a source with several
 /// samples; `Params` is their first argument.
 #define CANDELA_SAMPLED_LIGHT_PLUGIN(prefix, Params, fields, ...)                                          \
     CANDELA_KERNEL_PLUGIN(light,                                                                           \

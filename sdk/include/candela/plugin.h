@@ -1,8 +1,8 @@
-// What every plugin needs: its parameters, tied to the members of a struct, and its two exported functions.
+// What every plugin needs: its parameters, mapped to the members of a struct, and its two exported functions.
 //
-// A plugin's source includes the header of its kind (light_plugin.h, reflection_plugin.h, shading_plugin.h,
-// shape_plugin.h, image_plugin.h), which includes this one, and ends with that header's macro.
-// CANDELA_PLUGIN_NAME and CANDELA_PLUGIN_VERSION come from candela_add_plugin().
+// A plugin's source includes the header of its kind (light_plugin.h, reflection_plugin.h, …), which includes
+// this one, and ends with that header's macro. CANDELA_PLUGIN_NAME, CANDELA_PLUGIN_VERSION and
+// CANDELA_KERNEL_FILE come from candela_add_plugin().
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "candela/abi.h"
+#include "candela/batch.h"
 #include "candela/kernel.h"
 
 import candela.color;
@@ -22,9 +23,16 @@ import candela.math;
 
 namespace candela::sdk {
 
-/// The text of the plugin's .kernel file, or null; the build defines it.
-extern const char* const k_kernel_text;
+#ifdef CANDELA_KERNEL_FILE
+/// The text of the plugin's .kernel file, as CANDELA_EMBED_KERNEL puts it into the library.
+extern const char k_kernel_text[] __asm__("candela_kernel_text") __attribute__((visibility("hidden")));
+#else
+inline constexpr const char* k_kernel_text = nullptr;
+#endif
 
+using kernel::add_product;
+using kernel::load;
+using kernel::store;
 using kernel::vec2;
 using kernel::vec3;
 
@@ -47,7 +55,7 @@ struct Field {
         if (text != nullptr) params.*text = value.text;
     }
 
-    // The rest of the declaration, after the kind of value: real(...).at_least(0).unit("m").
+    // The rest of the declaration, after the type of value: real(...).minimum(0).unit("m").
 
     constexpr Field minimum(float low) const {
         return with([&](ParamSpec& s) { s.minimum = low; });
@@ -78,15 +86,18 @@ struct Field {
     }
 };
 
-// Declarations. `meaning` is one sentence; a default is written as a person writes it in a scene: degrees,
+// Declarations. `meaning` is one sentence; a default is given as a person writes it in a scene: degrees,
 // colours 0-255.
 
 template <class P>
 constexpr Field<P> real(float P::* member, const char* name, float default_value, const char* meaning) {
-    return {.spec = {.name = name, .type = ParamType::real, .meaning = meaning, .default_value = {{default_value}}},
+    return {.spec = {.name = name,
+                     .type = ParamType::real,
+                     .meaning = meaning,
+                     .default_value = {{default_value}}},
             .real = member};
 }
-/// In degrees for the scene, in radians for the plugin.
+/// In degrees in the scene, in radians for the plugin.
 template <class P>
 constexpr Field<P> angle(float P::* member, const char* name, float default_value, const char* meaning) {
     return real(member, name, default_value, meaning).unit("deg");
@@ -100,7 +111,7 @@ constexpr Field<P> integer(std::int32_t P::* member, const char* name, std::int3
                      .default_value = {.integer = default_value}},
             .integer = member};
 }
-/// One of `words`; the member receives its index, the default is the first.
+/// One of `words`; the member receives its index, and the default is the first.
 template <class P>
 constexpr Field<P> choice(std::int32_t P::* member, const char* name, std::span<const char* const> words,
                           const char* meaning) {
@@ -108,7 +119,8 @@ constexpr Field<P> choice(std::int32_t P::* member, const char* name, std::span<
             .integer = member};
 }
 template <class P>
-constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool default_value, const char* meaning) {
+constexpr Field<P> boolean(std::int32_t P::* member, const char* name, bool default_value,
+                           const char* meaning) {
     return {.spec = {.name = name,
                      .type = ParamType::boolean,
                      .meaning = meaning,
@@ -154,7 +166,7 @@ Params params_from(const std::array<Field<Params>, count>& fields, std::span<con
     return params;
 }
 
-/// What a plugin says of itself beyond its parameters.
+/// What a plugin says about itself, apart from its parameters.
 struct About {
     const char* title = "";
     const char* summary = "";
@@ -169,7 +181,8 @@ struct About {
 struct NoParams {};
 inline constexpr std::array<Field<NoParams>, 0> k_no_fields{};
 
-/// What a descriptor says of a plugin's kernel; `parameters` is the name of `Params`, as its author wrote it.
+/// The descriptor's entry for a plugin's kernel; `parameters` is the name of `Params`, as its author wrote
+/// it.
 template <class Params>
 KernelText kernel_text(const char* prefix, const char* parameters) {
     const std::string_view qualified = parameters;
@@ -190,7 +203,7 @@ constexpr auto fields(Fields... all) {
     return std::array<std::common_type_t<Fields...>, sizeof...(Fields)>{all...};
 }
 
-/// Calls a kernel function with the parameters first, or without them where it takes none.
+/// Calls a kernel function with the parameters first, or without them if it takes none.
 template <auto function, class Params, class... Arguments>
 CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
     if constexpr (std::is_invocable_v<decltype(function), Params, Arguments...>) {
@@ -204,14 +217,25 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 
 #define CANDELA_EXPORT __attribute__((visibility("default")))
 
-/// Exports a plugin of `kind_` whose instances are made by `new Model(params)`, `params` filled through
-/// `fields_`, an array of candela::sdk::Field. The rest is a candela::sdk::About.
+/// Exports a plugin of `kind_` whose instances are created by `new Model(params)`, with `params` filled
+/// according to `fields_`, an array of candela::sdk::Field. The rest is a candela::sdk::About.
 #define CANDELA_PLUGIN(kind_, Model, fields_, ...) \
     CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::KernelText{}, __VA_ARGS__)
+
+#ifdef CANDELA_KERNEL_FILE
+// The assembler reads the file, as no C++ of today can.
+#define CANDELA_EMBED_KERNEL                                                             \
+    __asm__(".pushsection .rodata\ncandela_kernel_text:\n.incbin \"" CANDELA_KERNEL_FILE \
+            "\"\n"                                                                       \
+            ".byte 0\n.popsection\n");
+#else
+#define CANDELA_EMBED_KERNEL
+#endif
 
 /// The same for a plugin made of kernel functions: `prefix_` begins their names, `Params_` is their first
 /// argument.
 #define CANDELA_KERNEL_PLUGIN(kind_, Model, prefix_, Params_, fields_, ...)                              \
+    CANDELA_EMBED_KERNEL                                                                                 \
     CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::sdk::kernel_text<Params_>(#prefix_, #Params_), \
                           __VA_ARGS__)
 

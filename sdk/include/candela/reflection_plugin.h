@@ -3,7 +3,7 @@
 //     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
 //     vec3 x_reflect_ambient(XMaterial m, Surface s)
 //
-// They answer what a light's intensities and ambient intensity are multiplied by.
+// They return the factors for a light's intensities and for the ambient intensity.
 #pragma once
 
 #include "candela/multiversion.h"
@@ -40,10 +40,10 @@ enum class Tangent : bool { unused, needed };
 template <Tangent tangent>
 CANDELA_KERNEL_INLINE kernel::Surface surface_at(const SurfaceBatch& batch, vec3 color, std::size_t i) {
     kernel::Surface s;
-    s.normal = kernel_vector(batch.normal[i]);
-    s.to_observer = kernel_vector(batch.to_observer[i]);
+    s.normal = load(batch.normal, i);
+    s.to_observer = load(batch.to_observer, i);
     s.tangent = vec3(0.0f);
-    if constexpr (tangent == Tangent::needed) s.tangent = kernel_vector(batch.tangent[i]);
+    if constexpr (tangent == Tangent::needed) s.tangent = load(batch.tangent, i);
     s.color = color;
     return s;
 }
@@ -57,13 +57,9 @@ struct ReflectLoop {
         CANDELA_VECTORIZE_CHAIN
         for (std::size_t i = 0; i < count; ++i) {
             const kernel::Surface s = surface_at<tangent>(surface, color, i);
-            const kernel::Reflected r = call<reflect>(material, s, kernel_vector(light.to_light[i]));
-            reflected.diffuse.x[i] += r.diffuse.x * light.diffuse.x[i];
-            reflected.diffuse.y[i] += r.diffuse.y * light.diffuse.y[i];
-            reflected.diffuse.z[i] += r.diffuse.z * light.diffuse.z[i];
-            reflected.specular.x[i] += r.specular.x * light.specular.x[i];
-            reflected.specular.y[i] += r.specular.y * light.specular.y[i];
-            reflected.specular.z[i] += r.specular.z * light.specular.z[i];
+            const kernel::Reflected r = call<reflect>(material, s, load(light.to_light, i));
+            add_product(reflected.diffuse, i, r.diffuse, load(light.diffuse, i));
+            add_product(reflected.specular, i, r.specular, load(light.specular, i));
         }
     }
 };
@@ -77,9 +73,7 @@ struct ReflectAmbientLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const vec3 k = call<reflect_ambient>(material, surface_at<tangent>(surface, color, i));
-            reflected.ambient.x[i] += k.x * ambient.x[i];
-            reflected.ambient.y[i] += k.y * ambient.y[i];
-            reflected.ambient.z[i] += k.z * ambient.z[i];
+            add_product(reflected.ambient, i, k, load(ambient, i));
         }
     }
 };

@@ -1,4 +1,4 @@
-// A reflection model that shows what surrounds the object, in five kernel functions:
+// A reflection model that shows the object's surroundings, from five kernel functions:
 //
 //     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
 //     vec3 x_reflect_ambient(XMaterial m, Surface s)
@@ -6,8 +6,9 @@
 //     Refracted x_leave(XMaterial m, vec3 direction, vec3 normal)
 //     vec3 x_transmit(XMaterial m, vec3 color, float distance)
 //
-// The first two are those of reflection_plugin.h; then: where the line of sight comes in, where it comes to
-// the surface from within, and what is left of light after a way through.
+// The first two are those of reflection_plugin.h. The others say what happens where the line of sight enters,
+// what happens where it meets the surface from within, and how much light remains after a distance in the
+// material.
 //
 // The material has a member `int internal_reflections`.
 #pragma once
@@ -16,7 +17,7 @@
 
 namespace candela::sdk {
 
-/// Room for three numbers of each ray of a batch.
+/// Three numbers for each ray of a batch.
 template <std::size_t size>
 struct RayArrays {
     float x[size], y[size], z[size];
@@ -24,18 +25,18 @@ struct RayArrays {
     Vec3Span span() { return {x, y, z}; }
 };
 
-/// Lines of sight on their way, as many as are followed at once.
+/// A group of lines of sight that are followed together.
 struct Rays {
     static constexpr std::size_t k_size = 64;
 
-    RayArrays<k_size> origin, direction, weight;  // `weight`: the share of what they meet that is seen
-    RayArrays<k_size> towards, share, seen;       // where they look now, and how much of that is seen
+    RayArrays<k_size> origin, direction, weight;  // `weight`: the share of what they meet that is visible
+    RayArrays<k_size> towards, share, seen;       // where they look, and how much of that is visible
     RayArrays<k_size> exit_position, exit_normal;
     float distance[k_size];
     std::size_t count = 0;
 };
 
-/// At the surface: a part looks where the mirror image is, the rest goes in.
+/// At the surface: a part looks towards the mirror image, the rest enters.
 template <class Material, auto enter, Tangent tangent>
 struct EnterLoop {
     CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, Rays* rays) {
@@ -47,22 +48,16 @@ struct EnterLoop {
             const kernel::Surface s = surface_at<tangent>(surface, color, i);
             const kernel::Refracted refracted = call<enter>(material, s);
             const vec3 mirrored = kernel::reflect(-s.to_observer, s.normal);
-            r.towards.x[i] = mirrored.x;
-            r.towards.y[i] = mirrored.y;
-            r.towards.z[i] = mirrored.z;
-            r.share.x[i] = r.share.y[i] = r.share.z[i] = refracted.mirrored;
-            r.direction.x[i] = refracted.direction.x;
-            r.direction.y[i] = refracted.direction.y;
-            r.direction.z[i] = refracted.direction.z;
-            r.weight.x[i] = r.weight.y[i] = r.weight.z[i] = 1.0f - refracted.mirrored;
-            r.origin.x[i] = surface.position.x[i];
-            r.origin.y[i] = surface.position.y[i];
-            r.origin.z[i] = surface.position.z[i];
+            store(r.towards, i, mirrored);
+            store(r.share, i, vec3(refracted.mirrored));
+            store(r.direction, i, refracted.direction);
+            store(r.weight, i, vec3(1.0f - refracted.mirrored));
+            store(r.origin, i, load(surface.position, i));
         }
     }
 };
 
-/// At the surface, from within: a part goes out and looks there, the rest stays.
+/// At the surface, from within: a part leaves and looks outwards, the rest stays.
 template <class Material, auto leave, auto transmit>
 struct LeaveLoop {
     CANDELA_BATCH_LOOP static void run(Material material, Rgb object_color, Rays* rays, bool is_last) {
@@ -72,33 +67,24 @@ struct LeaveLoop {
         const float last = is_last ? 1.0f : 0.0f;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const vec3 direction(r.direction.x[i], r.direction.y[i], r.direction.z[i]);
-            const vec3 normal(r.exit_normal.x[i], r.exit_normal.y[i], r.exit_normal.z[i]);
+            const vec3 direction = load(r.direction, i);
+            const vec3 normal = load(r.exit_normal, i);
             const kernel::Refracted refracted = call<leave>(material, direction, normal);
             const bool is_lost = r.distance[i] < 0.0f;  // the surface is open there
             const bool is_free = refracted.mirrored < 1.0f;
-            // At the end all that is left goes out, so that no light is lost: straight on where it cannot.
+            // Finally everything that is left exits, so that no light is lost; straight on if it cannot be
+            // refracted.
             const float out = is_lost ? 1.0f : kernel::max(1.0f - refracted.mirrored, last);
             const float refracts = !is_lost && is_free ? 1.0f : 0.0f;
             const vec3 towards = refracts * refracted.direction + (1.0f - refracts) * direction;
             const vec3 kept = call<transmit>(material, color, is_lost ? 0.0f : r.distance[i]);
-            const vec3 weight = vec3(r.weight.x[i], r.weight.y[i], r.weight.z[i]) * kept;
-            r.towards.x[i] = towards.x;
-            r.towards.y[i] = towards.y;
-            r.towards.z[i] = towards.z;
-            r.share.x[i] = weight.x * out;
-            r.share.y[i] = weight.y * out;
-            r.share.z[i] = weight.z * out;
-            r.weight.x[i] = weight.x * (1.0f - out);
-            r.weight.y[i] = weight.y * (1.0f - out);
-            r.weight.z[i] = weight.z * (1.0f - out);
+            const vec3 weight = load(r.weight, i) * kept;
+            store(r.towards, i, towards);
+            store(r.share, i, weight * out);
+            store(r.weight, i, weight * (1.0f - out));
             const vec3 inwards = kernel::reflect(direction, normal);
-            r.direction.x[i] = inwards.x;
-            r.direction.y[i] = inwards.y;
-            r.direction.z[i] = inwards.z;
-            r.origin.x[i] = r.exit_position.x[i];
-            r.origin.y[i] = r.exit_position.y[i];
-            r.origin.z[i] = r.exit_position.z[i];
+            store(r.direction, i, inwards);
+            store(r.origin, i, load(r.exit_position, i));
         }
     }
 };
@@ -109,14 +95,12 @@ struct AddSeenLoop {
         const std::size_t count = r.count;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            sum.x[i] += r.share.x[i] * r.seen.x[i];
-            sum.y[i] += r.share.y[i] * r.seen.y[i];
-            sum.z[i] += r.share.z[i] * r.seen.z[i];
+            add_product(sum, i, load(r.share, i), load(r.seen, i));
         }
     }
 };
 
-/// Which of the SurfaceBatch's points from `first` on.
+/// A range of the SurfaceBatch's points, from `first` on.
 inline SurfaceBatch part_of(const SurfaceBatch& surface, std::size_t first, std::size_t count) {
     const auto from = [&](const ConstVec3Span& span) { return span ? span.from(first) : span; };
     return {count,         from(surface.normal),  from(surface.to_observer), from(surface.tangent),
@@ -150,8 +134,8 @@ class KernelRefraction final : public ReflectionModel {
     }
 
   private:
-    /// The mirrored part, then what leaves at the far side, then what leaves after one more reflection within
-    /// …
+    /// The mirrored part, then what leaves at the far side, then what leaves after another internal
+    /// reflection …
     void follow(const SurfaceBatch& surface, Surroundings& surroundings, const Vec3Span& sum) const {
         Rays rays;
         rays.count = surface.count;

@@ -3,7 +3,7 @@
 //     vec3 x_normal(ShadingPoint p)                  the unit normal at a point, or
 //     vec3 x_normal(XShading shading, ShadingPoint p)    with parameters
 //
-// Where the normals of the vertices are to be another sum of the faces' normals than the plain one, also
+// For vertex normals that are a weighted sum of the face normals, also
 //
 //     float x_corner_weight(FaceCorner c)                 the weight of a face at one of its corners, or
 //     float x_corner_weight(XShading shading, FaceCorner c)
@@ -33,21 +33,18 @@ struct NormalLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             kernel::ShadingPoint p;
-            p.face_normal = kernel_vector(points.face_normal[i]);
-            p.vertex_normal = kernel_vector(points.vertex_normal[i]);
-            p.barycentric = kernel_vector(points.barycentric[i]);
+            p.face_normal = load(points.face_normal, i);
+            p.vertex_normal = load(points.vertex_normal, i);
+            p.barycentric = load(points.barycentric, i);
             p.uv = vec2(0.0f);
             p.dpdu = vec3(0.0f);
             p.dpdv = vec3(0.0f);
             if constexpr (needs.uv) p.uv = vec2(points.uv.x[i], points.uv.y[i]);
             if constexpr (needs.derivatives) {
-                p.dpdu = kernel_vector(points.dpdu[i]);
-                p.dpdv = kernel_vector(points.dpdv[i]);
+                p.dpdu = load(points.dpdu, i);
+                p.dpdv = load(points.dpdv, i);
             }
-            const vec3 n = call<normal>(params, p);
-            normals.x[i] = n.x;
-            normals.y[i] = n.y;
-            normals.z[i] = n.z;
+            store(normals, i, call<normal>(params, p));
         }
     }
 };
@@ -76,15 +73,15 @@ struct CornerWeightLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             kernel::FaceCorner c;
-            c.to_next = kernel_vector(to_next[i]);
-            c.to_previous = kernel_vector(to_previous[i]);
+            c.to_next = load(to_next, i);
+            c.to_previous = load(to_previous, i);
             weights[i] = call<weight>(params, c);
         }
     }
 };
 
-/// A power of two that makes the mesh about one unit large, so that products of its edges stay within the
-/// range of a float; exact, so that it changes nothing else.
+/// A power of two that scales the mesh to about one unit, so that products of its edges stay within a float's
+/// range; exact, so that nothing else changes.
 inline float unit_scale(const MeshView& mesh) {
     float largest = 0;
     for (const float* const axis : {mesh.position.x, mesh.position.y, mesh.position.z}) {
@@ -95,14 +92,14 @@ inline float unit_scale(const MeshView& mesh) {
     return is_usual ? std::ldexp(1.0f, -std::ilogb(largest)) : 1.0f;
 }
 
-/// The normals of the faces that share a vertex, added up by `weight` of the face's corner there.
+/// Sums the normals of the faces that share a vertex, weighted by `weight` of the face's corner there.
 template <class Params, auto weight>
 class WeightedNormals {
   public:
     WeightedNormals(const Params& params, const MeshView& mesh)
         : params_(params), mesh_(mesh), scale_(unit_scale(mesh)), sum_(mesh.group_count) {}
 
-    /// Overwrites `normals` except where all weights are zero or beyond a number's range.
+    /// Overwrites `normals`, except where all weights are zero or out of range.
     void write(const Vec3Span& normals) {
         const std::size_t indices = mesh_.indices.size();
         for (std::size_t first = 0; first < indices; first += k_batch)
@@ -152,8 +149,8 @@ class WeightedNormals {
     std::array<float, k_batch> weights_;
 };
 
-/// Vertex normals are weighted; the plain sum stands in where no face has a weight, and authored normals go
-/// before all.
+/// Weighted vertex normals; the plain sum is used where no face has a weight, and authored normals take
+/// precedence.
 template <class Params, ShadingRate rate, auto normal, auto weight, ShadingNeeds needs = ShadingNeeds{}>
 class WeightedShading final : public KernelShading<Params, rate, normal, needs> {
   public:
@@ -169,14 +166,14 @@ class WeightedShading final : public KernelShading<Params, rate, normal, needs> 
 /// A plugin from the kernel function `prefix_normal`; `rate` is face, vertex or fragment.
 #define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(shading,                                                          \
-                          (candela::sdk::KernelShading<Params, candela::ShadingRate::rate, \
+                          (candela::sdk::KernelShading<Params, candela::ShadingRate::rate,  \
                                                        &candela::kernel::prefix##_normal>), \
                           prefix, Params, fields, __VA_ARGS__)
 
 /// The same with vertex normals weighted by the kernel function `prefix_corner_weight`.
 #define CANDELA_WEIGHTED_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(shading,                                                                   \
-                          (candela::sdk::WeightedShading<Params, candela::ShadingRate::rate,        \
+                          (candela::sdk::WeightedShading<Params, candela::ShadingRate::rate,         \
                                                          &candela::kernel::prefix##_normal,          \
                                                          &candela::kernel::prefix##_corner_weight>), \
                           prefix, Params, fields, __VA_ARGS__)

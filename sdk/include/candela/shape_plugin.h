@@ -1,5 +1,5 @@
-// Shapes. A parametric surface comes from three kernel functions, u and v from 0 to 1, dpdu x dpdv pointing
-// outwards:
+// Shapes. A parametric surface comes from three kernel functions, with u and v from 0 to 1 and dpdu x dpdv
+// pointing outwards:
 //
 //     vec3 x_position(XShape s, float u, float v)
 //     vec3 x_dpdu(XShape s, float u, float v)
@@ -30,11 +30,11 @@ constexpr Field<P> segments(std::int32_t P::* member, std::int32_t default_value
     return integer(member, "segments", default_value, meaning).range(3, 8192);
 }
 
-/// What the edges of a surface's parameter square are to one another.
+/// How the edges of a surface's parameter square are connected.
 struct Topology {
-    bool u_is_periodic = false;  // u = 1 is u = 0
+    bool u_is_periodic = false;  // u = 1 is the same as u = 0
     bool v_is_periodic = false;
-    bool v_ends_in_poles = false;  // v = 0 and v = 1 are one point each
+    bool v_ends_in_poles = false;  // v = 0 and v = 1 are single points
 };
 
 template <class Params, auto position>
@@ -43,10 +43,7 @@ struct SurfaceRowLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const float u = static_cast<float>(static_cast<std::int32_t>(i)) * u_step;
-            const vec3 point = call<position>(params, u, v);
-            p.x[i] = point.x;
-            p.y[i] = point.y;
-            p.z[i] = point.z;
+            store(p, i, call<position>(params, u, v));
         }
     }
 };
@@ -58,14 +55,8 @@ struct SurfaceDerivativesRowLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const float u = static_cast<float>(static_cast<std::int32_t>(i)) * u_step;
-            const vec3 along_u = call<dpdu>(params, u, v);
-            const vec3 along_v = call<dpdv>(params, u, v);
-            pu.x[i] = along_u.x;
-            pu.y[i] = along_u.y;
-            pu.z[i] = along_u.z;
-            pv.x[i] = along_v.x;
-            pv.y[i] = along_v.y;
-            pv.z[i] = along_v.z;
+            store(pu, i, call<dpdu>(params, u, v));
+            store(pv, i, call<dpdv>(params, u, v));
         }
     }
 };
@@ -101,7 +92,7 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
         }
     }
 
-    // Vertices that are one place get one position to the last bit, and one normal.
+    // Coinciding vertices get one position to the last bit, and one normal.
     const auto same = [&](std::size_t vertex, std::size_t as) {
         mesh.position.set(vertex, mesh.position[as]);
         mesh.smooth_group[vertex] = mesh.smooth_group[as];
@@ -140,7 +131,7 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
     }
 }
 
-/// A shape with a member `segments` in its parameters: that many faces along u, half as many along v.
+/// A shape whose parameters have a member `segments`: the number of faces along u, and half as many along v.
 template <class Params, auto position, auto dpdu, auto dpdv, Topology topology>
 class ParametricShape final : public Shape {
   public:
@@ -157,7 +148,7 @@ class ParametricShape final : public Shape {
     Params params_;
 };
 
-/// Puts vertices at one position, to the last bit, into one smooth group.
+/// Assigns vertices at one position, to the last bit, to one smooth group.
 inline void weld_by_position(ConstVec3Span position, std::size_t count,
                              std::span<std::uint32_t> smooth_group) {
     std::ranges::copy(welded(position, count), smooth_group.begin());

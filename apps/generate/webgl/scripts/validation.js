@@ -20,7 +20,7 @@ export function validateValue(parameter, value) {
         case "real":
             return isNumber(value) ? validateRange(value) : "must be a number";
         case "integer":
-            return Number.isInteger(value) ? validateRange(value) : "must be a whole number";
+            return Number.isInteger(value) ? validateRange(value) : "must be an integer";
         case "boolean":
             return typeof value === "boolean" ? null : "must be on or off";
         case "choice":

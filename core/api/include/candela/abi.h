@@ -1,4 +1,4 @@
-// What must be the same in the host and in a plugin, as one line of text that both compile in.
+// What must match between the host and a plugin, as one line of text compiled into both.
 #pragma once
 
 #include <cstddef>  // defines the standard library's own macros

@@ -1,4 +1,4 @@
-// Visibility of what libcandela_core.so offers. A macro, because macros do not cross modules.
+// Visibility of what libcandela_core.so exports. A macro, because macros do not cross modules.
 #pragma once
 
 #define CANDELA_API __attribute__((visibility("default")))

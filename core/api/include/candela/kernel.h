@@ -1,10 +1,10 @@
 // The kernel language in C++: the part of GLSL that a <name>.kernel file may use.
 //
-// A kernel is the common subset of C++ and GLSL: structs of float, int, vec2 and vec3; functions marked
+// A kernel is in the common subset of C++ and GLSL: structs of float, int, vec2 and vec3; functions marked
 // KERNEL that take and return values; locals, ternaries, arithmetic; float literals written 0.5f; and the
 // functions below, which have GLSL's names and meanings. Every function is inlined into the batch loop that
-// calls it and is written so that clang vectorises that loop: no branches, no calls, no error numbers, and no
-// results in the denormal range.
+// calls it and written so that clang vectorises that loop: no branches, no calls, no errno, and no results in
+// the denormal range.
 //
 // Include kernels inside `namespace candela::kernel { ... }`, where the names resolve to these functions.
 #pragma once
@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstdint>
 
-// A kernel function has its kind's arguments, whether or not the model has a use for each.
+// A kernel function has its kind's arguments, whether or not the model uses them all.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #define KERNEL [[gnu::always_inline, maybe_unused]] static inline
@@ -41,7 +41,7 @@ struct vec3 {
     vec3() = default;
     CANDELA_KERNEL_INLINE constexpr explicit vec3(float s) : x(s), y(s), z(s) {}
     CANDELA_KERNEL_INLINE constexpr vec3(float in_x, float in_y, float in_z) : x(in_x), y(in_y), z(in_z) {}
-    // Written out: an implicit copy is a block of memory, which keeps a `condition ? a : b` from becoming a
+    // Spelled out because an implicit copy is a memcpy, which keeps `condition ? a : b` from becoming a
     // vector blend.
     // NOLINTNEXTLINE(modernize-use-equals-default)
     CANDELA_KERNEL_INLINE constexpr vec3(const vec3& v) : x(v.x), y(v.y), z(v.z) {}
@@ -101,10 +101,10 @@ CANDELA_KERNEL_INLINE constexpr float smoothstep(float edge0, float edge1, float
 CANDELA_KERNEL_INLINE constexpr float sign(float x) { return x > 0.0f ? 1.0f : (x < 0.0f ? -1.0f : 0.0f); }
 CANDELA_KERNEL_INLINE float abs(float x) { return __builtin_fabsf(x); }
 
-/// To the nearest integer, halves to even, for |x| < 2^22. Adding and subtracting 1.5 * 2^23 needs no
-/// SSE 4.1, so that the baseline loop vectorises too.
+/// To the nearest integer, halves to even, for |x| < 2^22. Adding and subtracting 1.5 * 2^23 needs no SSE
+/// 4.1, so the baseline loop is vectorised too.
 CANDELA_KERNEL_INLINE float round_to_even(float x) { return (x + 12582912.0f) - 12582912.0f; }
-/// For |x| < 2^22; beyond that a float has no fraction worth speaking of.
+/// For |x| < 2^22; larger floats have hardly any fraction.
 CANDELA_KERNEL_INLINE float floor(float x) {
     const float nearest = round_to_even(x);
     const float rounded = nearest > x ? nearest - 1.0f : nearest;
@@ -114,13 +114,12 @@ CANDELA_KERNEL_INLINE float ceil(float x) { return -floor(-x); }
 CANDELA_KERNEL_INLINE float fract(float x) { return x - floor(x); }
 CANDELA_KERNEL_INLINE float mod(float x, float y) { return x - y * floor(x / y); }
 
-// Powers. Polynomials by Remez exchange; the figures in brackets are the largest relative errors of the
-// polynomial.
+// Powers. Polynomials by Remez exchange, with their largest relative error in brackets.
 
 CANDELA_KERNEL_INLINE float sqrt(float x) { return __builtin_sqrtf(x); }
-/// For x > 0; of zero a large number [1.0e-7]. From a guess by the bits (Blinn 1997, "Floating-point
-/// tricks"), a polynomial and a step of Newton's: a fifth of the time of a root and a division, which a
-/// processor does in one unit, element by element.
+/// For x > 0; a large number for zero [1.0e-7]. An estimate from the bits (Blinn 1997, "Floating-point
+/// tricks"), a polynomial and one Newton step: a fifth of the time of a square root and a division, which a
+/// processor computes in one unit, element by element.
 CANDELA_KERNEL_INLINE float inversesqrt(float x) {
     const float bounded = min(x, 3.4e38f);
     const auto guess = std::bit_cast<float>(0x5f300000 - (std::bit_cast<std::int32_t>(bounded) >> 1));
@@ -130,7 +129,7 @@ CANDELA_KERNEL_INLINE float inversesqrt(float x) {
     return y + 0.5f * y * rest;
 }
 
-/// 2^x, kept within [2^-100, 2^127]: denormals would cost three times the whole frame [2.6e-9].
+/// 2^x, clamped to [2^-100, 2^127], because denormals would triple the frame time [2.6e-9].
 CANDELA_KERNEL_INLINE float exp2(float x) {
     const float bounded = clamp(x, -100.0f, 127.0f);
     const float whole = round_to_even(bounded);
@@ -145,7 +144,7 @@ CANDELA_KERNEL_INLINE float exp2(float x) {
     return std::bit_cast<float>(std::bit_cast<std::int32_t>(p) + (static_cast<std::int32_t>(whole) << 23));
 }
 
-/// Base-two logarithm of x, of 2^-126 for all that is smaller [1.7e-7].
+/// Base-two logarithm of x; that of 2^-126 for anything smaller [1.7e-7].
 CANDELA_KERNEL_INLINE float log2(float x) {
     const auto bits = std::bit_cast<std::int32_t>(max(x, 1.17549435e-38f));
     const std::int32_t exponent = (bits - 0x3f3504f3) >> 23;  // mantissa in [sqrt(1/2), sqrt(2))
@@ -215,7 +214,7 @@ CANDELA_KERNEL_INLINE float asin_of_small(float t) {
     p = p * z + 1.0000000814f;
     return t * p;
 }
-/// Arguments outside [-1, 1] count as its ends.
+/// Arguments outside [-1, 1] are clamped.
 CANDELA_KERNEL_INLINE float acos(float x) {
     const float a = min(abs(x), 1.0f);
     const bool large = a > 0.5f;
@@ -267,7 +266,7 @@ CANDELA_KERNEL_INLINE vec3 normalize(vec3 a) { return a * inversesqrt(max(dot(a,
 CANDELA_KERNEL_INLINE constexpr vec3 reflect(vec3 incident, vec3 normal) {
     return incident - 2.0f * dot(normal, incident) * normal;
 }
-/// Snell's law; zero beyond the critical angle. `eta`: n_1 / n_2; `normal` points towards where light comes
+/// Snell's law; zero beyond the critical angle. `eta`: n_1 / n_2; `normal` points to the side the light comes
 /// from.
 CANDELA_KERNEL_INLINE vec3 refract(vec3 incident, vec3 normal, float eta) {
     const float cosine = dot(normal, incident);

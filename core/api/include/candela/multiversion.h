@@ -9,15 +9,15 @@
 //     candela::multiversion<AddLoop>(count, a, sum);
 //
 // Everything the loop calls must be inlined into it, or it is neither vectorised nor compiled for the wider
-// set; clang warns where a CANDELA_VECTORIZE loop stayed scalar. Mark it [[gnu::always_inline]]. A lambda
-// cannot be marked before C++23: where a build does not optimise, what it computes may round otherwise.
+// set; clang warns if a CANDELA_VECTORIZE loop stayed scalar. Mark it [[gnu::always_inline]]. A lambda cannot
+// be marked before C++23, and without optimisation its results may round differently.
 //
-// CANDELA_VECTORIZE_CHAIN is for a loop whose body is one long chain of operations, such as a pow: two
-// vectors side by side keep the processor busy where one only waits for itself. Where there is enough to do
-// side by side, it costs registers.
+// CANDELA_VECTORIZE_CHAIN is for a loop whose body is one long chain of dependent operations, such as pow:
+// two vectors side by side keep the processor busy where one would wait for itself. A loop with enough
+// independent work only loses registers to it.
 //
-// CANDELA_VECTORIZE_SIXTEEN is for a loop of sixteen turns inside another: else it is unrolled before it can
-// be vectorised, or narrower vectors go round a loop of a few turns.
+// CANDELA_VECTORIZE_SIXTEEN is for a loop of sixteen iterations inside another, which would otherwise be
+// unrolled before it can be vectorised, or take a few iterations of narrower vectors.
 #pragma once
 
 #include "candela/api.h"
@@ -40,13 +40,13 @@ namespace candela {
 /// candela::instruction_set() as a number, for headers, which cannot import: 0 baseline, 1 AVX2, 2 AVX-512.
 CANDELA_API int instruction_set_level() noexcept;
 
-/// The versions of one loop; not inlined, so that each can be found by its name in a profile and in the
-/// compiler's records.
+/// The versions of one loop. Not inlined, so that each can be found by name in a profile and in the
+/// compiler's optimisation records.
 template <class Loop, class... Arguments>
 struct Multiversion {
     [[gnu::noinline]] static void baseline(const Arguments&... arguments) { Loop::run(arguments...); }
 #if defined(__x86_64__)
-    // Tuned for processors that gather quickly: without it clang takes what a table or an index names one by
+    // Tuned for processors with fast gathers: otherwise clang reads table entries and indexed values one by
     // one.
     [[gnu::noinline, gnu::target("arch=x86-64-v3,tune=skylake")]] static void avx2(
         const Arguments&... arguments) {
@@ -58,9 +58,9 @@ struct Multiversion {
 #endif
 };
 
-/// Runs `Loop::run(arguments...)` with the instruction set in use. Arguments are taken by const reference, so
-/// a loop copies what it reads into locals or takes them by value: then the compiler knows that its stores do
-/// not change them.
+/// Runs `Loop::run(arguments...)` with the instruction set in use. Arguments are taken by const reference; a
+/// loop copies what it reads into locals or takes it by value, so that the compiler knows its stores do not
+/// change it.
 template <class Loop, class... Arguments>
 inline void multiversion(const Arguments&... arguments) {
     using Versions = Multiversion<Loop, Arguments...>;

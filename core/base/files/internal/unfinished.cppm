@@ -1,4 +1,4 @@
-// Names of files that are not finished, where a signal handler finds them.
+// Names of temporary files, where a signal handler finds them.
 module;
 
 #include <atomic>

@@ -10,10 +10,10 @@ import candela.toml;
 
 namespace candela {
 
-/// What the files, the includes and the settings say together.
+/// The contents of the files, the includes and the settings combined.
 struct MergedDocument {
     SourcePlace place;  // of the first file
-    TableNode root;     // as if all stood in one file, `include` followed
+    TableNode root;     // as if everything were in one file, `include` followed
 };
 
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics);

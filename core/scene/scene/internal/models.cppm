@@ -17,18 +17,18 @@ import candela.validation;
 
 namespace candela {
 
-/// Which shading and which reflection model each object gets: the command line's, its own, the scene's, or
-/// (R12, R13) the default, if somebody agrees.
+/// Which shading and reflection model each object gets: the command line's, its own, the scene's, or (R12,
+/// R13) the default, if the user agrees.
 class ModelChooser {
   public:
     ModelChooser(const SceneRequest& request, SceneTables& tables);
 
-    /// Without a name where there is none, which has been reported.
+    /// The name is empty if there is none, which has been reported.
     Model shading_for(const TableNode& object);
     Model reflection_for(const TableNode& object, const std::string& label, const SourcePlace& place);
 
   private:
-    /// A model that is named somewhere.
+    /// A model named somewhere.
     struct Named {
         std::string name;
         SourcePlace place;

@@ -26,14 +26,14 @@ const TableSchema& schema_of(std::string_view table);
 /// `keys`, and the names of the parameters.
 std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys = {});
 
-// Values of a set that has them, by name.
+// Values of a set, by name; they must be set.
 float real(const ParamSet& set, std::string_view name);
 int integer(const ParamSet& set, std::string_view name);
 Vec3 vector(const ParamSet& set, std::string_view name);
 const std::string& text(const ParamSet& set, std::string_view name);
 bool has(const ParamSet& set, std::string_view name);
 
-/// The tables of a document, and what is asked of all of them.
+/// The tables of a document, and what applies to all of them.
 class SceneTables {
   public:
     SceneTables(const MergedDocument& document, Registry& registry, Diagnostics& diagnostics);
@@ -43,15 +43,15 @@ class SceneTables {
     Registry& registry() { return registry_; }
     Diagnostics& diagnostics() { return diagnostics_; }
 
-    /// A table that may stand once; null where it is missing or is something else, which is reported the
-    /// first time.
+    /// A table that may occur once; null if it is missing or is not a table, which is reported the first
+    /// time.
     const TableNode* single(const std::string& name);
     TableContext context_of(const std::string& name) const;
-    /// All values of a table that has no plugin behind it.
+    /// All values of a table without a plugin.
     ParamSet read_plain(const std::string& name);
     /// The installed plugin of that name, or null, with a message at `place`.
     const PluginFile* known(PluginKind kind, const std::string& name, const SourcePlace& place);
-    /// A plugin's parameters, and what must hold between them.
+    /// A plugin's parameters, including the relations between them.
     ParamSet read_plugin(const TableNode& table, const PluginFile& plugin, const TableContext& context);
 
   private:

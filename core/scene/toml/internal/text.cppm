@@ -14,8 +14,8 @@ import candela.diagnostics;
 
 namespace candela {
 
-/// Says why a file cannot be read, or returns its text: UTF-8 or not, but no binary file, and not empty. A
-/// file of more than `bytes_left` is refused; else its size is taken off.
+/// The text of a file, which may not be UTF-8, but is neither binary nor empty; otherwise reports why it
+/// cannot be read. A file larger than `bytes_left` is refused; otherwise its size is subtracted.
 std::optional<std::string> text_of_file(const std::filesystem::path& file, const std::string& shown_name,
                                         std::uintmax_t& bytes_left, Diagnostics& diagnostics);
 
@@ -23,12 +23,12 @@ std::optional<std::string> text_of_file(const std::filesystem::path& file, const
 SourcePlace place_at(std::string_view text, std::size_t offset, const std::string& shown_name);
 
 struct Excess {
-    std::size_t offset = 0;  // in bytes; what is before it is not too much
+    std::size_t offset = 0;  // in bytes; everything before it is within the limits
     std::string message;
 };
 
-/// Where brackets nest so deep, or keys have so many parts, that going down there by recursion is a danger;
-/// or where there are more than `values_left` values. Else takes off how many there are.
+/// Where brackets nest so deeply, or keys have so many parts, that recursion would be dangerous; or where
+/// there are more than `values_left` values. Otherwise subtracts their number.
 std::optional<Excess> first_excess(std::string_view text, std::size_t& values_left);
 
 struct SyntaxProblem {
@@ -36,8 +36,7 @@ struct SyntaxProblem {
     std::string hint;
 };
 
-/// What toml++ says of a text, as a person says it. `line` is the line of the problem, `column` its place
-/// therein.
+/// toml++'s message in plain words. `line` is the line of the problem, `column` its position there.
 SyntaxProblem syntax_problem(std::string_view description, std::string_view line, int column);
 
 }  // namespace candela

@@ -1,0 +1,49 @@
+module;
+
+#include "candela/api.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+export module candela.render:compiled_scene;
+
+import candela.diagnostics;
+import candela.environment;
+import candela.geometry;
+import candela.mesh;
+import candela.registry;
+import candela.scene;
+import candela.shade;
+
+export namespace candela {
+
+/// An object with its triangles and its models.
+struct SolidObject {
+    std::string label;
+    Mesh mesh;
+    SurfaceModels surface;
+    std::optional<TriangleTree> tree{};  // of the mesh, if the reflection model shows its surroundings
+};
+
+/// A scene with its plugins loaded and its objects tessellated: what all pictures of it share. Rendering does
+/// not change it; between pictures its observer, lights, colours and models may be replaced at will (a
+/// reflection model that shows its surroundings needs its object's tree).
+struct CompiledScene {
+    Observer observer;
+    ImageSettings image;
+    Environment environment;  // what is seen where there is no object
+    std::vector<LitSource> lights;
+    std::vector<SolidObject> objects;
+};
+
+/// Loads what the scene names, and nothing else, tessellates its objects and checks the constraints that only
+/// triangles can decide. Reports failures with the light or object concerned, and then returns nothing, as it
+/// does if errors were reported before; warns about meshes that are not closed. `threads`: as in
+/// RenderOptions.
+CANDELA_API std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
+                                                 Diagnostics& diagnostics, int threads = 0);
+CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
+                                                 Diagnostics& diagnostics, int threads = 0);
+
+}  // namespace candela

@@ -1,0 +1,44 @@
+module;
+
+#include <cstddef>
+#include <cstdint>
+
+module candela.fragments:interpolation;
+
+import candela.math;
+import candela.mesh;
+import candela.raster;
+
+namespace candela {
+
+/// A triangle's vertices, projected and in world space, and its normal.
+struct TriangleAttributes {
+    ProjectedVertex projected[3];
+    MeshVertex corner[3];
+    Vec3 face_normal;
+};
+
+/// What is interpolated at a fragment.
+struct InterpolatedSpans {
+    Vec3Span barycentric, position, vertex_normal, face_normal;
+};
+
+/// Interpolates over `count` fragments of one triangle, at (x, y), and writes whole vectors, beyond `count`
+/// if need be.
+void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
+                 const InterpolatedSpans& points);
+
+/// A mesh with its projected vertices.
+struct IndexedMesh {
+    const std::uint32_t* indices;
+    const ProjectedVertex* projected;
+    const MeshVertex* vertices;
+    ConstVec3Span face_normal;
+};
+
+/// Interpolates over `count` fragments of one triangle each, at (x, y), and writes whole vectors, beyond
+/// `count` if need be. Yields the same numbers as interpolate().
+void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::uint32_t* triangle,
+                      const float* x, const float* y, const InterpolatedSpans& points);
+
+}  // namespace candela

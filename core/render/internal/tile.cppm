@@ -1,0 +1,95 @@
+module;
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+module candela.render:tile;
+
+import :compiled_scene;
+import :sparse_set;
+import candela.arrays;
+import candela.film;
+import candela.fragments;
+import candela.math;
+import candela.raster;
+import candela.scene;
+import candela.shade;
+
+namespace candela {
+
+/// The visible fragments of one tile.
+struct VisibleTile {
+    int x0 = 0, y0 = 0, width = 0, height = 0, stride = 0;  // as in TileVisibility
+    bool is_empty = true;                                   // nothing but the background
+    TileFragments fragments;
+
+    std::size_t plane() const { return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride); }
+};
+
+/// Turns the fragments of a tile into pixels. Owns a tile's arrays: use one per thread.
+class TileShader {
+  public:
+    TileShader();
+
+    /// Sets the scene for the following calls, and resets the counts.
+    void begin(const CompiledScene& scene, const ProjectedScene& projected);
+
+    /// Fills the tile's pixels with the background, weighted by how much of each pixel shows it.
+    void fill_background(const VisibleTile& visible);
+
+    // Adds one object's fragments to the tile's pixels, lit once per fragment, face or vertex.
+    void shade_fragments(const FragmentList& fragments);
+    void shade_faces(const FragmentList& fragments);
+    void shade_vertices(const FragmentList& fragments);
+
+    /// The tile's intensities, rows VisibleTile::stride apart.
+    ConstVec3Span pixels() const { return pixels_.span(); }
+
+    std::size_t points_lit() const { return points_lit_; }
+    float brightest() const { return brightest_; }
+
+  private:
+    ProjectedMesh mesh_of(const FragmentList& fragments) const;
+    void shade_points(std::uint32_t object, const Vec3Span& intensity);
+    void accumulate(std::span<const FragmentRun> runs, const ConstVec3Span& intensity);
+
+    const CompiledScene* scene_ = nullptr;
+    const ProjectedScene* projected_ = nullptr;
+    SurfaceShader surface_shader_;
+    SurfacePoints points_;
+    SparseSet sparse_set_;              // of a tile's faces, or sides of vertices
+    std::vector<VertexSide> vertices_;  // in the order of their numbers
+    Vec3Arrays batch_;                  // intensities of one batch
+    Vec3Arrays places_;                 // of a tile's faces or vertices
+    Vec3Arrays pixels_;
+    std::size_t points_lit_ = 0;
+    float brightest_ = 0;
+};
+
+/// One thread's workspace, reused from tile to tile.
+struct TileWorker {
+    TileVisibility visibility;
+    VisibleTile visible;
+    TileShader shader;
+    std::size_t pixels_shaded = 0;
+};
+
+// The stages of the pipeline; see pipeline.cpp.
+
+/// The observer's camera for a picture of that size.
+Camera camera_of(const Observer& observer, int width, int height);
+
+/// Projects a scene's meshes and sorts their triangles into tiles. Throws Error.
+void project_scene(const CompiledScene& scene, int width, int height, int tile_size,
+                   ProjectedScene& projected);
+
+/// Finds the fragments that are visible in a tile.
+void find_visible(const ProjectedScene& projected, int tile, TileVisibility& visibility,
+                  VisibleTile& visible);
+
+/// Shades a tile's fragments and stores its pixels.
+void shade_tile(const CompiledScene& scene, const VisibleTile& visible, TileWorker& worker, Film& film);
+
+}  // namespace candela

@@ -1,0 +1,29 @@
+module;
+
+#include <cstddef>
+#include <cstdint>
+
+module candela.raster:binning;
+
+import :projected_scene;
+import candela.mesh;
+
+namespace candela {
+
+/// Where a vertex lies: beyond which plane of the view volume, or beyond the guard band, where its
+/// fixed-point pixels are useless; or nowhere, if its position is not finite.
+struct Outside {
+    static constexpr std::uint32_t near = 1, left = 2, right = 4, top = 8, bottom = 16;
+    static constexpr std::uint32_t view = near | left | right | top | bottom;
+    static constexpr std::uint32_t guard = 32, nowhere = 64;
+};
+
+/// The near plane: nothing closer to the eye than a tenth of a millimetre is seen (perspective only).
+inline constexpr float k_near = 1e-4f;
+
+/// Makes the fixed-point triangles of a range of a mesh, and sorts them into tiles. `first_id`: of the mesh's
+/// first triangle.
+void bin_triangles(const ProjectedScene& scene, const Mesh& mesh, std::uint32_t first_vertex,
+                   std::uint32_t first_id, std::size_t first_triangle, std::size_t count, TriangleBin& bin);
+
+}  // namespace candela

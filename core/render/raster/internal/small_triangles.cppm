@@ -1,0 +1,28 @@
+module;
+
+#include <cstddef>
+#include <cstdint>
+
+module candela.raster:small_triangles;
+
+import :projected_scene;
+
+namespace candela {
+
+/// Triangles whose box covers at most four by four pixels, processed together; one sample per pixel. Their
+/// coverage and depth depend on the triangle alone, not on the tile.
+struct SmallTriangles {
+    static constexpr std::size_t k_size = 64;
+
+    alignas(64) std::int32_t is_small[k_size];      // otherwise the rest is undefined
+    alignas(64) std::int32_t x[k_size], y[k_size];  // of the box's first pixel
+    alignas(64) std::int32_t covered[k_size];       // bit 4 * row + column of the box
+    alignas(64) float depth[k_size];                // at the first pixel
+    alignas(64) float to_right[k_size], down[k_size];
+
+    /// Sets up `count` <= k_size triangles of `all`, given their indices.
+    void set_up(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count,
+                int subpixel_bits);
+};
+
+}  // namespace candela

@@ -1,0 +1,48 @@
+module;
+
+#include "candela/api.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+export module candela.raster:visibility;
+
+import :projected_scene;
+import candela.arrays;
+
+export namespace candela {
+
+inline constexpr std::uint32_t k_no_triangle = 0xffff'ffffu;
+
+/// Sub-pixel positions of the samples, in sixteenths of a pixel from its top left.
+struct SamplePosition {
+    std::uint8_t x, y;
+};
+/// For 1, 4, 8 or 16 samples per pixel: the centre, or the patterns of the D3D 11 specification.
+CANDELA_API std::span<const SamplePosition> sample_pattern(int samples) noexcept;
+
+/// What one tile sees. Reused from tile to tile.
+struct TileVisibility {
+    int x0 = 0, y0 = 0;         // its top left pixel
+    int width = 0, height = 0;  // the pixels of it that are in the picture
+    int stride = 0;             // of a row, a multiple of 16
+    int samples = 1;
+    AlignedVector<std::uint32_t> triangle;  // sample by sample, row by row; k_no_triangle: background
+    AlignedVector<float> depth;
+
+    inline std::size_t plane() const {
+        return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride);
+    }
+    inline std::uint32_t at(int sample, int px, int py) const {
+        return triangle[static_cast<std::size_t>(sample) * plane() +
+                        static_cast<std::size_t>(py * stride + px)];
+    }
+};
+
+/// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle of each sample, the first one
+/// among equally near ones; a sample on a shared edge belongs to one triangle only (top-left rule). Returns
+/// false if no triangle comes near the tile; `visibility` then only has its position. Any thread.
+CANDELA_API bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility);
+
+}  // namespace candela

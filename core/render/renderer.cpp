@@ -1,0 +1,165 @@
+// What is kept from picture to picture, threads, and statistics; the stages are in pipeline.cpp.
+module;
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+module candela.render;
+
+import :tile;
+import candela.diagnostics;
+import candela.film;
+import candela.mesh;
+import candela.parallel;
+import candela.pool;
+import candela.raster;
+import candela.scene;
+
+namespace candela {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// All samples of a tile's visibility should fit into the second-level cache.
+int tile_size_for(int samples) { return samples <= 4 ? 64 : 32; }
+
+/// The parts of a scene that visibility depends on.
+struct SeenScene {
+    explicit SeenScene(const CompiledScene& scene, const Film& film, int size_of_tiles)
+        : observer(scene.observer),
+          width(film.width()),
+          height(film.height()),
+          samples(scene.image.samples),
+          tile_size(size_of_tiles) {
+        for (const SolidObject& object : scene.objects)
+            meshes.push_back(
+                {object.mesh.position.x.data(), object.mesh.indices.data(), object.mesh.indices.size()});
+    }
+
+    struct MeshPlace {
+        const float* position;
+        const std::uint32_t* indices;
+        std::size_t corner_count;
+        friend bool operator==(const MeshPlace&, const MeshPlace&) = default;
+    };
+
+    Observer observer;
+    int width, height, samples, tile_size;
+    std::vector<MeshPlace> meshes;
+
+    friend bool operator==(const SeenScene&, const SeenScene&) = default;
+};
+
+int tile_size_of(const CompiledScene& scene, const RenderOptions& options) {
+    return options.tile_size > 0 ? options.tile_size : tile_size_for(scene.image.samples);
+}
+
+/// What one thread takes to shade a whole picture: the times per point and light, and per triangle, on
+/// processors of 2020.
+double rough_milliseconds(const CompiledScene& scene, const Film& film) {
+    double triangles = 0;
+    for (const SolidObject& object : scene.objects)
+        triangles += static_cast<double>(object.mesh.triangle_count());
+    const double points = 1.0 * film.width() * film.height() * scene.image.samples;
+    return 5e-6 * points * static_cast<double>(std::max<std::size_t>(scene.lights.size(), 1)) +
+           2e-5 * triangles;
+}
+/// Many pictures are worth more threads, however small each is.
+constexpr double k_again_and_again = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+struct Renderer::Kept {
+    explicit Kept(Keep keep) : what(keep) {}
+
+    Keep what;
+    ProjectedScene projected;
+    Pool<TileWorker> workers;
+    std::vector<VisibleTile> tiles;  // if visibility is kept
+    std::optional<SeenScene> seen;   // what the complete tiles show
+    bool is_first = true;            // whether this is the first picture
+
+    /// Runs the stages from projection on, or from shading on if `is_seen`.
+    RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options,
+                            bool is_seen) {
+        RenderStatistics statistics;
+        const auto begin = Clock::now();
+        if (!is_seen)
+            project_scene(scene, film.width(), film.height(), tile_size_of(scene, options), projected);
+        const auto tile_count = static_cast<std::size_t>(projected.tile_count());
+        if (what == Keep::visibility) tiles.resize(tile_count);
+        statistics.seconds_projecting = seconds_since(begin);
+        statistics.triangles = projected.first_triangle.back();
+
+        const auto tiles_begin = Clock::now();
+        const auto begin_picture = [&](TileWorker& worker) {
+            worker.shader.begin(scene, projected);
+            worker.pixels_shaded = 0;
+        };
+        workers.each(begin_picture);
+        const auto make = [&] {
+            auto worker = std::make_unique<TileWorker>();
+            begin_picture(*worker);
+            return worker;
+        };
+        std::atomic<std::size_t> tiles_done{0};
+        const std::size_t grain = std::clamp<std::size_t>(tile_count / 64, 1, 4);
+        parallel_for(tile_count, grain, [&](std::size_t first, std::size_t last) {
+            workers.with(make, [&](TileWorker& worker) {
+                for (std::size_t tile = first; tile < last; ++tile) {
+                    VisibleTile& visible = what == Keep::visibility ? tiles[tile] : worker.visible;
+                    if (!is_seen) find_visible(projected, static_cast<int>(tile), worker.visibility, visible);
+                    shade_tile(scene, visible, worker, film);
+                    if (options.progress) options.progress(++tiles_done, tile_count);
+                }
+            });
+        });
+        workers.each([&](const TileWorker& worker) {
+            statistics.pixels_shaded += worker.pixels_shaded;
+            statistics.points_lit += worker.shader.points_lit();
+            statistics.brightest = std::max(statistics.brightest, worker.shader.brightest());
+        });
+        statistics.seconds_on_tiles = seconds_since(tiles_begin);
+        return statistics;
+    }
+};
+
+Renderer::Renderer(Keep keep) : kept_(std::make_unique<Kept>(keep)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+void Renderer::forget() noexcept { kept_->seen.reset(); }
+
+RenderStatistics Renderer::render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
+    SeenScene to_see(scene, film, tile_size_of(scene, options));
+    const bool is_seen = kept_->what == Keep::visibility && kept_->seen == to_see;
+    // Until they are complete, the tiles show nothing: something may throw.
+    if (!is_seen) kept_->seen.reset();
+    RenderStatistics statistics;
+    with_threads(
+        options.threads, [&] { statistics = kept_->render(scene, film, options, is_seen); },
+        std::exchange(kept_->is_first, false) ? rough_milliseconds(scene, film) : k_again_and_again);
+    if (!is_seen) kept_->seen = std::move(to_see);
+    return statistics;
+}
+
+RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
+    return Renderer().render(scene, film, options);
+}
+
+}  // namespace candela

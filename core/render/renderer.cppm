@@ -1,0 +1,67 @@
+module;
+
+#include "candela/api.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+export module candela.render:renderer;
+
+import :compiled_scene;
+import candela.film;
+
+export namespace candela {
+
+struct RenderOptions {
+    int threads = 0;    // 0: all, but one for a first picture that takes less time than starting the others
+    int tile_size = 0;  // pixels, a power of two from 16 on; 0: chosen. The picture does not depend on it.
+    std::function<void(std::size_t done, std::size_t all)>
+        progress{};  // tiles; called by any thread, by several at once
+};
+
+struct RenderStatistics {
+    std::size_t triangles = 0;
+    std::size_t pixels_shaded = 0;  // pixels that show an object
+    std::size_t points_lit = 0;     // faces, vertices and fragments at which light was evaluated
+    float brightest = 0;            // the largest intensity of a channel at those points
+    double seconds_projecting = 0;  // vertices, clipping, sorting into tiles
+    double seconds_on_tiles = 0;    // visibility, light, reflection, pixels
+};
+
+/// Renders one picture: the same bytes for any number of threads and any tile size. Throws Error.
+CANDELA_API RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
+
+/// Renders a sequence of pictures, each identical to that of candela::render(), and keeps from one to the
+/// next what can be reused. One thread at a time.
+class CANDELA_API Renderer {
+  public:
+    enum class Keep {
+        memory,     // the arrays
+        visibility  // also which triangle is visible where: if nothing but lights, colours or models has
+                    // changed since the previous picture, only shading is repeated; 24 bytes per run of
+                    // pixels that see one triangle
+    };
+    explicit Renderer(Keep keep = Keep::memory);
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+    ~Renderer();
+
+    /// Forgets visibility. Call it when a mesh has been changed in place; all other changes are detected.
+    void forget() noexcept;
+
+    RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
+
+  private:
+    struct Kept;
+    std::unique_ptr<Kept> kept_;
+};
+
+/// Why a picture shows no light on any object, and what to do, as the end of the sentence "nothing in the
+/// picture is lit: …". Empty if something is lit, or if the scene has no objects or no lights, which reading
+/// it has reported.
+CANDELA_API std::string why_black(const CompiledScene& scene, const Film& film,
+                                  const RenderStatistics& statistics);
+
+}  // namespace candela

@@ -1,0 +1,48 @@
+module;
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+module candela.shade:surroundings;
+
+import :surface;
+import candela.arrays;
+import candela.environment;
+import candela.fragments;
+import candela.math;
+import candela.reflection;
+
+namespace candela {
+
+/// The normals from an object's shading model, on the side from which triangles are seen from the front.
+void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
+
+/// What the models of one object see of the world around it.
+class ObjectSurroundings final : public Surroundings {
+  public:
+    explicit ObjectSurroundings(const Environment& environment) : environment_(environment) {}
+
+    /// Sets the object for the following calls.
+    void set_object(const SurfaceModels& surface, const Interior& interior) {
+        surface_ = &surface;
+        interior_ = interior;
+    }
+
+    void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) override;
+    void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+               const ExitBatch& exit) override;
+
+  private:
+    void leave_batch(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                     const ExitBatch& exit);
+
+    const Environment& environment_;
+    const SurfaceModels* surface_ = nullptr;
+    Interior interior_;
+    SurfacePoints points_;  // where rays left
+    Vec3Arrays barycentric_, normal_;
+    std::vector<std::uint32_t> triangles_, rays_;
+};
+
+}  // namespace candela

@@ -1,0 +1,54 @@
+module;
+
+#include "candela/api.h"
+
+#include <memory>
+#include <span>
+#include <string>
+
+export module candela.shade:surface;
+
+import candela.color;
+import candela.environment;
+import candela.fragments;
+import candela.geometry;
+import candela.light;
+import candela.mesh;
+import candela.raster;
+import candela.reflection;
+import candela.shading;
+
+export namespace candela {
+
+/// A light, and the plugin it comes from.
+struct LitSource {
+    std::string plugin;
+    std::unique_ptr<Light> light;
+};
+
+/// The look of an object's surface.
+struct SurfaceModels {
+    Rgb color;
+    std::string shading_plugin;
+    std::unique_ptr<ShadingModel> shading;
+    std::string reflection_plugin;
+    std::unique_ptr<ReflectionModel> reflection;
+
+    PointNeeds needs() const;
+};
+
+/// The inside of an object, for a transparent model.
+struct Interior {
+    const Mesh* mesh = nullptr;
+    const TriangleTree* tree =
+        nullptr;  // of that mesh; null: light that enters does not meet the object again
+};
+
+/// The lights of a scene, and the view of it.
+struct LitScene {
+    std::span<const LitSource> lights;
+    const Environment* environment = nullptr;
+    Camera camera;
+};
+
+}  // namespace candela

@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""Runs clang-tidy on the sources that a change may have affected. scripts/lint.sh calls it after a full build.
+
+    tidy.py BUILD OUT --all          every source of the core, the SDK, the plugins and the command, tests excepted
+    tidy.py BUILD OUT --since REV    those that differ from commit REV, committed or not, and those that include or import them
+
+Uses the newest clang-tidy whose compiler is installed. Compiled module interfaces can be read by one version of clang only, so for
+any version but the build's they are compiled again, without code. OUT receives a Ninja file: what was clean is checked again only
+when it, or something it reads, has changed.
+"""
+
+import json
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDERS = [ROOT / name for name in ("core", "sdk", "plugins", "apps")]
+# A change to one of these affects everything.
+OF_ALL = {".clang-tidy", "scripts/tidy.py"}
+VERSIONS = (22, 21, 20, 19)
+
+
+def output_of(*words, **options):
+    return subprocess.run(words, check=True, capture_output=True, text=True, **options).stdout
+
+
+class Unit:
+    """What one entry of compile_commands.json compiles."""
+
+    def __init__(self, entry, includes):
+        self.directory = pathlib.Path(entry["directory"])
+        self.source = pathlib.Path(entry["file"])
+        self.object = entry["output"]
+        words = shlex.split(entry["command"])
+        self.compiler = words[0]
+        modmaps = [word[1:] for word in words if word.startswith("@")]
+        of_modules = [option for name in modmaps for option in (self.directory / name).read_text().split()]
+        self.imports = [option.split("=", 2)[2] for option in of_modules if option.startswith("-fmodule-file=")]
+        self.names = {option.split("=", 2)[2]: option.split("=", 2)[1] for option in of_modules
+                      if option.startswith("-fmodule-file=")}
+        self.interface = next((option.split("=", 1)[1] for option in of_modules if option.startswith("-fmodule-output=")), None)
+        self.options = [word for word in words[1:] if not word.startswith(("@", "-fsave-optimization-record", "-foptimization-record"))]
+        self.includes = includes.get(self.object, [])
+
+    def is_checked(self):
+        """Interfaces are checked in the sources that import them; tests are not checked."""
+        return not self.interface and not self.source.name.endswith("_test.cpp")
+
+
+def included_files(build):
+    """For each object file, the files of this repository that it was made from, as recorded by Ninja."""
+    found, current = {}, None
+    for line in output_of("ninja", "-C", build, "-t", "deps").splitlines():
+        if line.startswith("    "):
+            path = (build / line.strip()).resolve()
+            if path.is_relative_to(ROOT) and not path.is_relative_to(build):
+                current.append(path)
+        elif ": #deps" in line:
+            current = found.setdefault(line.split(": #deps")[0], [])
+    return found
+
+
+def changed_files(since):
+    names = output_of("git", "diff", "--name-only", "--no-renames", "-z", since, cwd=ROOT)
+    names += output_of("git", "ls-files", "--others", "--exclude-standard", "-z", cwd=ROOT)
+    return set(filter(None, names.split("\0")))
+
+
+def concerned(units, changed):
+    """The units that read a changed file, or import an interface that does."""
+    paths = {ROOT / name for name in changed}
+
+    def reads(unit):
+        return unit.source in paths or any(file in paths for file in unit.includes)
+
+    interfaces = {unit.interface for unit in units if unit.interface and reads(unit)}
+    return [unit for unit in units if reads(unit) or interfaces.intersection(unit.imports)]
+
+
+def tools(compiler):
+    """clang-tidy, and the compiler to make interfaces for it with, or none where the build's own will do."""
+    own = int(re.search(r"clang version (\d+)", output_of(compiler, "--version"))[1])
+    for version in VERSIONS:
+        if not shutil.which(f"clang-tidy-{version}"):
+            continue
+        if version == own:
+            return f"clang-tidy-{version}", None
+        if shutil.which(f"clang++-{version}"):
+            return f"clang-tidy-{version}", f"clang++-{version}"
+    sys.exit(f"tidy: there is no clang-tidy for the interfaces of {compiler}; scripts/setup.sh installs one")
+
+
+def escaped(path):
+    return str(path).replace("$", "$$").replace(" ", "$ ").replace(":", "$:")
+
+
+def write_ninja_file(out, units, chosen, tidy, compiler):
+    """Rules to make the interfaces that `tidy` needs, and to check the chosen units."""
+    own = {unit.interface: str(out / unit.interface) if compiler else str(unit.directory / unit.interface)
+           for unit in units if unit.interface}
+
+    def import_options(unit):
+        return [f"-fmodule-file={unit.names[path]}={own[path]}" for path in unit.imports]
+
+    def edge(output, rule, unit, command):
+        inputs = [*unit.includes, *(own[path] for path in unit.imports)]
+        if rule == "tidy":
+            inputs.append(ROOT / ".clang-tidy")
+        return (f"build {escaped(output)}: {rule} {escaped(unit.source)} | {' '.join(map(escaped, inputs))}\n"
+                f"  command = {command.replace('$', '$$')}\n  description = {rule} {unit.source.relative_to(ROOT)}\n")
+
+    text = ["rule interface\n  command = $command\n", "rule tidy\n  command = $command\n"]
+    commands, checked = [], []
+    for unit in units:
+        at = shlex.quote(str(unit.directory))
+        if unit.interface and compiler:
+            # The build has shown its warnings already.
+            options = [word for word in unit.options if word not in ("-c", "-o", unit.object, str(unit.source))]
+            options += [*import_options(unit), "-w", "-x", "c++-module", "--precompile", str(unit.source), "-o", own[unit.interface]]
+            text.append(edge(own[unit.interface], "interface", unit, f"cd {at} && {shlex.join([compiler, *options])}"))
+        if unit.is_checked():
+            commands.append({"directory": str(unit.directory), "file": str(unit.source), "output": unit.object,
+                             "arguments": [compiler or "clang++", *unit.options, *import_options(unit)]})
+    for unit in chosen:
+        stamp = out / f"{unit.object}.clean"
+        stamp.parent.mkdir(parents=True, exist_ok=True)
+        log = shlex.quote(f"{stamp}.log")
+        look = shlex.join([tidy, "-p", str(out), "--quiet", str(unit.source)])
+        text.append(edge(stamp, "tidy", unit, f"{look} >{log} 2>&1 && touch {shlex.quote(str(stamp))} || {{ cat {log}; exit 1; }}"))
+        checked.append(escaped(stamp))
+    text.append(f"build checked: phony {' '.join(checked)}\n")
+    for name in own.values():
+        pathlib.Path(name).parent.mkdir(parents=True, exist_ok=True)
+    (out / "compile_commands.json").write_text(json.dumps(commands, indent=1))
+    (out / "build.ninja").write_text("\n".join(text))
+
+
+def main():
+    build, out = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
+    includes = included_files(build)
+    entries = json.loads((build / "compile_commands.json").read_text())
+    units = [Unit(entry, includes) for entry in entries
+             if any(pathlib.Path(entry["file"]).is_relative_to(folder) for folder in FOLDERS)]
+    all_of_them = [unit for unit in units if unit.is_checked()]
+    chosen = all_of_them
+    if sys.argv[3] == "--since":
+        changed = changed_files(sys.argv[4])
+        if not changed & OF_ALL:
+            chosen = [unit for unit in concerned(units, changed) if unit.is_checked()]
+    tidy, compiler = tools(units[0].compiler)
+    print(f"tidy: {tidy} checks {len(chosen)} of {len(all_of_them)} sources", flush=True)
+    out.mkdir(parents=True, exist_ok=True)
+    write_ninja_file(out, units, chosen, tidy, compiler)
+    return subprocess.run(["ninja", "-C", str(out), "-k", "0", "checked"], check=False).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())

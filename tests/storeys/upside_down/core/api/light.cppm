@@ -1,0 +1,3 @@
+export module candela.light;
+
+import candela.files;

@@ -1,0 +1,3 @@
+export module candela.files;
+
+import candela.light;

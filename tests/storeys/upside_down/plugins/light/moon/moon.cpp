@@ -1,0 +1,4 @@
+#include "candela/plugin.h"
+
+import candela.files;
+import candela.light;

@@ -1,0 +1,4 @@
+#pragma once
+
+#include "candela/kernel.h"
+import candela.light;
