@@ -9,13 +9,15 @@
 #include <vector>
 
 #include "command_line.h"
+#include "exit_code.h"
+#include "reporting.h"
 #include "stopwatch.h"
 #include "terminal.h"
 #include "verbs.h"
 
 namespace po = boost::program_options;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -28,7 +30,8 @@ double median_of(std::vector<double> values) {
 int count_from(const CommandLine& line, const char* flag, int least, int most) {
     const int count = line.get<int>(flag);
     if (count < least || count > most)
-        throw Error(ExitCode::usage, fmt::format("--{} is {}; it can be {} to {}", flag, count, least, most));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--{} is {}; it can be {} to {}", flag, count, least, most));
     return count;
 }
 
@@ -95,12 +98,12 @@ int run_bench(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela bench [SCENE...] [options]",
         "Renders a scene again and again within one process, and prints the median times of its stages\n"
-        "and what they come to. The scene is read, and its triangles are made, once.");
+        "and the rates they amount to. The scene is read, and its triangles are made, once.");
     line.options()("frames", po::value<int>()->value_name("N")->default_value(50),
                    "frames to measure, 1 to 100000")(
         "warm-up", po::value<int>()->value_name("N")->default_value(5), "frames before that, 0 to 100000")(
-        "threads", po::value<int>()->value_name("N")->default_value(0), "processors to use; 0: all")(
-        "json", "print the figures as JSON");
+        "threads", po::value<int>()->value_name("N")->default_value(0), "threads to use; 0: all cores")(
+        "json", "print the results as JSON");
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
     const Plan plan{.frames = count_from(line, "frames", 1, 100000),
@@ -115,8 +118,8 @@ int run_bench(const std::vector<std::string>& arguments) {
     const Stopwatch compiling;
     const auto scene = draft ? candela::compile(*draft, registry, diagnostics, plan.threads) : std::nullopt;
     const double compile_ms = compiling.milliseconds();
-    std::cerr << diagnostics.text(stderr_takes_color());
-    if (!scene) return static_cast<int>(diagnostics.exit_code());
+    report(diagnostics);
+    if (!scene) return static_cast<int>(exit_code_of(diagnostics));
 
     const candela::ImageSettings& image = scene->image;
     candela::Film film(image.width, image.height, candela::PixelType::byte, image.color_management);

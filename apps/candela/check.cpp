@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "command_line.h"
+#include "diagnostics_text.h"
+#include "exit_code.h"
+#include "reporting.h"
 #include "terminal.h"
 #include "verbs.h"
 
@@ -53,7 +56,7 @@ void print_summary(const Scene& scene, const CompiledScene& compiled) {
     std::cout << "The scene is valid.\n"
               << fmt::format("  room      {} m wide, {} m high, {} m deep\n", room.width, room.height,
                              room.depth)
-              << fmt::format("  picture   {} x {} pixels, {} a pixel\n", scene.image.width,
+              << fmt::format("  picture   {} x {} pixels, {} per pixel\n", scene.image.width,
                              scene.image.height,
                              count(static_cast<std::size_t>(scene.image.samples), "sample"))
               << fmt::format("  lights    {}{}\n", scene.lights.size(),
@@ -80,7 +83,8 @@ void print_summary(const Scene& scene, const CompiledScene& compiled) {
 void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene,
                 const Diagnostics& diagnostics) {
     using Json = nlohmann::ordered_json;
-    Json result = {{"valid", compiled.has_value()}, {"diagnostics", Json::parse(diagnostics.json())}};
+    Json result = {{"valid", compiled.has_value()},
+                   {"diagnostics", Json::parse(diagnostics_json(diagnostics))}};
     if (compiled) {
         Json objects = Json::array();
         for (std::size_t i = 0; i < scene->objects.size(); ++i) {
@@ -109,17 +113,17 @@ void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene
 int run_check(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela check SCENE... [options]",
-        "Reads a scene, or several files that together are one, and says all that is wrong with it, or what\n"
-        "was read.");
+        "Reads a scene from one file or several, and reports every error in it, or a summary of what was\n"
+        "read.");
     add_scene_options(line);
     line.options()("json", "the diagnostics and the summary as JSON, on standard output")(
-        "print", "print the scene as one file: includes, --set and all defaults put in");
+        "print", "print the scene as one file: with includes, --set and all defaults filled in");
     if (!line.parse(arguments)) return 0;
     if (line.has("json") && line.has("print"))
-        throw candela::Error(candela::ExitCode::usage,
+        throw candela::Error(candela::ErrorCategory::bad_request,
                              "--json and --print both want standard output; choose one");
     if (!line.has("scene"))
-        throw candela::Error(candela::ExitCode::usage, "candela check needs a scene file");
+        throw candela::Error(candela::ErrorCategory::bad_request, "candela check needs a scene file");
 
     candela::Registry registry = registry_from(line);
     Diagnostics diagnostics;
@@ -132,12 +136,12 @@ int run_check(const std::vector<std::string>& arguments) {
     if (line.has("json")) {
         print_json(compiled, draft ? &draft->scene : nullptr, diagnostics);
     } else {
-        std::cerr << diagnostics.text(stderr_takes_color());
+        report(diagnostics);
         if (compiled && line.has("print")) {
             std::cout << candela::scene_text(draft->scene);
         } else if (compiled) {
             print_summary(draft->scene, *compiled);
         }
     }
-    return static_cast<int>(diagnostics.exit_code());
+    return static_cast<int>(exit_code_of(diagnostics));
 }

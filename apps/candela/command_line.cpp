@@ -10,7 +10,7 @@
 
 namespace po = boost::program_options;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 CommandLine::CommandLine(std::string usage, std::string explanation)
     : usage_(std::move(usage)), explanation_(std::move(explanation)) {
@@ -34,14 +34,14 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
     } catch (const po::unknown_option& problem) {
         std::vector<std::string> known;
         for (const auto& option : visible_.options()) known.push_back("--" + option->long_name());
-        const auto near = candela::closest(problem.get_option_name(), known);
-        throw Error(ExitCode::usage,
+        const std::string meant = candela::suggestion(problem.get_option_name(), known);
+        throw Error(ErrorCategory::bad_request,
                     fmt::format("unknown option '{}'; {}", problem.get_option_name(),
-                                near ? fmt::format("did you mean '{}'?", *near) : "--help shows all"));
+                                meant.empty() ? "--help shows all" : meant));
     } catch (const po::too_many_positional_options_error&) {
-        throw Error(ExitCode::usage, fmt::format("too many arguments; usage: {}", usage_));
+        throw Error(ErrorCategory::bad_request, fmt::format("too many arguments; usage: {}", usage_));
     } catch (const po::error& problem) {
-        throw Error(ExitCode::usage, problem.what());
+        throw Error(ErrorCategory::bad_request, problem.what());
     }
     if (!has("help")) return true;
     std::cout << "Usage: " << usage_ << "\n\n" << explanation_ << "\n\n" << visible_;
@@ -55,14 +55,15 @@ std::vector<std::string> CommandLine::all(const std::string& name) const {
 void add_plugin_options(CommandLine& line) {
     line.options()("plugin-dir", po::value<std::vector<std::string>>()->value_name("DIR"),
                    "look for plugins here first; may be repeated")(
-        "allow-untrusted-plugins", "also use plugins that other users can change");
+        "allow-untrusted-plugins", "also load plugins that other users can modify");
 }
 
 candela::Registry registry_from(const CommandLine& line) {
     std::vector<std::filesystem::path> first;
     for (const std::string& directory : line.all("plugin-dir")) {
         if (!std::filesystem::is_directory(directory)) {
-            throw Error(ExitCode::failure, fmt::format("--plugin-dir '{}' is no directory", directory));
+            throw Error(ErrorCategory::failure,
+                        fmt::format("--plugin-dir '{}' is not a directory", directory));
         }
         first.emplace_back(directory);
     }
@@ -74,15 +75,15 @@ candela::Registry registry_from(const CommandLine& line) {
 void add_scene_options(CommandLine& line) {
     line.positional("scene", -1);
     line.options()("shading", po::value<std::string>()->value_name("NAME"),
-                   "shading model of all objects, whatever the scene says")(
+                   "shading model of all objects; overrides the scene")(
         "reflection", po::value<std::string>()->value_name("NAME"),
-        "reflection model of all objects, whatever the scene says")(
+        "reflection model of all objects; overrides the scene")(
         "width", po::value<std::string>()->value_name("N"), "pixels from left to right")(
         "height", po::value<std::string>()->value_name("N"), "pixels from top to bottom")(
-        "samples", po::value<std::string>()->value_name("N"), "samples a pixel: 1, 4, 8 or 16")(
+        "samples", po::value<std::string>()->value_name("N"), "samples per pixel: 1, 4, 8 or 16")(
         "set", po::value<std::vector<std::string>>()->value_name("PATH=VALUE"),
-        "change one value, such as light.lamp.intensity=3 or object.0.color=[255,0,0]; may be repeated")(
-        "defaults", "where the scene names no shading or reflection model, use Phong without asking");
+        "override one value, such as light.lamp.intensity=3 or object.0.color=[255,0,0]; may be repeated")(
+        "defaults", "if the scene names no shading or reflection model, use Phong without asking");
     add_plugin_options(line);
 }
 
@@ -97,14 +98,14 @@ candela::SceneRequest scene_request_from(const CommandLine& line) {
     for (const std::string& setting : line.all("set")) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) {
-            throw Error(ExitCode::usage,
+            throw Error(ErrorCategory::bad_request,
                         fmt::format("--set '{}' has no '='; write --set image.width=640", setting));
         }
         const std::string path = setting.substr(0, equals);
         request.settings.push_back({fmt::format("--set {}", path), path, setting.substr(equals + 1)});
     }
-    if (line.has("shading")) request.shading = line.get<std::string>("shading");
-    if (line.has("reflection")) request.reflection = line.get<std::string>("reflection");
+    if (line.has("shading")) request.shading = {line.get<std::string>("shading"), "--shading"};
+    if (line.has("reflection")) request.reflection = {line.get<std::string>("reflection"), "--reflection"};
     request.use_defaults = line.has("defaults");
     if (can_ask()) request.ask = ask;
     return request;

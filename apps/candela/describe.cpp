@@ -10,7 +10,7 @@
 #include "verbs.h"
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -31,12 +31,12 @@ const candela::PluginFile& plugin_called(const std::string& id, candela::Registr
     if (of_that_name.size() > 1) {
         std::vector<std::string> possible;
         for (const candela::PluginFile* file : of_that_name) possible.push_back(file->manifest.id());
-        throw Error(ExitCode::usage, fmt::format("'{}' may be {}", id, fmt::join(possible, " or ")));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' may be {}", id, fmt::join(possible, " or ")));
     }
-    const auto near = candela::closest(id, ids);
-    throw Error(ExitCode::usage,
-                fmt::format("no plugin is called '{}'; {}", id,
-                            near ? fmt::format("did you mean '{}'?", *near) : "candela list shows all"));
+    const std::string meant = candela::suggestion(id, ids);
+    throw Error(ErrorCategory::bad_request, fmt::format("no plugin is called '{}'; {}", id,
+                                                        meant.empty() ? "candela list shows all" : meant));
 }
 
 std::string indented(const std::string& text) {
@@ -82,7 +82,7 @@ int run_describe(const std::vector<std::string>& arguments) {
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     if (!line.has("plugin"))
-        throw Error(ExitCode::usage, "candela describe needs a plugin, such as reflection/phong");
+        throw Error(ErrorCategory::bad_request, "candela describe needs a plugin, such as reflection/phong");
     candela::Registry registry = registry_from(line);
     const candela::PluginFile& file = plugin_called(line.all("plugin").front(), registry);
     if (line.has("json")) {

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "command_line.h"
+#include "exit_code.h"
 #include "generating.h"
+#include "reporting.h"
 #include "targets.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -15,18 +17,7 @@
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
-
-namespace {
-
-/// "512 bytes", "34.2 kB", "1.7 MB".
-std::string size_text(std::size_t bytes) {
-    const auto size = static_cast<double>(bytes);
-    if (size < 1e3) return fmt::format("{} bytes", bytes);
-    return size < 1e6 ? fmt::format("{:.1f} kB", size / 1e3) : fmt::format("{:.1f} MB", size / 1e6);
-}
-
-}  // namespace
+using candela::ErrorCategory;
 
 int run_generate(const std::vector<std::string>& arguments) {
     candela::Registry installed(candela::plugin_search_path({}));
@@ -38,29 +29,29 @@ int run_generate(const std::vector<std::string>& arguments) {
                          "`candela verify` shows that its picture is Candela's.");
     const std::string help = "what to write: " + any;
     line.options()("target,t", po::value<std::string>()->value_name("NAME"), help.c_str())(
-        "output,o", po::value<std::string>()->value_name("DIR"),
-        "the folder for it; scene-NAME, unless said")("build", "build it too")(
-        "run", "build it and run it: a picture, a window, or a browser");
+        "output,o", po::value<std::string>()->value_name("DIR"), "the output folder; default: scene-NAME")(
+        "build", "also build it")("run", "build it and run it: a picture, a window, or a browser");
     add_models_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
     candela::Registry registry = registry_from(line);
     if (!line.has("target"))
-        throw Error(ExitCode::usage, fmt::format("--target is missing ({})", target_names(registry, " or ")));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--target is missing ({})", target_names(registry, " or ")));
     const LoadedTarget target(line.get<std::string>("target"), registry);
     const fs::path directory =
         line.has("output") ? line.get<std::string>("output") : fmt::format("scene-{}", target.name());
 
     candela::Diagnostics diagnostics;
     const auto scene = scene_to_export(line, registry, diagnostics);
-    std::cerr << diagnostics.text(stderr_takes_color());
-    if (!scene) return static_cast<int>(diagnostics.exit_code());
+    report(diagnostics);
+    if (!scene) return static_cast<int>(exit_code_of(diagnostics));
     const auto exported = export_for(target, *scene, line, registry);
     const auto files = target.files_of(exported.scene());
     write_program(files, directory);
     for (const candela::ExportedFile& file : files)
         std::cerr << fmt::format("{}: {}\n", (directory / file.name).string(),
-                                 size_text(file.content.size()));
+                                 candela::size_text(file.content.size()));
     if (line.has("build") || line.has("run")) target.build(directory);
     return line.has("run") ? target.show(directory) : 0;
 }

@@ -10,7 +10,7 @@
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -29,7 +29,7 @@ std::vector<std::string> words_of(const std::string& list) {
 void add_models_option(CommandLine& line) {
     line.options()(
         "models", po::value<std::string>()->value_name("NAMES"),
-        "shading and reflection models to switch to beside the scene's: names parted by commas, ids such as "
+        "shading and reflection models to switch to beside the scene's: comma-separated names, ids such as "
         "shading/flat, or all");
 }
 
@@ -54,18 +54,24 @@ candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport&
         // What was asked has been answered.
         again.ask = nullptr;
         again.use_defaults = true;
-        (kind == candela::PluginKind::shading ? again.shading : again.reflection) = name;
+        const bool is_shading = kind == candela::PluginKind::shading;
+        (is_shading ? again.shading : again.reflection) = {name, "--models"};
         candela::Diagnostics ignored;
         return candela::read_scene(again, registry, ignored);
     };
-    return {scene.scene, request, registry};
+    try {
+        return {scene.scene, request, registry};
+    } catch (const Error& problem) {
+        if (problem.category() != ErrorCategory::bad_request) throw;
+        throw Error(problem.category(), fmt::format("--models: {}", problem.what()), problem.help());
+    }
 }
 
 void write_program(const std::vector<candela::ExportedFile>& files, const fs::path& directory) {
     std::error_code problem;
     fs::create_directories(directory, problem);
     if (!fs::is_directory(directory)) {
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("the folder '{}' cannot be made: {}", directory.string(),
                                 problem ? problem.message() : "there is a file of that name"));
     }

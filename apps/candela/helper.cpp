@@ -13,7 +13,7 @@ import candela.core;
 
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 fs::path beside_command(const char* relative) {
     return fs::canonical("/proc/self/exe").parent_path().parent_path() / relative;
@@ -23,8 +23,8 @@ void become_helper(const std::string& program, const std::vector<std::string>& a
                    const char* where_from) {
     const fs::path file = beside_command("lib/candela") / program;
     if (!fs::exists(file)) {
-        throw Error(ExitCode::failure, fmt::format("{} is not installed: there is no '{}' ({})", what,
-                                                   file.string(), where_from));
+        throw Error(ErrorCategory::failure, fmt::format("{} is not installed: there is no '{}' ({})", what,
+                                                        file.string(), where_from));
     }
     std::vector<std::string> words{file.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -32,6 +32,6 @@ void become_helper(const std::string& program, const std::vector<std::string>& a
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     ::execv(file.c_str(), argv.data());
-    throw Error(ExitCode::failure,
+    throw Error(ErrorCategory::failure,
                 fmt::format("'{}' cannot be run: {}", file.string(), std::strerror(errno)));
 }

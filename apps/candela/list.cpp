@@ -6,11 +6,12 @@
 #include <optional>
 
 #include "command_line.h"
+#include "reporting.h"
 #include "terminal.h"
 #include "verbs.h"
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -22,10 +23,10 @@ candela::PluginKind kind_from(std::string name) {
         if (name == singular || name == singular + "s") return kind;
         names.push_back(singular);
     }
-    const auto near = candela::closest(name, names);
-    throw Error(ExitCode::usage,
+    const std::string meant = candela::suggestion(name, names);
+    throw Error(ErrorCategory::bad_request,
                 fmt::format("'{}' is no kind of plugin; {}(kinds: {})", name,
-                            near ? fmt::format("did you mean '{}'? ", *near) : "", fmt::join(names, ", ")));
+                            meant.empty() ? "" : meant + ' ', fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ int run_list(const std::vector<std::string>& arguments) {
                      "Lists the installed plugins; of one kind (light, reflection, shading, shape, image, "
                      "target) if it is named.");
     line.positional("kind", 1);
-    line.options()("json", "all that the plugins say about themselves, as JSON");
+    line.options()("json", "everything the plugins declare, as JSON");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
 
@@ -46,9 +47,7 @@ int run_list(const std::vector<std::string>& arguments) {
     for (const candela::PluginFile* file : registry.list()) {
         if (!wanted || file->manifest.kind == *wanted) manifests.push_back(file->manifest);
     }
-    for (const candela::Refusal& refusal : registry.refusals()) {
-        std::cerr << "candela: warning: " << refusal.reason << '\n';
-    }
+    report_refusals(registry);
     if (line.has("json")) {
         std::cout << candela::to_json(manifests);
         return 0;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "exit_code.h"
 #include "reporting.h"
 #include "signals.h"
 #include "verbs.h"
@@ -16,31 +17,31 @@ import candela.core;
 namespace {
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 constexpr std::array k_verbs = {
-    Verb{"new", "write a scene to begin with", run_new},
+    Verb{"new", "write a starter scene", run_new},
     Verb{"render", "render a scene to a picture", run_render},
-    Verb{"check", "read a scene and say what is wrong with it", run_check},
+    Verb{"check", "check a scene and report its errors", run_check},
     Verb{"generate", "write a program that renders a scene", run_generate},
-    Verb{"verify", "show that generated programs render what Candela renders", run_verify},
-    Verb{"bench", "say how long a scene takes, stage by stage", run_bench},
-    Verb{"diff", "say how two pictures differ", run_diff},
+    Verb{"verify", "verify that generated programs render what Candela renders", run_verify},
+    Verb{"bench", "time each stage of rendering a scene", run_bench},
+    Verb{"diff", "compare two pictures", run_diff},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
-    Verb{"plugin", "make, test and find plugins", run_plugin},
+    Verb{"plugin", "create, test and diagnose plugins", run_plugin},
     Verb{"schema", "print the scene file's JSON Schema, or its reference", run_schema},
 };
 
 std::string help() {
     std::string text =
-        "Candela renders scenes with lights, shading models and reflection models that are plugins.\n\n"
+        "Candela renders scenes whose lights, shapes, shading and reflection models are plugins.\n\n"
         "Usage: candela VERB [arguments]\n\nVerbs\n";
     for (const Verb& verb : k_verbs) text += fmt::format("  {:<10} {}\n", verb.name, verb.summary);
     text +=
         "\n  candela VERB --help   the arguments of a verb\n"
         "  candela --version     the version\n\n"
-        "Try: candela new               a scene to begin with, to scene.toml\n"
+        "Try: candela new               a starter scene, to scene.toml\n"
         "     candela render            the default scene, to candela.png\n";
     return text;
 }
@@ -51,11 +52,11 @@ void choose_instruction_set() {
     if (name == nullptr || *name == '\0') return;
     const auto set = candela::instruction_set_named(name);
     if (!set) {
-        throw Error(ExitCode::usage,
+        throw Error(ErrorCategory::bad_request,
                     fmt::format("CANDELA_INSTRUCTION_SET is '{}'; it can be baseline, avx2 or avx512", name));
     }
     if (!candela::use_instruction_set(*set)) {
-        throw Error(ExitCode::usage,
+        throw Error(ErrorCategory::bad_request,
                     fmt::format("CANDELA_INSTRUCTION_SET is '{}', which this processor does not have", name));
     }
 }
@@ -82,10 +83,9 @@ int run(const std::vector<std::string>& arguments) {
         if (verb.name == name) return verb.run(rest);
         names.emplace_back(verb.name);
     }
-    const auto near = candela::closest(name, names);
-    throw Error(ExitCode::usage,
-                fmt::format("unknown verb '{}'; {}", name,
-                            near ? fmt::format("did you mean '{}'?", *near) : "candela --help shows all"));
+    const std::string meant = candela::suggestion(name, names);
+    throw Error(ErrorCategory::bad_request, fmt::format("unknown verb '{}'; {}", name,
+                                                        meant.empty() ? "candela --help shows all" : meant));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "verbs.h"
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -39,11 +39,12 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 int run_new(const std::vector<std::string>& arguments) {
-    CommandLine line("candela new [FILE] [options]",
-                     "Writes a small scene with comments, to change and to learn from: to scene.toml, unless "
-                     "FILE\nis named; - prints it.");
+    CommandLine line(
+        "candela new [FILE] [options]",
+        "Writes a small commented scene to learn from and to edit: to FILE, by default scene.toml;\n"
+        "- prints it.");
     line.positional("file", 1);
-    line.options()("force", "replace a file that is there");
+    line.options()("force", "replace an existing file");
     if (!line.parse(arguments)) return 0;
 
     const std::string file = line.has("file") ? line.all("file").front() : "scene.toml";
@@ -53,10 +54,9 @@ int run_new(const std::vector<std::string>& arguments) {
     }
     std::error_code problem;
     if (!line.has("force") && std::filesystem::exists(std::filesystem::symlink_status(file, problem))) {
-        throw Error(ExitCode::failure, fmt::format("'{}' is there already; --force replaces it", file));
+        throw Error(ErrorCategory::failure, fmt::format("'{}' is there already; --force replaces it", file));
     }
     candela::write_text_file(file, starter_scene());
-    std::cerr << fmt::format("{} is written. Have a look at it, and then: candela render {}\n", file,
-                             quoted(file));
+    std::cerr << fmt::format("Wrote {}. Next, edit it and run: candela render {}\n", file, quoted(file));
     return 0;
 }

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "command_line.h"
+#include "exit_code.h"
 #include "helper.h"
 #include "verbs.h"
 
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 int run_plugin_test(const std::vector<std::string>& arguments) {
     become_helper("candela-conformance", arguments, "the conformance kit",
@@ -22,9 +23,9 @@ int run_plugin_test(const std::vector<std::string>& arguments) {
 namespace {
 
 constexpr Verb k_plugin_verbs[] = {
-    {"new", "make a project for a plugin of yours", run_plugin_new},
-    {"test", "check a plugin for all that a host relies on", run_plugin_test},
-    {"doctor", "say what is found where, and what is refused", run_plugin_doctor},
+    {"new", "create a plugin project", run_plugin_new},
+    {"test", "run the conformance kit on a plugin", run_plugin_test},
+    {"doctor", "show which plugins are found where, and which are refused and why", run_plugin_doctor},
 };
 
 }  // namespace
@@ -41,8 +42,8 @@ int run_plugin(const std::vector<std::string>& arguments) {
     for (const Verb& verb : k_plugin_verbs) {
         if (arguments.front() == verb.name) return verb.run({arguments.begin() + 1, arguments.end()});
     }
-    const auto near = candela::closest(arguments.front(), names);
-    throw Error(ExitCode::usage, fmt::format("unknown verb 'plugin {}'; {}", arguments.front(),
-                                             near ? fmt::format("did you mean '{}'?", *near)
-                                                  : "candela plugin --help shows all"));
+    const std::string meant = candela::suggestion(arguments.front(), names);
+    throw Error(ErrorCategory::bad_request,
+                fmt::format("unknown verb 'plugin {}'; {}", arguments.front(),
+                            meant.empty() ? "candela plugin --help shows all" : meant));
 }

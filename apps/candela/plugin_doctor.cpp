@@ -14,10 +14,11 @@
 #include <vector>
 
 #include "command_line.h"
+#include "diagnostics_text.h"
+#include "exit_code.h"
 #include "plugin.h"
 
 namespace fs = std::filesystem;
-using candela::ExitCode;
 
 namespace {
 
@@ -65,9 +66,9 @@ std::string short_reason(std::string reason, const fs::path& library) {
 
 int run_plugin_doctor(const std::vector<std::string>& arguments) {
     CommandLine line("candela plugin doctor [options]",
-                     "Looks at every folder that is searched and loads every plugin there: says which are "
+                     "Looks at every folder on the search path and loads every plugin there; shows which are "
                      "used, which are\n"
-                     "hidden by another of the same name, which are refused, and why.");
+                     "hidden by another of the same name, and which are refused and why.");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     std::map<std::string, fs::path> used;
@@ -92,7 +93,8 @@ int run_plugin_doctor(const std::vector<std::string>& arguments) {
             }
         }
         for (const candela::Refusal& refusal : here.refusals()) {
-            say(refusal.file, "refused: " + short_reason(refusal.reason, refusal.file));
+            say(refusal.file,
+                "refused: " + short_reason(full_message(refusal.reason, refusal.help), refusal.file));
             all_well = false;
         }
     }

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,7 +18,7 @@
 
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -52,9 +51,10 @@ void check_name(const std::string& name) {
                 name.find("--") == std::string::npos;
     for (const char c : name) good = good && is_allowed(c);
     if (!good) {
-        throw Error(ExitCode::usage, fmt::format("'{}' cannot be a plugin's name: lower-case letters, digits "
-                                                 "and single hyphens, a letter first",
-                                                 name));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' cannot be a plugin's name: lower-case letters, digits "
+                                "and single hyphens, a letter first",
+                                name));
     }
 }
 
@@ -63,38 +63,39 @@ void check_name(const std::string& name) {
 int run_plugin_new(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela plugin new KIND NAME [DIR]",
-        "Makes a project for a plugin of yours: kernel, source, CMakeLists.txt, test and README, in DIR (or\n"
+        "Creates a plugin project: kernel, source, CMakeLists.txt, test and README, in DIR (or\n"
         "NAME). KIND is light, reflection, shading or shape. It builds and passes its tests as it stands.");
     line.positional("arguments", 3);
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> words = line.all("arguments");
     if (words.size() < 2)
-        throw Error(ExitCode::usage, "candela plugin new needs a kind and a name, such as: reflection cel");
+        throw Error(ErrorCategory::bad_request,
+                    "candela plugin new needs a kind and a name, such as: reflection cel");
     const std::vector<std::string> kinds{"light", "reflection", "shading", "shape"};
     if (std::ranges::find(kinds, words[0]) == kinds.end()) {
-        const auto near = candela::closest(words[0], kinds);
-        throw Error(ExitCode::usage, fmt::format("there is no template for '{}'{} (kinds: {})", words[0],
-                                                 near ? fmt::format("; did you mean '{}'?", *near) : "",
-                                                 fmt::join(kinds, ", ")));
+        const std::string meant = candela::suggestion(words[0], kinds);
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("there is no template for '{}'{} (kinds: {})", words[0],
+                                meant.empty() ? "" : "; " + meant, fmt::join(kinds, ", ")));
     }
     check_name(words[1]);
     const fs::path target = words.size() > 2 ? words[2] : words[1];
     const fs::path source = beside_command("share/candela/templates") / words[0];
     if (!fs::is_directory(source))
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("the templates are not installed: there is no '{}' (package candela-dev)",
                                 source.string()));
     if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
-        throw Error(ExitCode::failure, fmt::format("'{}' is already there", target.string()));
+        throw Error(ErrorCategory::failure, fmt::format("'{}' is already there", target.string()));
     const auto values = names_of(words[1]);
     fs::create_directories(target);
     for (const fs::directory_entry& entry : fs::directory_iterator(source)) {
-        std::ifstream in(entry.path(), std::ios::binary);
-        const std::string text = replaced(std::string(std::istreambuf_iterator<char>(in), {}), values);
+        const auto read = candela::read_text_file(entry.path());
+        const std::string text = replaced(read.value_or(""), values);
         const fs::path file = target / replaced(entry.path().filename().string(), values);
         std::ofstream out(file, std::ios::binary);
-        if (!in || !(out << text) || !out.flush())
-            throw Error(ExitCode::failure,
+        if (!read || !(out << text) || !out.flush())
+            throw Error(ErrorCategory::failure,
                         fmt::format("'{}' cannot be written: {}", file.string(), std::strerror(errno)));
     }
     std::cout << fmt::format(

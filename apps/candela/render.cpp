@@ -7,6 +7,8 @@
 #include <string>
 
 #include "command_line.h"
+#include "exit_code.h"
+#include "reporting.h"
 #include "stopwatch.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -15,7 +17,7 @@ import candela.parallel;
 
 namespace po = boost::program_options;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -29,7 +31,7 @@ int threads_from(const CommandLine& line) {
     if (!line.has("threads")) return 0;
     const int threads = line.get<int>("threads");
     if (threads < 1 || threads > 1024) {
-        throw Error(ExitCode::usage, fmt::format("--threads is {}; it can be 1 to 1024", threads));
+        throw Error(ErrorCategory::bad_request, fmt::format("--threads is {}; it can be 1 to 1024", threads));
     }
     return threads;
 }
@@ -46,14 +48,15 @@ int run_render(const std::vector<std::string>& arguments) {
                    "the picture; - writes a PNG to standard output");
     add_scene_options(line);
     line.options()("threads", po::value<int>()->value_name("N"),
-                   "processors to use; unless said all, or one for a small picture")(
-        "verbose", "say how long each stage took");
+                   "threads to use; default: all cores, or one for a small picture")(
+        "verbose", "print how long each stage took");
     if (!line.parse(arguments)) return 0;
 
     const Stopwatch total;
     const auto output = line.get<std::string>("output");
     if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
-        throw Error(ExitCode::usage, "-o - would print a PNG on this terminal; send it to a file or a pipe");
+        throw Error(ErrorCategory::bad_request,
+                    "-o - would print a PNG on this terminal; send it to a file or a pipe");
     }
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
@@ -65,8 +68,8 @@ int run_render(const std::vector<std::string>& arguments) {
     const Stopwatch compiling;
     const auto compiled = draft ? candela::compile(*draft, registry, diagnostics, threads) : std::nullopt;
     const double compile_ms = compiling.milliseconds();
-    std::cerr << diagnostics.text(stderr_takes_color());
-    if (!compiled) return static_cast<int>(diagnostics.exit_code());
+    report(diagnostics);
+    if (!compiled) return static_cast<int>(exit_code_of(diagnostics));
 
     const candela::ImageSettings& image = compiled->image;
     candela::Film film(image.width, image.height, format.pixels, image.color_management);

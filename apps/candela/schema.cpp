@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "command_line.h"
+#include "reporting.h"
 #include "verbs.h"
 
 import candela.schema;
 
 namespace po = boost::program_options;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -29,18 +30,18 @@ const Format& format_called(const std::string& name) {
         if (format.name == name) return format;
         names.emplace_back(format.name);
     }
-    const auto near = candela::closest(name, names);
-    throw Error(ExitCode::usage, fmt::format("--format is '{}'; {}it can be json or markdown", name,
-                                             near ? fmt::format("did you mean '{}'? ", *near) : ""));
+    const std::string meant = candela::suggestion(name, names);
+    throw Error(ErrorCategory::bad_request, fmt::format("--format is '{}'; {}it can be json or markdown",
+                                                        name, meant.empty() ? "" : meant + ' '));
 }
 
 }  // namespace
 
 int run_schema(const std::vector<std::string>& arguments) {
-    CommandLine line("candela schema [options]",
-                     "Prints what a scene file may hold, with all plugins that are installed: as a JSON "
-                     "Schema, by which\n"
-                     "editors complete and check, or as a page to read.");
+    CommandLine line(
+        "candela schema [options]",
+        "Prints what a scene file may hold, with all installed plugins: as a JSON Schema, with which\n"
+        "editors complete and validate scenes, or as a page to read.");
     line.options()("format", po::value<std::string>()->value_name("NAME")->default_value("json"),
                    "json (a JSON Schema, draft-07) or markdown");
     add_plugin_options(line);
@@ -50,9 +51,7 @@ int run_schema(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     std::vector<candela::Manifest> installed;
     for (const candela::PluginFile* file : registry.list()) installed.push_back(file->manifest);
-    for (const candela::Refusal& refusal : registry.refusals()) {
-        std::cerr << "candela: warning: " << refusal.reason << '\n';
-    }
+    report_refusals(registry);
     std::cout << format.write(installed);
     return 0;
 }

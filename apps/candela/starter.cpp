@@ -17,7 +17,7 @@ height = 10.0                        # y from -5 to 5
 width  = 10.0                        # x from -5 to 5
 depth  = 10.0                        # z from -5 to 5
 
-# Who sees the scene.
+# Where the scene is seen from.
 [observer]
 position   = [0.0, 2.0, 4.9]
 look_at    = [0.0, 0.38, 0.0]        # what is in the middle of the picture
@@ -27,10 +27,10 @@ projection = "perspective"           # or "orthographic", with height = 2.0 (met
 [image]
 width      = 800
 height     = 500
-samples    = 8                       # a pixel: 1 is fast, 4, 8 and 16 are smooth at the edges
+samples    = 8                       # per pixel: 1 is fast, 4, 8 and 16 smooth the edges
 background = [24, 26, 34]            # red, green, blue, 0 to 255 each
 
-# How the surface between indices is shaded: "flat" shows faces, "gouraud" shades indices, "phong" pixels.
+# How the surface between vertices is shaded: "flat" shows faces, "gouraud" shades vertices, "phong" pixels.
 [shading]
 model = "phong"
 

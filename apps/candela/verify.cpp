@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "command_line.h"
+#include "exit_code.h"
 #include "generating.h"
 #include "helper.h"
+#include "reporting.h"
 #include "targets.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -22,7 +24,7 @@
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
@@ -35,12 +37,13 @@ class Workplace {
             std::error_code problem;
             fs::create_directories(path_, problem);
             if (!fs::is_directory(path_))
-                throw Error(ExitCode::failure, fmt::format("the folder '{}' cannot be made", path_.string()));
+                throw Error(ErrorCategory::failure,
+                            fmt::format("the folder '{}' cannot be made", path_.string()));
             return;
         }
         std::string name = (fs::temp_directory_path() / "candela-verify-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr)
-            throw Error(ExitCode::failure,
+            throw Error(ErrorCategory::failure,
                         fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));
         path_ = name;
         is_temporary_ = true;
@@ -62,7 +65,7 @@ std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registr
     const auto name = line.get<std::string>("target");
     const bool is_all = name == "all";
     if (is_all && line.has("program")) {
-        throw Error(ExitCode::usage,
+        throw Error(ErrorCategory::bad_request,
                     fmt::format("--program is the folder of one program; say which with --target {}",
                                 target_names(registry, " or ")));
     }
@@ -76,7 +79,8 @@ std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registr
     }
     chosen.emplace_back(name, registry);
     if (!chosen.front().can_draw())
-        throw Error(ExitCode::usage, fmt::format("target/{} draws no picture that could be compared", name));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("target/{} draws no picture that could be compared", name));
     return chosen;
 }
 
@@ -84,7 +88,8 @@ verify::Limits limits_from(const CommandLine& line) {
     verify::Limits limits;
     limits.maximum = line.get<double>("tolerance");
     if (!(limits.maximum >= 0 && limits.maximum <= 255))
-        throw Error(ExitCode::usage, fmt::format("--tolerance is {:g}; it can be 0 to 255", limits.maximum));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--tolerance is {:g}; it can be 0 to 255", limits.maximum));
     return limits;
 }
 
@@ -97,15 +102,16 @@ int run_verify(const std::vector<std::string>& arguments) {
         "candela verify [SCENE...] [options]",
         "Generates programs from a scene, builds and runs them, and compares their pictures with Candela's "
         "own.\n"
-        "Exit code 4: one of them differs, beside edges, by more than the tolerance, or by 0.1 on average.");
+        "Exit code 4: one of them differs, away from edges, by more than the tolerance, or by 0.1 on "
+        "average.");
     line.options()("target,t", po::value<std::string>()->value_name("NAME")->default_value("all"),
                    help.c_str())("tolerance",
                                  po::value<double>()->value_name("LEVELS")->default_value(2, "2"),
-                                 "how much a pixel beside edges may differ, in levels of 1/255")(
+                                 "how much a pixel away from edges may differ, in levels of 1/255")(
         "report", po::value<std::string>()->value_name("DIR"),
         "keep the programs, the pictures, their differences, and a page that shows them")(
         "program", po::value<std::string>()->value_name("DIR"),
-        "compare the program in this folder, which was generated before, instead of a new one");
+        "compare the program generated earlier in this folder instead of a new one");
     add_models_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
@@ -115,8 +121,8 @@ int run_verify(const std::vector<std::string>& arguments) {
 
     candela::Diagnostics diagnostics;
     auto scene = scene_to_export(line, registry, diagnostics);
-    std::cerr << diagnostics.text(stderr_takes_color());
-    if (!scene) return static_cast<int>(diagnostics.exit_code());
+    report(diagnostics);
+    if (!scene) return static_cast<int>(exit_code_of(diagnostics));
     std::vector<candela::SceneExport> exports;
     for (const LoadedTarget& target : chosen) exports.push_back(export_for(target, *scene, line, registry));
 

@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,27 +15,19 @@
 #include <string>
 #include <vector>
 
-#include "differences.h"
+#include "picture_comparison/differences.h"
 
 import candela.core;
 
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
 /// Without loss, which would show differences where there are none; and those whose writers need no file of
 /// their own.
 const std::vector<std::string> k_extensions = {"png", "ppm", "bmp", "tga"};
-
-std::string extension_of(const fs::path& file) {
-    std::string extension = file.extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 /// Red, green and blue of each pixel.
 std::vector<std::uint8_t> heat_colors(const Picture& a, const Picture& b, double maximum) {
@@ -47,14 +38,14 @@ std::vector<std::uint8_t> heat_colors(const Picture& a, const Picture& b, double
     const OIIO::ImageBuf colored = OIIO::ImageBufAlgo::color_map(source, 0, "magma");
     std::vector<std::uint8_t> colors(3 * heat.size());
     if (colored.has_error() || !colored.get_pixels(colored.roi(), OIIO::TypeUInt8, colors.data()))
-        throw Error(ExitCode::failure, fmt::format("no heat-map can be made: {}", colored.geterror()));
+        throw Error(ErrorCategory::failure, fmt::format("no heat-map can be made: {}", colored.geterror()));
     return colors;
 }
 
 std::vector<unsigned char> encoded(const std::string& extension, int width, int height,
                                    const std::vector<std::uint8_t>& colors) {
     const auto fail = [&](const std::string& reason) {
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("no heat-map can be written as {}: {}", extension, reason));
     };
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("heat-map." + extension);
@@ -76,21 +67,20 @@ std::vector<unsigned char> encoded(const std::string& extension, int width, int 
 }  // namespace
 
 void require_heat_map_format(const fs::path& file) {
-    const std::string extension = extension_of(file);
+    const std::string extension = candela::extension_of(file);
     if (std::ranges::find(k_extensions, extension) != k_extensions.end()) return;
-    const auto near = candela::closest(extension, k_extensions);
-    throw Error(ExitCode::usage,
+    const std::string meant = extension.empty() ? "" : candela::suggestion(extension, k_extensions, ".");
+    throw Error(ErrorCategory::bad_request,
                 fmt::format("'{}' {}{} (possible: {})", file.string(),
                             extension.empty() ? "has no extension that names a picture format"
                                               : "is of no format that a heat-map is written in",
-                            near && !extension.empty() ? fmt::format("; did you mean '.{}'?", *near) : "",
-                            fmt::join(k_extensions, ", ")));
+                            meant.empty() ? "" : "; " + meant, fmt::join(k_extensions, ", ")));
 }
 
 void write_heat_map(const fs::path& file, const Picture& a, const Picture& b, double maximum) {
     // Heat, its colours in floats and in bytes, and the file.
     candela::require_memory(a.pixels() * (4 + 12 + 3 + 3), "the heat-map");
-    const auto bytes = encoded(extension_of(file), a.width, a.height, heat_colors(a, b, maximum));
+    const auto bytes = encoded(candela::extension_of(file), a.width, a.height, heat_colors(a, b, maximum));
     candela::OutputFile output(file);
     output.write(std::as_bytes(std::span(bytes)));
     output.finish();

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "picture.h"
+#include "picture_comparison/picture.h"
 
 /// Throws candela::Error (usage) where `file` does not end in a format that a heat-map can be written in.
 void require_heat_map_format(const std::filesystem::path& file);

@@ -5,42 +5,38 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
-#include "differences.h"
 #include "heat_map.h"
-#include "perception.h"
-#include "picture.h"
+#include "picture_comparison/comparison.h"
+#include "picture_comparison/perception.h"
+#include "picture_file.h"
 #include "reporting.h"
 #include "signals.h"
 
 namespace po = boost::program_options;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
-double share(std::size_t part, std::size_t whole) {
-    return static_cast<double>(part) / static_cast<double>(whole);
-}
-
 /// "12 levels, at x 3, y 4"
-std::string maximum_text(const Figures& figures) {
-    if (figures.maximum == 0) return "0 levels";
-    return fmt::format("{:.6g} levels, first at x {}, y {}", figures.maximum, figures.x, figures.y);
+std::string maximum_text(const DifferenceStatistics& statistics) {
+    if (statistics.maximum == 0) return "0 levels";
+    return fmt::format("{:.6g} levels, first at x {}, y {}", statistics.maximum, statistics.x, statistics.y);
 }
 
-void print_text(const Picture& a, const Differences& differences, std::size_t perceptible) {
+void print_text(const Picture& a, const Comparison& comparison) {
+    const Differences& differences = comparison.differences;
     const auto print = [](const char* name, const std::string& value) {
         std::cout << fmt::format("{:<19} {}\n", name, value);
     };
-    const Figures& interior = differences.interior;
+    const DifferenceStatistics& interior = differences.interior;
     const std::optional<double> psnr = interior.psnr();
-    print("size", size_text(a));
+    print("size", dimensions_text(a));
     print("pixels compared", fmt::to_string(interior.pixels));
     print("identical", fmt::format("{:.6g} %", 100 * interior.identical_share()));
     print("maximum difference", maximum_text(interior));
@@ -53,29 +49,8 @@ void print_text(const Picture& a, const Differences& differences, std::size_t pe
         print("  mean", fmt::format("{:.6g} levels", differences.edges->mean));
     }
     print("perceptible",
-          fmt::format("{} pixels, {:.6g} %{}", perceptible, 100 * share(perceptible, a.pixels()),
+          fmt::format("{} pixels, {:.6g} %{}", comparison.perceptible, 100 * comparison.perceptible_share(),
                       differences.edges ? ", edges among them" : ""));
-}
-
-nlohmann::ordered_json json_of(const Figures& figures) {
-    nlohmann::ordered_json result = {{"pixels", figures.pixels},
-                                     {"identical", figures.identical},
-                                     {"maximum", figures.maximum},
-                                     {"at", nullptr},
-                                     {"mean", figures.mean},
-                                     {"rmse", figures.rmse},
-                                     {"psnr", nullptr}};
-    if (figures.maximum > 0) result["at"] = {figures.x, figures.y};
-    if (const auto psnr = figures.psnr()) result["psnr"] = *psnr;
-    return result;
-}
-
-void print_json(const Picture& a, const Differences& differences, std::size_t perceptible) {
-    nlohmann::ordered_json result = {
-        {"width", a.width}, {"height", a.height}, {"interior", json_of(differences.interior)}};
-    result["edges"] = differences.edges ? json_of(*differences.edges) : nullptr;
-    result["perceptible"] = {{"pixels", perceptible}, {"share", share(perceptible, a.pixels())}};
-    std::cout << result.dump(2) << '\n';
 }
 
 /// Infinity where nothing was said.
@@ -83,30 +58,33 @@ double tolerance_from(const CommandLine& line) {
     if (!line.has("tolerance")) return std::numeric_limits<double>::infinity();
     const auto tolerance = line.get<double>("tolerance");
     if (!(tolerance >= 0 && std::isfinite(tolerance)))
-        throw Error(ExitCode::usage, fmt::format("--tolerance is {}; it can be 0 or more", tolerance));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--tolerance is {}; it can be 0 or more", tolerance));
     return tolerance;
 }
 
 void require_same_size(const std::string& a_name, const Picture& a, const std::string& b_name,
                        const Picture& b) {
     if (a.width == b.width && a.height == b.height) return;
-    throw Error(ExitCode::failure, fmt::format("the pictures differ in size: '{}' has {} pixels, '{}' has {}",
-                                               a_name, size_text(a), b_name, size_text(b)));
+    throw Error(ErrorCategory::failure,
+                fmt::format("the pictures differ in size: '{}' has {} pixels, '{}' has {}", a_name,
+                            dimensions_text(a), b_name, dimensions_text(b)));
 }
 
-void require_within(double tolerance, const Figures& figures) {
-    if (figures.beyond == 0) return;
-    throw Error(
+int verdict(double tolerance, const DifferenceStatistics& statistics) {
+    if (statistics.beyond == 0) return 0;
+    return fail(
         ExitCode::verification_failed,
-        fmt::format("{} pixel{} by more than {:.6g} levels; the largest difference is {}", figures.beyond,
-                    figures.beyond == 1 ? " differs" : "s differ", tolerance, maximum_text(figures)));
+        fmt::format("{} pixel{} by more than {:.6g} levels; the largest difference is {}", statistics.beyond,
+                    statistics.beyond == 1 ? " differs" : "s differ", tolerance, maximum_text(statistics)));
 }
 
 int run(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela diff A B [options]",
-        "Says how two pictures of one size differ, in levels of 1/255 over all pixels and channels, and how\n"
-        "many pixels differ so that a person would see it (Yee's metric). Any format that OpenImageIO "
+        "Reports how two pictures of the same size differ, in levels of 1/255 over all pixels and channels, "
+        "and how\n"
+        "many pixels differ visibly (Yee's metric). Any format that OpenImageIO "
         "reads;\n"
         "alpha is ignored; grey is red, green and blue alike; floats are compared as they are, times 255.\n\n"
         "Exit codes: 0 compared, 1 a picture cannot be read or written, or sizes differ, 2 wrong usage,\n"
@@ -115,14 +93,15 @@ int run(const std::vector<std::string>& arguments) {
     line.options()("output,o", po::value<std::string>()->value_name("FILE"),
                    "write a heat-map: black where nothing differs, white-hot where most does")(
         "mask", po::value<std::string>()->value_name("FILE"),
-        "a picture of the same size; where it is white, pixels are edges, and counted apart")(
+        "a picture of the same size whose white pixels mark edges, which are counted separately")(
         "tolerance", po::value<double>()->value_name("N"),
-        "exit code 4 if a channel of a pixel that is no edge differs by more than N levels")(
-        "json", "the figures as JSON");
+        "exit with code 4 if a channel of a pixel away from edges differs by more than N levels")(
+        "json", "print the statistics as JSON");
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> names = line.all("picture");
     if (names.size() != 2)
-        throw Error(ExitCode::usage, "candela diff needs two pictures: candela diff A B [options]");
+        throw Error(ErrorCategory::bad_request,
+                    "candela diff needs two pictures: candela diff A B [options]");
     const double tolerance = tolerance_from(line);
     if (line.has("output")) require_heat_map_format(line.get<std::string>("output"));
 
@@ -134,22 +113,24 @@ int run(const std::vector<std::string>& arguments) {
         mask = read_picture(file);
         require_same_size(names[0], a, file, *mask);
     }
-    const Differences differences = compare(a, b, mask ? &*mask : nullptr, tolerance);
+    Comparison comparison{.width = a.width,
+                          .height = a.height,
+                          .differences = compare(a, b, mask ? &*mask : nullptr, tolerance)};
     mask.reset();
-    const std::size_t perceptible = perceptible_pixels(a, b);
+    comparison.perceptible = perceptible_pixels(a, b);
+    const Differences& differences = comparison.differences;
     if (line.has("output")) {
         const double maximum =
             std::max(differences.interior.maximum, differences.edges ? differences.edges->maximum : 0);
         write_heat_map(line.get<std::string>("output"), a, b, maximum);
     }
     if (line.has("json")) {
-        print_json(a, differences, perceptible);
+        std::cout << to_json(comparison) << '\n';
     } else {
-        print_text(a, differences, perceptible);
+        print_text(a, comparison);
     }
     std::cout.flush();
-    require_within(tolerance, differences.interior);
-    return 0;
+    return verdict(tolerance, differences.interior);
 }
 
 }  // namespace

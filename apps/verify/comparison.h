@@ -1,23 +1,11 @@
-// How two pictures differ.
+// How two pictures differ, by the program that knows their files.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 
+#include "picture_comparison/comparison.h"
+
 namespace verify {
-
-/// Figures of a set of pixels; differences in levels of 1/255, the largest and the mean of all channels.
-struct Figures {
-    std::uint64_t pixels = 0;
-    std::uint64_t identical = 0;
-    double maximum = 0;
-    double mean = 0;
-};
-
-struct Comparison {
-    Figures interior, edges;
-    std::uint64_t perceptible = 0;  // pixels whose difference a person would see (Yee 2004), of all
-};
 
 /// What `candela diff` says of two pictures, pixels apart that are white in `edges`; writes the picture of
 /// the differences to `heat_map`. `program`: the program behind that verb. Throws candela::Error.

@@ -8,13 +8,13 @@ namespace verify {
 
 namespace {
 
-double percent(std::uint64_t part, std::uint64_t whole) {
+double percent(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Of all pixels, those beside edges and those on them.
-std::uint64_t pixels_of(const Comparison& c) { return c.interior.pixels + c.edges.pixels; }
-std::uint64_t identical_of(const Comparison& c) { return c.interior.identical + c.edges.identical; }
+/// Of all pixels, those away from edges and those on them.
+std::size_t pixels_of(const Verdict& v) { return v.interior().pixels + v.edges().pixels; }
+std::size_t identical_of(const Verdict& v) { return v.interior().identical + v.edges().identical; }
 
 constexpr const char* k_style = R"(
 :root { color-scheme: light dark; }
@@ -29,15 +29,14 @@ figcaption { font-size: .9rem; opacity: .8; }
 )";
 
 std::string row(const Verdict& v, const Limits& limits) {
-    const Comparison& c = v.comparison;
     const bool is_match = v.is_match(limits);
     return fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.3f} %</td><td>{:.3g}</td><td>{:.4f}</td><td>{} ({:.2f} "
         "%)</td><td>{:.3g}</td>"
         "<td>{}</td><td class=\"{}\">{}</td></tr>\n",
-        v.target, pixels_of(c), percent(identical_of(c), pixels_of(c)), c.interior.maximum, c.interior.mean,
-        c.edges.pixels, percent(c.edges.pixels, pixels_of(c)), c.edges.maximum, c.perceptible,
-        is_match ? "match" : "mismatch", is_match ? "match" : "mismatch");
+        v.target, pixels_of(v), percent(identical_of(v), pixels_of(v)), v.interior().maximum,
+        v.interior().mean, v.edges().pixels, percent(v.edges().pixels, pixels_of(v)), v.edges().maximum,
+        v.comparison.perceptible, is_match ? "match" : "mismatch", is_match ? "match" : "mismatch");
 }
 
 std::string picture(const std::string& file, const std::string& caption) {
@@ -47,20 +46,23 @@ std::string picture(const std::string& file, const std::string& caption) {
 
 }  // namespace
 
+DifferenceStatistics Verdict::edges() const {
+    return comparison.differences.edges.value_or(DifferenceStatistics());
+}
+
 bool Verdict::is_match(const Limits& limits) const {
-    return comparison.interior.maximum <= limits.maximum && comparison.interior.mean <= limits.mean;
+    return interior().maximum <= limits.maximum && interior().mean <= limits.mean;
 }
 
 std::string table_of(const std::vector<Verdict>& verdicts, const Limits& limits) {
     std::string text = fmt::format("{:<8} {:>9} {:>11} {:>8} {:>8} {:>15} {:>8} {:>12}\n", "target", "pixels",
                                    "identical", "largest", "mean", "edges", "largest", "perceptible");
     for (const Verdict& v : verdicts) {
-        const Comparison& c = v.comparison;
-        text +=
-            fmt::format("{:<8} {:>9} {:>9.3f} % {:>8.3g} {:>8.4f} {:>6} ({:.2f} %) {:>8.3g} {:>12}  {}\n",
-                        v.target, pixels_of(c), percent(identical_of(c), pixels_of(c)), c.interior.maximum,
-                        c.interior.mean, c.edges.pixels, percent(c.edges.pixels, pixels_of(c)),
-                        c.edges.maximum, c.perceptible, v.is_match(limits) ? "match" : "MISMATCH");
+        text += fmt::format("{:<8} {:>9} {:>9.3f} % {:>8.3g} {:>8.4f} {:>6} ({:.2f} %) {:>8.3g} {:>12}  {}\n",
+                            v.target, pixels_of(v), percent(identical_of(v), pixels_of(v)),
+                            v.interior().maximum, v.interior().mean, v.edges().pixels,
+                            percent(v.edges().pixels, pixels_of(v)), v.edges().maximum,
+                            v.comparison.perceptible, v.is_match(limits) ? "match" : "MISMATCH");
     }
     return text;
 }

@@ -9,7 +9,7 @@
 namespace verify {
 
 struct Limits {
-    double maximum = 2;  // levels of 1/255, for pixels beside edges
+    double maximum = 2;  // levels of 1/255, for pixels away from edges
     double mean = 0.1;
 };
 
@@ -18,6 +18,8 @@ struct Verdict {
     std::string target;
     Comparison comparison;
 
+    const DifferenceStatistics& interior() const { return comparison.differences.interior; }
+    DifferenceStatistics edges() const;
     bool is_match(const Limits& limits) const;
 };
 

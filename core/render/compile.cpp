@@ -108,7 +108,7 @@ class Compiler {
             try {
                 work();
             } catch (const std::bad_alloc&) {
-                throw Error(ExitCode::failure, "there is not enough memory for its triangles");
+                throw Error(ErrorCategory::failure, "there is not enough memory for its triangles");
             } catch (...) {
                 rethrow_as_plugin_error(kind, plugin);
             }

@@ -33,7 +33,7 @@ void project_scene(const CompiledScene& scene, int width, int height, int tile_s
     try {
         project(meshes, camera_of(scene.observer, width, height), tile_size, scene.image.samples, projected);
     } catch (const std::length_error& problem) {
-        throw Error(ExitCode::failure, problem.what());
+        throw Error(ErrorCategory::failure, problem.what());
     }
 }
 

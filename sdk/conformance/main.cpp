@@ -17,9 +17,11 @@
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
-using candela::ExitCode;
 
 namespace {
+
+/// As of the command, which runs this program.
+enum class ExitCode : int { ok = 0, failure = 1, usage = 2, verification_failed = 4 };
 
 struct Options {
     std::vector<std::string> files;
@@ -108,7 +110,7 @@ int run(int argc, char** argv) {
     po::options_description visible;
     visible.add_options()("help,h", "this help")("json", "as JSON")(
         "check", po::value<std::string>(&options.only)->value_name("TEXT"),
-        "only the checks whose name holds this")(
+        "only the checks whose name contains TEXT")(
         "time-limit", po::value<double>(&options.time_limit)->value_name("SECONDS")->default_value(45, "45"),
         "for each check")("list", po::value<std::string>()->value_name("KIND"),
                           "the checks for a kind of plugin");

@@ -13,7 +13,7 @@ import candela.registry;
 int main(int argc, char** argv) {
     if (argc != 3) {
         std::fputs("usage: candela-manifest PLUGIN.so OUTPUT.json\n", stderr);
-        return static_cast<int>(candela::ExitCode::usage);
+        return 2;
     }
     try {
         const candela::PluginDescriptor& descriptor = candela::load_plugin(argv[1], nullptr);
@@ -27,6 +27,6 @@ int main(int argc, char** argv) {
         return 0;
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "candela-manifest: %s\n", problem.what());
-        return static_cast<int>(candela::ExitCode::failure);
+        return 1;
     }
 }

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "diagnostics_text.h"
 #include "scene_dump.h"
 
 import candela.core;
@@ -44,7 +45,7 @@ int run(const std::string& scene_file, const std::string& out_file) {
     if (scene_file != "-") request.files = {scene_file};
     const auto scene = candela::read_scene(request, registry, diagnostics);
     const auto compiled = scene ? candela::compile(*scene, registry, diagnostics) : std::nullopt;
-    std::cerr << diagnostics.text(false);
+    std::cerr << diagnostics_text(diagnostics, false);
     if (!compiled) return 1;
     const candela::ColorEncoding encoding = scene->image.color_management;
 

@@ -368,7 +368,7 @@ TEST_CASE("mistakes of objects") {
          {"'wedg.obj' does not exist", "did you mean 'wedge.obj'?"}},
         {{"file = \"wedge.obj\"", "file = @\"none/wedge.obj\""}, {"does not exist", "no folder 'none'"}},
         {{"file = \"wedge.obj\"", "file = @\".\""}, {"'.' is a directory, not a file"}},
-        {{"file = \"wedge.obj\"", "file = @\"/dev/null\""}, {"is no ordinary file"}},
+        {{"file = \"wedge.obj\"", "file = @\"/dev/null\""}, {"is not a regular file"}},
         {{"file = \"wedge.obj\"", "file = @3"}, {"'file' is the integer 3", "expected a quoted path"}},
         {{"[[object]]\nname = \"ring\"\ntype = \"torus\"", "@[[object]]\nname = \"ring\""},
          {"[[object]] 'ring' has no 'type'"}},

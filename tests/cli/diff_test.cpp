@@ -293,7 +293,7 @@ TEST_CASE("what is no picture is an error that says why") {
     CHECK(holds(folder.error({"a.ppm", "b.pmm"}, 1), "there is no file 'b.pmm'; did you mean 'b.ppm'?"));
     CHECK(holds(folder.error({"none/a.ppm", "a.ppm"}, 1), "there is no folder 'none' either"));
     CHECK(holds(folder.error({".", "a.ppm"}, 1), "'.' is a directory; a picture is a file"));
-    CHECK(holds(folder.error({"/dev/zero", "a.ppm"}, 1), "no ordinary file"));
+    CHECK(holds(folder.error({"/dev/zero", "a.ppm"}, 1), "not a regular file"));
     folder.write("text.txt", "no picture\n");
     CHECK(holds(folder.error({"text.txt", "a.ppm"}, 1), "'text.txt' is not a picture: "));
     folder.write("text.png", "no picture\n");

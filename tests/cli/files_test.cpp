@@ -129,8 +129,8 @@ TEST_CASE("R11: each way of not being readable has its own message and exit code
     expect(check({"latin1.toml"}, d), 3,
            {"latin1.toml:15:6: error: this is not UTF-8 text", "save the file as UTF-8", "# caf?"});
     REQUIRE(::mkfifo((d / "fifo").c_str(), 0600) == 0);
-    expect(check({"fifo"}, d), 1, {"fifo: error: this is no ordinary file (a pipe or a device?)"});
-    expect(check({"/dev/zero"}, d), 1, {"/dev/zero: error: this is no ordinary file"});
+    expect(check({"fifo"}, d), 1, {"fifo: error: this is not a regular file (a pipe or a device?)"});
+    expect(check({"/dev/zero"}, d), 1, {"/dev/zero: error: this is not a regular file"});
     write_file(d / "huge.toml", "");
     fs::resize_file(d / "huge.toml", 100'000'000);
     expect(check({"huge.toml"}, d), 1,

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <limits>
 
+#include "diagnostics_text.h"
+
 namespace fuzz {
 
 namespace fs = std::filesystem;
@@ -98,9 +100,9 @@ void check_diagnostics(const candela::Diagnostics& diagnostics, bool returned_so
         require(!d.message.empty(), "a diagnostic says nothing");
         check_place(diagnostics, d.place);
     }
-    require(is_harmless(diagnostics.text(false)), "a diagnostic holds what a terminal obeys");
-    static_cast<void>(diagnostics.text(true, all.size()));
-    require(is_json(diagnostics.json()), "the diagnostics' JSON is none");
+    require(is_harmless(diagnostics_text(diagnostics, false)), "a diagnostic holds what a terminal obeys");
+    static_cast<void>(diagnostics_text(diagnostics, true, all.size()));
+    require(is_json(diagnostics_json(diagnostics)), "the diagnostics' JSON is none");
 }
 
 void check_finite(const candela::Scene& scene) {

@@ -4,12 +4,13 @@
 #include <utility>
 
 #include "command.h"
+#include "diagnostics_text.h"
 #include "plugins.h"
 
 Compiled compiled(const candela::SceneRequest& request) {
     candela::Diagnostics diagnostics;
     auto source = candela::read_scene(request, test_registry(), diagnostics);
-    INFO(diagnostics.text(false));
+    INFO(diagnostics_text(diagnostics, false));
     REQUIRE(source.has_value());
     auto scene = candela::compile(*source, test_registry(), diagnostics);
     REQUIRE(scene.has_value());

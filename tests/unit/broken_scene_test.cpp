@@ -1,5 +1,6 @@
 // One thing wrong, one message.
 #include "support/broken_scene.h"
+#include "diagnostics_text.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
@@ -23,7 +24,8 @@ TEST_CASE("one constraint broken at random is found where it is, and only that o
         const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
         if (draft) candela::compile(*draft, test_registry(), diagnostics);
 
-        INFO("seed " << seed << ", " << broken.rule << "\n" << diagnostics.text(false) << broken.text);
+        INFO("seed " << seed << ", " << broken.rule << "\n"
+                     << diagnostics_text(diagnostics, false) << broken.text);
         CHECK(diagnostics.error_count() == 1);
         for (const candela::Diagnostic& d : diagnostics.sorted()) {
             if (d.severity != candela::Severity::error) continue;

@@ -2,20 +2,23 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "diagnostics_text.h"
+
 import candela.core;
 
 using candela::Diagnostics;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 TEST_CASE("a diagnostic shows its line with a mark below the place") {
     candela::Diagnostics diagnostics;
     diagnostics.remember_source("a.toml", "one\n\tkey = 3\n");
     diagnostics.error({"a.toml", 2, 2, 3}, "wrong", "try this");
-    CHECK(diagnostics.text(false) == "a.toml:2:2: error: wrong\n    2 | \tkey = 3\n      | \t^^^ try this\n");
-    CHECK(diagnostics.text(true).find("\x1b[1;31m") != std::string::npos);
+    CHECK(diagnostics_text(diagnostics, false) ==
+          "a.toml:2:2: error: wrong\n    2 | \tkey = 3\n      | \t^^^ try this\n");
+    CHECK(diagnostics_text(diagnostics, true).find("\x1b[1m\x1b[31merror:") != std::string::npos);
     candela::Diagnostics whole;
     whole.warning({"b.toml", 0, 0, 0}, "odd");
-    CHECK(whole.text(false) == "b.toml: warning: odd\n");
+    CHECK(diagnostics_text(whole, false) == "b.toml: warning: odd\n");
 }
 
 TEST_CASE(
@@ -24,7 +27,7 @@ TEST_CASE(
     Diagnostics diagnostics;
     diagnostics.remember_source("a.toml", "\xc3\xa9\x1b[31m = 3\n");
     diagnostics.error({"a.toml", 1, 9, 1}, "wrong");
-    CHECK(diagnostics.text(false) ==
+    CHECK(diagnostics_text(diagnostics, false) ==
           "a.toml:1:9: error: wrong\n    1 | \xc3\xa9?[31m = 3\n      |         ^\n");
 }
 
@@ -32,7 +35,7 @@ TEST_CASE("of a very long line, the part around the place is shown") {
     Diagnostics diagnostics;
     diagnostics.remember_source("a.toml", std::string(1000, 'x') + "HERE" + std::string(1000, 'y'));
     diagnostics.error({"a.toml", 1, 1001, 4}, "wrong");
-    const std::string text = diagnostics.text(false);
+    const std::string text = diagnostics_text(diagnostics, false);
     CHECK(text.size() < 500);
     const std::size_t line = text.find("    1 | ");
     const std::size_t marks = text.find("      | ", line);
@@ -46,28 +49,28 @@ TEST_CASE("at most 50 diagnostics are shown, the first by place, and the rest is
         const candela::SourcePlace place{"a.toml", line, 1, 1};
         line % 4 == 0 ? diagnostics.warning(place, "odd") : diagnostics.error(place, "wrong");
     }
-    const std::string text = diagnostics.text(false);
+    const std::string text = diagnostics_text(diagnostics, false);
     CHECK(text.starts_with("a.toml:1:1: error: wrong\n"));
     CHECK(text.find("a.toml:50:1:") != std::string::npos);
     CHECK(text.find("a.toml:51:1:") == std::string::npos);
     CHECK(text.ends_with("and 30 more (22 of them errors)\n"));
 }
 
-TEST_CASE("a wrong scene goes before a failure in the exit code; warnings do not count") {
+TEST_CASE("a wrong scene goes before a failure; warnings do not count") {
     Diagnostics diagnostics;
     diagnostics.warning({"a.toml", 1, 1, 1}, "odd");
     CHECK_FALSE(diagnostics.has_errors());
     diagnostics.failure({"a.toml", 1, 1, 1}, "gone");
-    CHECK(diagnostics.exit_code() == ExitCode::failure);
+    CHECK(diagnostics.worst() == ErrorCategory::failure);
     diagnostics.error({"a.toml", 1, 1, 1}, "wrong");
     diagnostics.failure({"a.toml", 1, 1, 1}, "gone");
-    CHECK(diagnostics.exit_code() == ExitCode::invalid_scene);
+    CHECK(diagnostics.worst() == ErrorCategory::invalid_scene);
 }
 
 TEST_CASE("diagnostics as JSON say all, and are JSON whatever bytes a file holds") {
     Diagnostics diagnostics;
     diagnostics.error({"a\"\xff.toml", 3, 7, 2}, "'kd\n' is wrong", "try 0.5");
-    const auto all = nlohmann::json::parse(diagnostics.json());
+    const auto all = nlohmann::json::parse(diagnostics_json(diagnostics));
     REQUIRE(all.size() == 1);
     CHECK(all[0]["severity"] == "error");
     CHECK(all[0]["line"] == 3);

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
 
@@ -245,7 +246,7 @@ TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
 
     for (const char* const light : {"point", "ambient"}) {
         candela::SceneRequest request;
-        request.reflection = "throwing";
+        request.reflection = {"throwing"};
         request.settings = {{"--set", "light.0.type", light}};
         candela::Diagnostics diagnostics;
         // The default scene's point light has parameters that an ambient light does not.
@@ -258,7 +259,7 @@ TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
                 "model = \"phong\"\n[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n")};
         }
         const auto scene = candela::read_scene(request, registry, diagnostics);
-        INFO(diagnostics.text(false));
+        INFO(diagnostics_text(diagnostics, false));
         REQUIRE(scene);
         const auto compiled = candela::compile(*scene, registry, diagnostics);
         REQUIRE(compiled);

@@ -1,5 +1,6 @@
 // The generator of random scenes, which other tests rely on.
 #include "support/random_scene.h"
+#include "diagnostics_text.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -80,7 +81,7 @@ TEST_CASE("random scenes break no geometric constraint") {
         request.files = {write_file(directory / (std::to_string(seed) + ".toml"), random_scene(seed).text())};
         const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
         const auto compiled = draft ? candela::compile(*draft, test_registry(), diagnostics) : std::nullopt;
-        INFO("seed " << seed << "\n" << diagnostics.text(false));
+        INFO("seed " << seed << "\n" << diagnostics_text(diagnostics, false));
         REQUIRE(compiled);
     }
 }

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
 
@@ -33,7 +34,7 @@ Result read(const candela::SceneRequest& request) {
     Result result;
     result.scene = candela::read_scene(request, test_registry(), diagnostics);
     result.found = diagnostics.sorted();
-    result.text = diagnostics.text(false);
+    result.text = diagnostics_text(diagnostics, false);
     return result;
 }
 
@@ -253,7 +254,7 @@ TEST_CASE("an empty name is no model, and no way to ask for the default") {
     check_error(whole() + "shading = \"\"\n", 15, 11, "no shading plugin is called ''");
     check_error(whole() + "reflection = \"\"\n", 15, 14, "no reflection plugin is called ''");
     candela::SceneRequest request;
-    request.reflection = "";
+    request.reflection = {"", "--reflection"};
     CHECK(read(whole(), request).text.find("--reflection: error: no reflection plugin is called ''") !=
           std::string::npos);
 }
@@ -340,7 +341,7 @@ TEST_CASE("files that cannot be read each have their own message (R11)") {
     CHECK(message(write_file(directory / "empty.toml", "")).find("empty") != std::string::npos);
     CHECK(message(write_file(directory / "binary.toml", std::string("a\0b", 3))).find("binary") !=
           std::string::npos);
-    CHECK(message("/dev/null").find("no ordinary file") != std::string::npos);
+    CHECK(message("/dev/null").find("not a regular file") != std::string::npos);
     CHECK(message(write_file(directory / "latin.toml", "version = \"\xe9\"\n")).find("UTF-8") !=
           std::string::npos);
 }
@@ -409,8 +410,8 @@ TEST_CASE("R13: where no model is named, somebody is asked, once for both") {
     CHECK(read(scene, request).scene);
     // Who names a model, or has nothing to shade, is not asked.
     request = {};
-    request.shading = "flat";
-    request.reflection = "lambert";
+    request.shading = {"flat"};
+    request.reflection = {"lambert"};
     CHECK(read(scene, request).scene);
     CHECK(read(std::string("version = 1\n") + k_observer, {}).scene);
 }
@@ -418,7 +419,7 @@ TEST_CASE("R13: where no model is named, somebody is asked, once for both") {
 TEST_CASE("a material for another model is an error, unless the model came from the command line") {
     const std::string scene = whole() + "[object.material]\nkd = 0.3\nshininess = 20\n";
     candela::SceneRequest request;
-    request.reflection = "lambert";
+    request.reflection = {"lambert"};
     const Result overridden = read(scene, request);
     INFO(overridden.text);
     REQUIRE(overridden.scene);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/random_scene.h"
@@ -25,7 +26,7 @@ Scene read(const fs::path& file, candela::Registry& registry = test_registry()) 
     candela::SceneRequest request;
     if (!file.empty()) request.files = {file};
     auto scene = candela::read_scene(request, registry, diagnostics);
-    INFO(diagnostics.text(false, 1000));
+    INFO(diagnostics_text(diagnostics, false, 1000));
     REQUIRE(scene);
     return *std::move(scene);
 }

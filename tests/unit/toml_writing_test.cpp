@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "diagnostics_text.h"
+
 import candela.core;
 import candela.toml;
 
@@ -20,7 +22,7 @@ template <class T>
 T read_back(const std::string& value) {
     candela::Diagnostics diagnostics;
     const auto node = candela::parse_value(value, {}, diagnostics);
-    INFO(value << " " << diagnostics.text(false));
+    INFO(value << " " << diagnostics_text(diagnostics, false));
     REQUIRE(node);
     return std::get<T>(node->value);
 }

@@ -15,23 +15,25 @@ module candela.diagnostics;
 
 namespace candela {
 
-Error::Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+Error::Error(ErrorCategory category, const std::string& message, Help help)
+    : std::runtime_error(message), category_(category), help_(std::move(help)) {}
 Error::~Error() = default;
 
-void Diagnostics::error(SourcePlace place, std::string message, std::string hint) {
-    all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint)});
-    exit_code_ = ExitCode::invalid_scene;
+void Diagnostics::error(SourcePlace place, std::string message, std::string hint, Help help) {
+    all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint), std::move(help)});
+    worst_ = ErrorCategory::invalid_scene;
     ++errors_;
 }
 
-void Diagnostics::failure(SourcePlace place, std::string message, std::string hint) {
-    all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint)});
-    if (exit_code_ == ExitCode::ok) exit_code_ = ExitCode::failure;
+void Diagnostics::failure(SourcePlace place, std::string message, std::string hint, Help help) {
+    all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint), std::move(help)});
+    if (!worst_) worst_ = ErrorCategory::failure;
     ++errors_;
 }
 
-void Diagnostics::warning(SourcePlace place, std::string message, std::string hint) {
-    all_.push_back({Severity::warning, std::move(place), std::move(message), std::move(hint)});
+void Diagnostics::warning(SourcePlace place, std::string message, std::string hint, Help help) {
+    all_.push_back(
+        {Severity::warning, std::move(place), std::move(message), std::move(hint), std::move(help)});
 }
 
 void Diagnostics::remember_source(const std::string& file, std::string text) {
@@ -39,7 +41,7 @@ void Diagnostics::remember_source(const std::string& file, std::string text) {
     sources_.insert_or_assign(file, std::move(text));
 }
 
-std::vector<std::size_t> Diagnostics::order_of_places() const {
+std::vector<Diagnostic> Diagnostics::sorted() const {
     std::map<std::string_view, std::size_t> file_ranks;
     for (const std::string& file : files_) file_ranks.try_emplace(file, file_ranks.size());
     using Rank = std::tuple<std::size_t, int, int, std::size_t>;  // last: the order in which they were found
@@ -52,15 +54,9 @@ std::vector<std::size_t> Diagnostics::order_of_places() const {
                            place.column, i);
     }
     std::ranges::sort(ranks);
-    std::vector<std::size_t> order;
-    order.reserve(ranks.size());
-    for (const Rank& rank : ranks) order.push_back(std::get<3>(rank));
-    return order;
-}
-
-std::vector<Diagnostic> Diagnostics::sorted() const {
     std::vector<Diagnostic> result;
-    for (const std::size_t i : order_of_places()) result.push_back(all_[i]);
+    result.reserve(ranks.size());
+    for (const Rank& rank : ranks) result.push_back(all_[std::get<3>(rank)]);
     return result;
 }
 

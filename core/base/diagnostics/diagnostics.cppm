@@ -1,4 +1,4 @@
-// Messages for people: problems at a position in a file, and failures.
+// Errors as data: problems at a position in a file, and failures.
 module;
 
 #include "candela/api.h"
@@ -15,18 +15,42 @@ export module candela.diagnostics;
 
 export namespace candela {
 
-/// Exit codes of the command.
-enum class ExitCode : int { ok = 0, failure = 1, usage = 2, invalid_scene = 3, verification_failed = 4 };
+/// Why something could not be done.
+enum class ErrorCategory : int {
+    failure,        // at run time: input and output, memory, plugins
+    bad_request,    // what was asked for does not exist, or cannot be done
+    invalid_scene,  // the scene is wrong
+};
+
+/// Where to read on, or what else to try, as data: how a program offers it (a verb, a flag, a page) only that
+/// program knows.
+struct Help {
+    enum class Topic : int {
+        none,
+        plugin,              // the manual of the plugin `subject`, such as "light/point"
+        plugins_of_kind,     // the installed plugins of the kind `subject`
+        all_plugins,         // everything that is installed
+        default_models,      // `subject`: the models that are used if the user agrees
+        plugin_trust,        // how to use plugins that other users can change
+        plugin_conformance,  // how to find out what is wrong with a plugin
+    };
+    Topic topic = Topic::none;
+    std::string subject{};
+
+    friend bool operator==(const Help&, const Help&) = default;
+};
 
 /// A failure that ends the requested operation. `what()` is one plain sentence for a person.
 class CANDELA_API Error : public std::runtime_error {
   public:
-    Error(ExitCode code, const std::string& message);
+    Error(ErrorCategory category, const std::string& message, Help help = {});
     ~Error() override;
-    ExitCode code() const noexcept { return code_; }
+    ErrorCategory category() const noexcept { return category_; }
+    const Help& help() const noexcept { return help_; }
 
   private:
-    ExitCode code_;
+    ErrorCategory category_;
+    Help help_;
 };
 
 enum class Severity : int { warning, error };
@@ -46,45 +70,35 @@ struct Diagnostic {
     SourcePlace place;
     std::string message;
     std::string hint;  // what to do about it; may be empty
+    Help help{};
 };
 
 /// Everything found in one run. Not thread-safe.
 class CANDELA_API Diagnostics {
   public:
     /// The scene is wrong.
-    void error(SourcePlace place, std::string message, std::string hint = {});
+    void error(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
     /// Something that the scene needs fails: a file that cannot be read, a plugin. Counts as an error.
-    void failure(SourcePlace place, std::string message, std::string hint = {});
-    void warning(SourcePlace place, std::string message, std::string hint = {});
+    void failure(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
+    void warning(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
 
     /// Keeps a file's text, so that the offending line can be shown.
     void remember_source(const std::string& file, std::string text);
 
     bool has_errors() const noexcept { return errors_ > 0; }
     std::size_t error_count() const noexcept { return errors_; }
-    /// `invalid_scene` if the scene is wrong; otherwise `failure` if something failed; otherwise `ok`.
-    ExitCode exit_code() const noexcept { return exit_code_; }
+    /// `invalid_scene` if any error is one of the scene, else `failure`; nothing if there are no errors.
+    std::optional<ErrorCategory> worst() const noexcept { return worst_; }
     /// Sorted by file (in the order in which the files were read), line and column.
     std::vector<Diagnostic> sorted() const;
     /// Line `place.line` of a remembered file, if there is one.
     std::optional<std::string> source_line(const SourcePlace& place) const;
 
-    /// The first `most` diagnostics as text, each with its line and a mark below the position, and the number
-    /// of those omitted.
-    std::string text(bool in_color, std::size_t most = k_most_shown) const;
-    /// All diagnostics for programs: an array of objects with severity, file, line, column, length, message,
-    /// hint.
-    std::string json() const;
-
-    static constexpr std::size_t k_most_shown = 50;
-
   private:
-    std::vector<std::size_t> order_of_places() const;
-
     std::vector<Diagnostic> all_;
     std::vector<std::string> files_;  // in reading order
     std::map<std::string, std::string, std::less<>> sources_;
-    ExitCode exit_code_ = ExitCode::ok;
+    std::optional<ErrorCategory> worst_;
     std::size_t errors_ = 0;
 };
 

@@ -1,20 +1,17 @@
-// Atomic file writes.
+// Text from files, and atomic file writes.
 module;
 
 #include "candela/api.h"
 
-#include <array>
-#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 export module candela.files;
-
-import candela.diagnostics;
 
 export namespace candela {
 
@@ -48,32 +45,16 @@ class CANDELA_API OutputFile {
     int descriptor_ = -1;
 };
 
+/// The bytes of a regular file, or nothing if it cannot be read. Of a file larger than `most`, a little more
+/// than `most` bytes.
+CANDELA_API std::optional<std::string> read_text_file(const std::filesystem::path& path,
+                                                      std::size_t most = std::string::npos);
+
 /// Writes a text through an OutputFile.
 CANDELA_API void write_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// Removes the temporary files that exist at this moment; they will not be finished. For signal handlers
 /// (async-signal-safe). A program that never calls it leaves them behind only if a signal ends the process.
 CANDELA_API void remove_unfinished_files() noexcept;
-
-}  // namespace candela
-
-// What this module's own units share.
-namespace candela {
-
-/// A new name in a directory for a temporary file; the file of that name is removed in the destructor, and by
-/// remove_unfinished_files().
-class OutputFile::NameBeside {
-  public:
-    explicit NameBeside(const std::filesystem::path& directory);
-    NameBeside(const NameBeside&) = delete;
-    NameBeside& operator=(const NameBeside&) = delete;
-    ~NameBeside();
-
-    const char* c_str() const { return name_->c_str(); }
-
-  private:
-    std::unique_ptr<std::string> name_;
-    std::atomic<std::string*>* slot_ = nullptr;
-};
 
 }  // namespace candela

@@ -18,6 +18,7 @@ module;
 
 module candela.files;
 
+import :unfinished;
 import candela.diagnostics;
 
 namespace candela {
@@ -27,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& shown, const char* what, int problem = errno) {
-    throw Error(ExitCode::failure, fmt::format("'{}' {}: {}", shown, what, std::strerror(problem)));
+    throw Error(ErrorCategory::failure, fmt::format("'{}' {}: {}", shown, what, std::strerror(problem)));
 }
 
 /// The target of a link, even if nothing exists there yet.
@@ -61,6 +62,11 @@ bool name_file(int descriptor, const char* name) {
 
 }  // namespace
 
+class OutputFile::NameBeside : public UnfinishedName {
+  public:
+    using UnfinishedName::UnfinishedName;
+};
+
 OutputFile::OutputFile(const fs::path& path) : shown_(path.string()) {
     if (path == "-") {
         descriptor_ = STDOUT_FILENO;
@@ -70,7 +76,8 @@ OutputFile::OutputFile(const fs::path& path) : shown_(path.string()) {
     const bool is_there = ::stat(path.c_str(), &before) == 0;
     if (!is_there && errno != ENOENT) fail(shown_, "cannot be written");
     if (is_there && S_ISDIR(before.st_mode)) {
-        throw Error(ExitCode::failure, fmt::format("'{}' is a directory; a file is to be written", shown_));
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' is a directory; a file is to be written", shown_));
     }
     if (is_there && !S_ISREG(before.st_mode)) {
         descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);

@@ -1,4 +1,3 @@
-// Names of temporary files, where a signal handler finds them.
 module;
 
 #include <fmt/format.h>
@@ -13,6 +12,8 @@ module;
 #include <string>
 
 module candela.files;
+
+import :unfinished;
 
 namespace candela {
 
@@ -32,7 +33,7 @@ std::string new_name(const std::filesystem::path& directory) {
 
 }  // namespace
 
-OutputFile::NameBeside::NameBeside(const std::filesystem::path& directory)
+UnfinishedName::UnfinishedName(const std::filesystem::path& directory)
     : name_(std::make_unique<std::string>(new_name(directory))) {
     for (std::atomic<std::string*>& slot : unfinished) {
         std::string* expected = nullptr;
@@ -43,7 +44,7 @@ OutputFile::NameBeside::NameBeside(const std::filesystem::path& directory)
     }
 }
 
-OutputFile::NameBeside::~NameBeside() {
+UnfinishedName::~UnfinishedName() {
     std::string* expected = name_.get();
     if (slot_ != nullptr && !slot_->compare_exchange_strong(expected, nullptr)) {
         // A signal handler has taken the name and may be reading it, so this thread must not free it.

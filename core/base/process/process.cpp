@@ -35,7 +35,7 @@ process::child started(const std::vector<std::string>& words, Streams&&... strea
     if (name.find('/') == std::string::npos) {
         const auto found = program_called(name);
         if (!found) {
-            throw Error(ExitCode::failure,
+            throw Error(ErrorCategory::failure,
                         fmt::format("there is no program '{}' on this machine, which is needed here", name));
         }
         program = *found;
@@ -44,7 +44,8 @@ process::child started(const std::vector<std::string>& words, Streams&&... strea
         const std::vector<std::string> arguments(words.begin() + 1, words.end());
         return process::child(program, process::args(arguments), std::forward<Streams>(streams)...);
     } catch (const std::system_error& problem) {
-        throw Error(ExitCode::failure, fmt::format("'{}' cannot be run: {}", name, problem.code().message()));
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' cannot be run: {}", name, problem.code().message()));
     }
 }
 

@@ -1,5 +1,7 @@
 module;
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -10,21 +12,23 @@ module;
 
 module candela.text;
 
+import :ascii;
+
 namespace candela {
 
 namespace {
 
 /// Optimal string alignment distance, ignoring case.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
     for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t cost = lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1;
+            const std::size_t cost = to_lower(a[i - 1]) == to_lower(b[j - 1]) ? 0 : 1;
             d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + cost});
-            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1])) {
+            if (i > 1 && j > 1 && to_lower(a[i - 1]) == to_lower(b[j - 2]) &&
+                to_lower(a[i - 2]) == to_lower(b[j - 1])) {
                 d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
             }
         }
@@ -38,6 +42,12 @@ std::size_t allowed_distance(std::size_t a, std::size_t b) {
 }
 
 }  // namespace
+
+std::string suggestion(std::string_view name, std::span<const std::string> candidates,
+                       std::string_view prefix) {
+    const auto near = closest(name, candidates);
+    return near ? fmt::format("did you mean '{}{}'?", prefix, *near) : "";
+}
 
 std::optional<std::string> closest(std::string_view name, std::span<const std::string> candidates) {
     // Nobody misspells longer names; a wrong file may contain one of millions of letters.

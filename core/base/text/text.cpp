@@ -2,28 +2,40 @@ module;
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 module candela.text;
 
+import :ascii;
+
 namespace candela {
 
 std::string shortened(std::string_view text) {
     constexpr std::size_t k_longest = 40;
-    std::string result(text.substr(0, k_longest));
-    // Do not cut a character in half.
-    while (text.size() > k_longest && !result.empty() &&
-           (static_cast<unsigned char>(text[result.size()]) & 0xc0) == 0x80) {
-        result.pop_back();
+    std::size_t size = 0;
+    while (size < text.size()) {
+        const std::size_t next = size + first_character(text.substr(size)).size();
+        if (next > k_longest) break;
+        size = next;
     }
+    std::string result(text.substr(0, size));
     for (char& c : result) {
         if (static_cast<unsigned char>(c) < 0x20) c = ' ';
     }
     return result.size() < text.size() ? result + "..." : result;
+}
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    if (!extension.empty()) extension.erase(0, 1);
+    std::ranges::transform(extension, extension.begin(), to_lower);
+    return extension;
 }
 
 std::string size_text(std::uint64_t bytes) {

@@ -2,7 +2,9 @@ module;
 
 #include "candela/api.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +16,23 @@ export namespace candela {
 
 /// As much of a user's text as fits a message, on one line.
 CANDELA_API std::string shortened(std::string_view text);
+
+/// The byte at which `text` stops being UTF-8, or nothing.
+CANDELA_API std::optional<std::size_t> first_invalid_byte(std::string_view text);
+
+/// The character at the start of `text`: all its bytes, or one byte that begins no UTF-8 character; empty if
+/// `text` is.
+CANDELA_API std::string_view first_character(std::string_view text);
+
+/// How many characters `text` has, each byte that is not UTF-8 counting as one.
+CANDELA_API std::size_t character_count(std::string_view text);
+
+/// The extension of a file's name, in lower case (ASCII), without its dot; may be empty.
+CANDELA_API std::string extension_of(const std::filesystem::path& file);
+
+/// "did you mean 'shininess'?", with `prefix` before the word; or empty.
+CANDELA_API std::string suggestion(std::string_view name, std::span<const std::string> candidates,
+                                   std::string_view prefix = {});
 
 /// The candidate that `name` was most likely meant to be, if one is close enough: at most a third of its
 /// letters wrong, with a swap of neighbours counted once (Damerau 1964).

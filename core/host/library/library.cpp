@@ -35,7 +35,7 @@ std::map<fs::path, Loaded>& loaded_libraries() {
 }
 
 [[noreturn]] void refuse(const fs::path& library, const std::string& reason) {
-    throw Error(ExitCode::failure, fmt::format("plugin '{}' is refused: {}", library.string(), reason));
+    throw Error(ErrorCategory::failure, fmt::format("plugin '{}' is refused: {}", library.string(), reason));
 }
 
 /// The loader's message without the path that it repeats: "libfoo.so.1: cannot open shared object file: No
@@ -135,11 +135,12 @@ void rethrow_as_plugin_error(PluginKind kind, std::string_view name) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& problem) {
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("plugin {}/{}: {}", candela::name_of(kind), name, problem.what()));
     } catch (...) {
-        throw Error(ExitCode::failure, fmt::format("plugin {}/{} threw something that is no std::exception",
-                                                   candela::name_of(kind), name));
+        throw Error(ErrorCategory::failure,
+                    fmt::format("plugin {}/{} threw something that is no std::exception",
+                                candela::name_of(kind), name));
     }
 }
 

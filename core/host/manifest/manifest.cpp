@@ -103,7 +103,7 @@ Json json_of(const Manifest& m) {
     return json;
 }
 
-[[noreturn]] void refuse(const std::string& reason) { throw Error(ExitCode::failure, reason); }
+[[noreturn]] void refuse(const std::string& reason) { throw Error(ErrorCategory::failure, reason); }
 
 template <class Named>
 auto named(const Json& json, std::string_view what, Named named_function) {
@@ -270,7 +270,7 @@ Manifest manifest_from_json(std::string_view text) {
     try {
         return manifest_from(Json::parse(text));
     } catch (const Json::exception& problem) {
-        throw Error(ExitCode::failure, fmt::format("it is no manifest: {}", problem.what()));
+        throw Error(ErrorCategory::failure, fmt::format("it is no manifest: {}", problem.what()));
     }
 }
 

@@ -6,12 +6,9 @@ module;
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/dll/runtime_symbol_info.hpp>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -25,6 +22,7 @@ module;
 module candela.registry;
 
 import candela.diagnostics;
+import candela.files;
 import candela.library;
 import candela.text;
 
@@ -44,21 +42,6 @@ std::string id_of(PluginKind kind, std::string_view name) {
 bool is_regular(const fs::path& file) {
     std::error_code ignored;
     return fs::is_regular_file(file, ignored);
-}
-
-/// A manifest's text, or nothing; of a file too large to be one, enough to tell.
-std::optional<std::string> text_of_file(const fs::path& file) {
-    if (!is_regular(file)) return std::nullopt;
-    std::ifstream in(file, std::ios::binary);
-    if (!in) return std::nullopt;
-    std::string text;
-    std::array<char, 4096> some{};
-    while (in && text.size() <= k_largest_manifest) {
-        in.read(some.data(), some.size());
-        text.append(some.data(), static_cast<std::size_t>(in.gcount()));
-    }
-    if (in.bad()) return std::nullopt;
-    return text;
 }
 
 void add_path_list(std::vector<fs::path>& directories, std::string_view list) {
@@ -117,12 +100,13 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
     const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
     const fs::path manifest_path = directory / (stem + ".json");
     const fs::path library = directory / (stem + ".so");
-    const auto refuse = [&](const std::string& reason) {
-        refused_[library] = fmt::format("plugin '{}' is refused: {}", library.string(), reason);
+    const auto refuse = [&](const std::string& reason, Help help = {}) {
+        refused_[library] = {library, fmt::format("plugin '{}' is refused: {}", library.string(), reason),
+                             std::move(help)};
         return nullptr;
     };
     const bool has_library = is_regular(library);
-    const auto text = text_of_file(manifest_path);
+    const auto text = read_text_file(manifest_path, k_largest_manifest);
     if (!text) {
         return has_library
                    ? refuse(fmt::format(
@@ -136,10 +120,9 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
     if (trust_ != PluginTrust::any) {
         for (const fs::path& part : {directory, library}) {
             if (const std::string who = who_else_can_write(part); !who.empty()) {
-                return refuse(
-                    fmt::format("'{}' {}, so that anybody's code could run here; change that, or use "
-                                "--allow-untrusted-plugins",
-                                part.string(), who));
+                return refuse(fmt::format("'{}' {}, so that anybody's code could run here; change that",
+                                          part.string(), who),
+                              {Help::Topic::plugin_trust});
             }
         }
     }
@@ -182,15 +165,16 @@ const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
     if (const PluginFile* const file = find(kind, name)) return *file;
     const std::lock_guard lock(mutex_);
     const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
-    for (const auto& [library, reason] : refused_) {
-        if (library.stem() == stem) throw Error(ExitCode::failure, reason);
+    for (const auto& [library, refusal] : refused_) {
+        if (library.stem() == stem) throw Error(ErrorCategory::failure, refusal.reason, refusal.help);
     }
     const std::vector<std::string> known = names(kind);
-    const auto near = closest(name, known);
-    throw Error(ExitCode::failure,
-                fmt::format("no {} plugin is called '{}'; {} (installed: {})", candela::name_of(kind), name,
-                            near ? fmt::format("did you mean '{}'?", *near) : "candela list shows all",
-                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+    const std::string meant = suggestion(name, known);
+    throw Error(ErrorCategory::failure,
+                fmt::format("no {} plugin is called '{}'{}{} (installed: {})", candela::name_of(kind), name,
+                            meant.empty() ? "" : "; ", meant,
+                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))),
+                {meant.empty() ? Help::Topic::all_plugins : Help::Topic::none});
 }
 
 void Registry::scan(PluginKind kind) {
@@ -239,7 +223,7 @@ std::vector<std::string> Registry::names(PluginKind kind) {
 std::vector<Refusal> Registry::refusals() const {
     const std::lock_guard lock(mutex_);
     std::vector<Refusal> result;
-    for (const auto& [file, reason] : refused_) result.push_back({file, reason});
+    for (const auto& [file, refusal] : refused_) result.push_back(refusal);
     return result;
 }
 
@@ -297,8 +281,8 @@ std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string
 }
 
 void Registry::throw_wrong_interface(PluginKind kind, std::string_view name) {
-    throw Error(ExitCode::failure, fmt::format("plugin {}/{} made something that is no {}",
-                                               candela::name_of(kind), name, candela::name_of(kind)));
+    throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} made something that is no {}",
+                                                    candela::name_of(kind), name, candela::name_of(kind)));
 }
 
 }  // namespace candela

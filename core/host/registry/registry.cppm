@@ -17,6 +17,7 @@ module;
 export module candela.registry;
 
 export import candela.manifest;
+import candela.diagnostics;
 import candela.image;
 import candela.light;
 import candela.reflection;
@@ -38,6 +39,7 @@ struct PluginFile {
 struct Refusal {
     std::filesystem::path file;
     std::string reason;
+    Help help{};
 };
 
 /// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins beside the core.
@@ -129,7 +131,7 @@ class CANDELA_API Registry {
     mutable std::recursive_mutex mutex_;
     std::set<PluginKind> scanned_;
     std::map<std::string, std::unique_ptr<PluginFile>, std::less<>> found_;  // by id; null: not found
-    std::map<std::filesystem::path, std::string> refused_;
+    std::map<std::filesystem::path, Refusal> refused_;
 };
 
 }  // namespace candela

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 class Picture final : public PictureSink {
   public:
     std::span<float> allocate(int width, int height, bool is_encoded) override {
-        if (width < 1 || height < 1) throw Error(ExitCode::failure, "it has no pixels");
+        if (width < 1 || height < 1) throw Error(ErrorCategory::failure, "it has no pixels");
         const auto count = 3 * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
         require_memory(count * sizeof(float), fmt::format("a picture of {} x {} pixels", width, height));
         width_ = width;
@@ -43,11 +43,11 @@ class Picture final : public PictureSink {
     }
 
     Environment environment(ColorEncoding encoding) && {
-        if (values_.empty()) throw Error(ExitCode::failure, "it has no pixels");
+        if (values_.empty()) throw Error(ErrorCategory::failure, "it has no pixels");
         const bool decode = is_encoded_ && encoding == ColorEncoding::srgb;
         for (float& value : values_) {
             if (!std::isfinite(value))
-                throw Error(ExitCode::failure, "it has a pixel that is no finite number");
+                throw Error(ErrorCategory::failure, "it has a pixel that is no finite number");
             value = std::max(decode ? srgb_to_linear(value) : value, 0.0f);
         }
         return {width_, height_, std::move(values_)};
@@ -69,7 +69,7 @@ Environment read_environment(const fs::path& file, Registry& registry, ColorEnco
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const PluginFile* const plugin = registry.find_format(extension, FormatUse::read);
     if (plugin == nullptr) {
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("'{}' is of no format that an image plugin reads (possible: {})",
                                 file.string(), fmt::join(registry.extensions(FormatUse::read), ", ")));
     }
@@ -81,7 +81,7 @@ Environment read_environment(const fs::path& file, Registry& registry, ColorEnco
         reader->read(file.c_str(), picture);
         return std::move(picture).environment(encoding);
     } catch (const std::exception& problem) {
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be read as a picture: {}", file.string(), problem.what()));
     }
 }

@@ -222,7 +222,7 @@ class Exporter {
     void set_image() {
         const ImageSettings& image = scene_.image;
         if (!image.environment.empty() && !request_.abilities.surroundings) {
-            throw Error(ExitCode::failure,
+            throw Error(ErrorCategory::failure,
                         "[image] environment: a generated program has a background of one colour, not a "
                         "picture all around");
         }
@@ -262,11 +262,11 @@ class Exporter {
         if (request_.abilities.models_without_kernel) return loaded;
         const std::string id = fmt::format("{}/{}", name_of(kind), name);
         if (loaded.kernel.text == nullptr)
-            throw Error(ExitCode::failure, fmt::format("{} {}", id, k_no_kernel));
+            throw Error(ErrorCategory::failure, fmt::format("{} {}", id, k_no_kernel));
         for (const char* const function : functions) {
             if (has_function(loaded, function)) continue;
-            throw Error(ExitCode::failure, fmt::format("{}: its kernel has no function {}_{}", id,
-                                                       loaded.kernel.prefix, function));
+            throw Error(ErrorCategory::failure, fmt::format("{}: its kernel has no function {}_{}", id,
+                                                            loaded.kernel.prefix, function));
         }
         return loaded;
     }
@@ -300,7 +300,7 @@ class Exporter {
         exported.shows_surroundings = instance->shows_surroundings();
         if (exported.shows_surroundings && !request_.abilities.surroundings) {
             throw Error(
-                ExitCode::failure,
+                ErrorCategory::failure,
                 fmt::format(
                     "reflection/{} shows what is behind and around an object, for which rays are followed "
                     "through it; generated programs do not do that",
@@ -350,10 +350,10 @@ class Exporter {
         }
         if (is_known) return;
         const auto near = closest(name, names);
-        throw Error(ExitCode::usage,
-                    fmt::format("--models: no reflection or shading model is called '{}'{}", name,
-                                near ? fmt::format("; did you mean '{}'?", *near)
-                                     : " (candela list reflection, candela list shading)"));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("no reflection or shading model is called '{}'{}", name,
+                                near ? fmt::format("; did you mean '{}'?", *near) : ""),
+                    near ? Help{} : Help{Help::Topic::all_plugins});
     }
 
     /// The scene with that model for all objects, or nothing where it is not valid so. Each model is asked

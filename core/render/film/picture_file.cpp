@@ -49,7 +49,7 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
         const std::vector<std::string> all = registry.extensions();
         const auto near = closest(extension, all);
         throw Error(
-            ExitCode::usage,
+            ErrorCategory::bad_request,
             fmt::format("'{}' {}{} (possible: {})", path.string(),
                         extension.empty() ? "has no extension that names a picture format"
                                           : fmt::format("is of no format that an image plugin writes"),

@@ -190,8 +190,8 @@ bool SurfaceShader::are_ends_intact() {
 void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
                                   std::initializer_list<const Vec3Arrays*> results) {
     const auto fail = [&](const char* what) {
-        throw Error(ExitCode::failure, fmt::format("plugin {}/{} {}; candela plugin test tells more",
-                                                   name_of(kind), plugin, what));
+        throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} {}", name_of(kind), plugin, what),
+                    {Help::Topic::plugin_conformance});
     };
     if (!are_ends_intact()) {
         mark_ends();

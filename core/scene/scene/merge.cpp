@@ -18,9 +18,10 @@ module;
 
 module candela.scene;
 
+import :merge;
 import candela.diagnostics;
+import candela.text;
 import candela.toml;
-import candela.validation;
 
 namespace candela {
 
@@ -171,7 +172,7 @@ std::vector<std::string> parts_of(std::string_view path) {
 class Setter {
   public:
     Setter(const Setting& setting, TableNode& root, Diagnostics& diagnostics)
-        : setting_(setting), place_{setting.flag, 0, 0, 0}, root_(root), diagnostics_(diagnostics) {}
+        : setting_(setting), place_{setting.origin, 0, 0, 0}, root_(root), diagnostics_(diagnostics) {}
 
     void apply() {
         auto value = parse_value(setting_.value, place_, diagnostics_);

@@ -13,6 +13,8 @@ module;
 
 module candela.scene;
 
+import :models;
+import :tables;
 import candela.diagnostics;
 import candela.parameters;
 import candela.registry;
@@ -37,16 +39,16 @@ ModelChooser::ModelChooser(const SceneRequest& request, SceneTables& tables)
     if (const TableNode* const table = tables.single("reflection")) {
         report_unknown_keys(
             *table, names_in(schema_of("reflection").parameters),
-            {"[reflection]", "an object's material stands in [object.material]", tables.whole()},
+            {"[reflection]", {}, tables.whole(), "an object's material stands in [object.material]"},
             tables.diagnostics());
     }
     if (reflection_) tables.known(PluginKind::reflection, reflection_->name, reflection_->place);
 }
 
-/// The model named by a flag, or by the `model` of a table.
+/// The model named by a setting, or by the `model` of a table.
 std::optional<ModelChooser::Named> ModelChooser::named(const std::string& table_name,
-                                                       const std::optional<std::string>& flag) {
-    if (flag) return Named{*flag, {"--" + table_name, 0, 0, 0}};
+                                                       const std::optional<ModelSetting>& setting) {
+    if (setting) return Named{setting->name, {setting->origin, 0, 0, 0}};
     const TableNode* const table = tables_.single(table_name);
     if (table == nullptr) return std::nullopt;
     const ParamSet values = read_parameters(*table, schema_of(table_name).parameters,
@@ -55,12 +57,12 @@ std::optional<ModelChooser::Named> ModelChooser::named(const std::string& table_
     return Named{text(values, "model"), table->find("model")->node.place};
 }
 
-/// The model named by the object itself, unless a flag overrides it. That the value is a string is checked
+/// The model named by the object itself, unless a setting overrides it. That the value is a string is checked
 /// with the object.
 std::optional<ModelChooser::Named> ModelChooser::named_by(const TableNode& object, const std::string& key,
-                                                          const std::optional<std::string>& flag) const {
+                                                          const std::optional<ModelSetting>& setting) const {
     const TableNode::Entry* const entry = object.find(key);
-    if (entry == nullptr || flag) return std::nullopt;
+    if (entry == nullptr || setting) return std::nullopt;
     const auto* const name = std::get_if<std::string>(&entry->node.value);
     return name != nullptr ? std::optional(Named{*name, entry->node.place}) : std::nullopt;
 }
@@ -92,9 +94,8 @@ void ModelChooser::use_defaults_if_agreed() {
         (request_.ask && (tables_.diagnostics().has_errors() ||
                           request_.ask(fmt::format("The scene names no {}. Use {}?", missing, both))));
     if (!agreed) {
-        tables_.diagnostics().error(
-            tables_.whole(), fmt::format("the scene names no {}", missing),
-            fmt::format("--defaults uses {}; --shading and --reflection name others", both));
+        tables_.diagnostics().error(tables_.whole(), fmt::format("the scene names no {}", missing), "",
+                                    {Help::Topic::default_models, both});
         return;
     }
     if (no_shading) shading_ = Named{k_default_shading, tables_.whole()};
@@ -108,7 +109,7 @@ void ModelChooser::read_shading_table() {
     const TableNode* const table = tables_.single("shading");
     if (plugin == nullptr || table == nullptr || request_.shading) return;
     TableContext context = tables_.context_of("shading");
-    context.manual = "candela describe " + plugin->manifest.id();
+    context.help = {Help::Topic::plugin, plugin->manifest.id()};
     report_unknown_keys(*table, names_in(plugin->manifest.parameters, {"model"}), context,
                         tables_.diagnostics());
     shading_parameters_ = tables_.read_plugin(*table, *plugin, context);
@@ -145,14 +146,14 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
     if (plugin == nullptr) return {};
     const TableNode& material = entry != nullptr ? *entry->node.table() : k_empty;
     const TableContext context{fmt::format("[object.material] of {}", label),
-                               "candela describe " + plugin->manifest.id(),
+                               {Help::Topic::plugin, plugin->manifest.id()},
                                entry != nullptr ? entry->key_place : place};
     report_unknown_material_keys(material, *plugin, context);
     return {model->name, tables_.read_plugin(material, *plugin, context)};
 }
 
-/// With --reflection, a material written for another model is not an error: keys unknown to the model in use
-/// are ignored.
+/// With a reflection model set for all objects, a material written for another model is not an error: keys
+/// unknown to the model in use are ignored.
 void ModelChooser::report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
                                                 const TableContext& context) {
     const std::vector<std::string> known_keys = names_in(plugin.manifest.parameters);
@@ -167,7 +168,7 @@ void ModelChooser::report_unknown_material_keys(const TableNode& material, const
                 entry.key_place,
                 fmt::format("{} has no parameter '{}', which {} {}", plugin.manifest.id(), entry.key,
                             fmt::join(others, ", "), others.size() == 1 ? "has" : "have"),
-                fmt::format("({})", context.manual));
+                "", context.help);
         }
     }
     report_unknown_keys(unknown, known_keys, context, tables_.diagnostics());

@@ -16,6 +16,9 @@ module;
 
 module candela.scene;
 
+import :merge;
+import :models;
+import :tables;
 import candela.color;
 import candela.diagnostics;
 import candela.math;
@@ -40,7 +43,7 @@ class Reader {
         read_version();
         std::vector<std::string> keys = names_in(top_schema().parameters);
         for (const TableSchema& schema : scene_schema()) keys.push_back(schema.name);
-        report_unknown_keys(tables_.root(), keys, {"the scene", "", tables_.whole()}, diagnostics_);
+        report_unknown_keys(tables_.root(), keys, {"the scene", {}, tables_.whole()}, diagnostics_);
         draft_.has_room = is_clean([&] { read_room(); });
         draft_.has_observer = is_clean([&] { read_observer(); });
         read_image();
@@ -196,7 +199,7 @@ class Reader {
         const PluginFile* const plugin =
             tables_.known(kind, text(own, "type"), table.find("type")->node.place);
         if (plugin == nullptr) return std::nullopt;
-        context.manual = "candela describe " + plugin->manifest.id();
+        context.help = {Help::Topic::plugin, plugin->manifest.id()};
         const std::vector<std::string> keys = names_in(
             plugin->manifest.parameters, names_in(schema_of(table_name).parameters, std::move(more_keys)));
         report_unknown_keys(table, keys, context, diagnostics_);
@@ -205,7 +208,8 @@ class Reader {
 
     void read_light(const TableNode& table, const SourcePlace& place, std::size_t index) {
         const std::string label = label_of("light", table, index);
-        const TableContext context{fmt::format("[[light]] {}", label), "candela list light", place};
+        const TableContext context{
+            fmt::format("[[light]] {}", label), {Help::Topic::plugins_of_kind, "light"}, place};
         std::optional<Model> model;
         const bool clean = is_clean([&] {
             const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
@@ -220,7 +224,8 @@ class Reader {
         Object object;
         object.label = label_of("object", table, index);
         object.place = place;
-        const TableContext context{fmt::format("[[object]] {}", object.label), "candela list shape", place};
+        const TableContext context{
+            fmt::format("[[object]] {}", object.label), {Help::Topic::plugins_of_kind, "shape"}, place};
         object.position_place = place_of(table, "position", place);
         const bool clean = is_clean([&] {
             const ParamSet own =

@@ -136,11 +136,11 @@ constexpr ParamSpec k_reflection[] = {
     {.name = "model", .type = Type::text, .meaning = "default reflection plugin", .required = true},
 };
 constexpr ParamSpec k_light[] = {
-    {.name = "name", .type = Type::text, .meaning = "for messages and --set; unique"},
+    {.name = "name", .type = Type::text, .meaning = "unique; names it in messages and settings"},
     {.name = "type", .type = Type::text, .meaning = "light plugin; its parameters follow", .required = true},
 };
 constexpr ParamSpec k_object[] = {
-    {.name = "name", .type = Type::text, .meaning = "for messages and --set; unique"},
+    {.name = "name", .type = Type::text, .meaning = "unique; names it in messages and settings"},
     {.name = "type", .type = Type::text, .meaning = "shape plugin; its parameters follow", .required = true},
     {.name = "position",
      .type = Type::point,

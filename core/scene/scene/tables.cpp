@@ -13,6 +13,7 @@ module;
 
 module candela.scene;
 
+import :tables;
 import candela.diagnostics;
 import candela.math;
 import candela.parameters;
@@ -62,7 +63,7 @@ const TableNode* SceneTables::single(const std::string& name) {
 
 TableContext SceneTables::context_of(const std::string& name) const {
     const TableNode::Entry* const entry = root_.find(name);
-    return {schema_of(name).title, "", entry != nullptr ? entry->key_place : whole_};
+    return {schema_of(name).title, {}, entry != nullptr ? entry->key_place : whole_};
 }
 
 ParamSet SceneTables::read_plain(const std::string& name) {
@@ -81,7 +82,7 @@ const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, c
     try {
         registry_.require(kind, name);
     } catch (const Error& problem) {
-        diagnostics_.error(place, problem.what());
+        diagnostics_.error(place, problem.what(), "", problem.help());
     }
     return nullptr;
 }

@@ -27,7 +27,7 @@ namespace candela {
 namespace {
 
 [[noreturn]] void cannot_say(const std::string& what) {
-    throw Error(ExitCode::failure, "the scene cannot be written as a file: " + what);
+    throw Error(ErrorCategory::failure, "the scene cannot be written as a file: " + what);
 }
 
 std::string vector_text(Vec3 v) {

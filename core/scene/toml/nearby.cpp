@@ -28,8 +28,7 @@ std::string file_suggestion(const std::filesystem::path& missing) {
          !problem && entry != end && names.size() < k_most; entry.increment(problem)) {
         names.push_back(entry->path().filename().string());
     }
-    const auto near = closest(missing.filename().string(), names);
-    return near ? fmt::format("did you mean '{}'?", (missing.parent_path() / *near).string()) : "";
+    return suggestion(missing.filename().string(), names, (missing.parent_path() / "").string());
 }
 
 }  // namespace candela

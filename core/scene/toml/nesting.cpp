@@ -4,15 +4,15 @@ module;
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 module candela.toml;
 
-import candela.diagnostics;
+import :text;
 
 namespace candela {
 
@@ -26,23 +26,21 @@ constexpr int k_most_brackets = 32;
 /// string, but only after the position where the parser stops.
 class Scan {
   public:
-    Scan(std::string_view text, std::string shown_name, std::size_t& values_left)
-        : text_(text), place_{std::move(shown_name), 1, 1, 1}, values_left_(values_left) {}
+    Scan(std::string_view text, std::size_t& values_left) : text_(text), values_left_(values_left) {}
 
     std::optional<Excess> run() {
         while (at_ < text_.size()) {
             const char c = text_[at_];
             if (c == ',' || c == '=' || c == '[' || c == '{') {
                 if (values_left_ == 0) {
-                    return Excess{
-                        at_, place_,
-                        fmt::format("here the scene has more than {} values", ReadingLimits::k_most_values)};
+                    return Excess{at_, fmt::format("here the scene has more than {} values",
+                                                   ReadingLimits::k_most_values)};
                 }
                 --values_left_;
             }
             switch (c) {
                 case '#':
-                    while (at_ < text_.size() && text_[at_] != '\n') advance();
+                    at_ = std::min(text_.find('\n', at_), text_.size());
                     continue;
                 case '"':
                 case '\'':
@@ -52,8 +50,7 @@ class Scan {
                 case '{':
                     parts_ = 1;
                     if (++brackets_ > k_most_brackets) {
-                        return Excess{at_, place_,
-                                      fmt::format("this is nested more than {} deep", k_most_brackets)};
+                        return Excess{at_, fmt::format("this is nested more than {} deep", k_most_brackets)};
                     }
                     break;
                 case ']':
@@ -63,8 +60,7 @@ class Scan {
                     break;
                 case '.':
                     if (++parts_ > k_most_parts) {
-                        return Excess{at_, place_,
-                                      fmt::format("this key has more than {} parts", k_most_parts)};
+                        return Excess{at_, fmt::format("this key has more than {} parts", k_most_parts)};
                     }
                     break;
                 case '\n':
@@ -75,25 +71,13 @@ class Scan {
                 default:
                     break;
             }
-            advance();
+            ++at_;
         }
         return std::nullopt;
     }
 
   private:
-    /// Skips one byte; the bytes of one character share a column.
-    void advance() {
-        if (text_[at_] == '\n') {
-            ++place_.line;
-            place_.column = 1;
-        } else if ((static_cast<unsigned char>(text_[at_]) & 0xc0) != 0x80) {
-            ++place_.column;
-        }
-        ++at_;
-    }
-    void advance(std::size_t count) {
-        for (; count > 0 && at_ < text_.size(); --count) advance();
-    }
+    void advance(std::size_t count) { at_ = std::min(at_ + count, text_.size()); }
 
     /// "…", '…', """…""" and '''…'''; only the first and third have escapes.
     void skip_string(char quote) {
@@ -105,20 +89,19 @@ class Scan {
                 advance(2);
             } else if (many_lines && text_.substr(at_, 3) == three) {
                 // Up to two more quotes belong to the text.
-                while (at_ < text_.size() && text_[at_] == quote) advance();
+                while (at_ < text_.size() && text_[at_] == quote) ++at_;
                 return;
             } else if (!many_lines && (text_[at_] == quote || text_[at_] == '\n')) {
-                if (text_[at_] == quote) advance();
+                if (text_[at_] == quote) ++at_;
                 return;
             } else {
-                advance();
+                ++at_;
             }
         }
     }
 
     std::string_view text_;
     std::size_t at_ = 0;
-    SourcePlace place_;
     std::size_t& values_left_;
     int brackets_ = 0;
     int parts_ = 1;  // of the key or value being read
@@ -126,9 +109,8 @@ class Scan {
 
 }  // namespace
 
-std::optional<Excess> first_excess(std::string_view text, const std::string& shown_name,
-                                   std::size_t& values_left) {
-    return Scan(text, shown_name, values_left).run();
+std::optional<Excess> first_excess(std::string_view text, std::size_t& values_left) {
+    return Scan(text, values_left).run();
 }
 
 }  // namespace candela

@@ -13,7 +13,7 @@ module;
 
 module candela.toml;
 
-import candela.diagnostics;
+import :text;
 import candela.text;
 
 namespace candela {
@@ -43,8 +43,8 @@ constexpr std::array k_rules = {
          "with a point, as in 1.0e20, it is a real number"},
     Rule{"integer", "leading zeroes", "{word} is no number, because it begins with 0", ""},
     Rule{"integer", "", "{word} is no number", "numbers are written 12, 0.5 or 2e-3, without a unit"},
-    Rule{"floating-point", "expected 'nan'", "{word} is no value", "a text stands in quotes"},
-    Rule{"floating-point", "expected 'inf'", "{word} is no value", "a text stands in quotes"},
+    Rule{"floating-point", "expected 'nan'", "{word} is no value", "strings are quoted"},
+    Rule{"floating-point", "expected 'inf'", "{word} is no value", "strings are quoted"},
     Rule{"floating-point", "", "{word} is no number",
          "numbers are written 12, 0.5 or 2e-3: digits stand on both sides of the point"},
     Rule{"boolean", "", "{word} is no value", "write true or false, or a quoted string"},
@@ -77,11 +77,11 @@ constexpr std::array k_rules = {
     Rule{"key", "redefine existing", "{quoted} is given twice in one table", ""},
     Rule{"key", "encountered end-of-file", "the file ends where '=' and a value are missing", ""},
     Rule{"key-value pair", "expected '='", "expected '=' after the key, found {found}",
-         "write: key = value; a key of anything but A-Z, a-z, 0-9, _ and - stands in quotes"},
+         "write: key = value; a key with characters other than A-Z, a-z, 0-9, _ and - is quoted"},
     Rule{"key-value pair", "expected value", "there is no value after '='", ""},
     Rule{"key-value pair", "expected a comment or whitespace",
          "expected the end of the line after the value, found {found}",
-         "one value a line; a decimal point is no comma; units are left out; a text stands in quotes"},
+         "one value per line; a decimal point is not a comma; units are left out; strings are quoted"},
     Rule{"root table", "expected keys", "expected a key or a [table], found {found}",
          "comments begin with #; a scene is TOML, not JSON, YAML or XML"},
     Rule{"", "after '\\r'", "a line ends with a carriage return alone",
@@ -94,19 +94,8 @@ std::string quoted(std::string_view text) { return fmt::format("'{}'", shortened
 /// The byte at which column `column` begins.
 std::size_t offset_of(std::string_view line, int column) {
     std::size_t at = 0;
-    for (int i = 1; i < column && at < line.size(); ++i) {
-        do {
-            ++at;
-        } while (at < line.size() && (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80);
-    }
+    for (int i = 1; i < column && at < line.size(); ++i) at += first_character(line.substr(at)).size();
     return at;
-}
-
-/// Empty at the line's end.
-std::string_view character_at(std::string_view line, std::size_t at) {
-    std::size_t end = std::min(at + 1, line.size());
-    while (end < line.size() && (static_cast<unsigned char>(line[end]) & 0xc0) == 0x80) ++end;
-    return line.substr(std::min(at, end), end - std::min(at, end));
 }
 
 /// What a person would take for one word or number around the position.
@@ -146,7 +135,7 @@ SyntaxProblem syntax_problem(std::string_view description, std::string_view line
         }
     }
     const std::size_t at = offset_of(line, column);
-    const std::string_view character = character_at(line, at);
+    const std::string_view character = first_character(line.substr(at));
     const std::string found = character.empty() ? "the end of the line" : fmt::format("'{}'", character);
     const std::string control = character.empty() ? "this text has no closing quote on its line"
                                                   : "a control character, which no text may hold";

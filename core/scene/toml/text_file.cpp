@@ -4,6 +4,7 @@ module;
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -16,7 +17,9 @@ module;
 
 module candela.toml;
 
+import :text;
 import candela.diagnostics;
+import candela.text;
 
 namespace candela {
 
@@ -54,25 +57,6 @@ class Descriptor {
     int number_;
 };
 
-/// The number of bytes of the character at the start of `rest`; 0 if it is not valid UTF-8 (RFC 3629).
-std::size_t character_length(std::string_view rest) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(rest[i]); };
-    const unsigned char first = byte(0);
-    if (first < 0x80) return 1;
-    const std::size_t length = first >= 0xc2 && first <= 0xdf   ? 2
-                               : first >= 0xe0 && first <= 0xef ? 3
-                               : first >= 0xf0 && first <= 0xf4 ? 4
-                                                                : 0;
-    if (length == 0 || rest.size() < length) return 0;
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xc0) != 0x80) return 0;
-    }
-    // Overlong forms, surrogates, beyond U+10FFFF.
-    if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) > 0x9f)) return 0;
-    if ((first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) > 0x8f)) return 0;
-    return length;
-}
-
 bool is_utf16(std::string_view text) {
     return text.starts_with(std::string_view("\xff\xfe", 2)) ||
            text.starts_with(std::string_view("\xfe\xff", 2));
@@ -80,24 +64,16 @@ bool is_utf16(std::string_view text) {
 
 }  // namespace
 
-std::optional<SourcePlace> first_invalid_character(std::string_view text, const std::string& shown_name) {
-    SourcePlace place{shown_name, 1, 1, 1};
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = character_length(text.substr(i));
-        if (length == 0) return place;
-        if (text[i] == '\n') {
-            ++place.line;
-            place.column = 1;
-        } else {
-            ++place.column;
-        }
-        i += length;
-    }
-    return std::nullopt;
+SourcePlace place_at(std::string_view text, std::size_t offset, const std::string& shown_name) {
+    const std::string_view before = text.substr(0, offset);
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const std::size_t begin = before.rfind('\n') + 1;  // 0 on the first line
+    return {shown_name, static_cast<int>(line), 1 + static_cast<int>(character_count(before.substr(begin))),
+            1};
 }
 
 std::optional<std::string> text_of_file(const fs::path& file, const std::string& shown_name,
-                                        ReadingLimits& left, Diagnostics& diagnostics) {
+                                        std::uintmax_t& bytes_left, Diagnostics& diagnostics) {
     const SourcePlace place{shown_name, 0, 0, 0};
     const auto fail = [&](const std::string& message, const std::string& hint = {}) {
         diagnostics.failure(place, message, hint);
@@ -110,8 +86,8 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     const auto too_large = [&](const std::string& size) {
         return fail(fmt::format(
             "the file is too large: {} bytes, where {}{}", size,
-            left.bytes < ReadingLimits::k_most_bytes ? "the files read before leave " : "a scene may have ",
-            left.bytes));
+            bytes_left < ReadingLimits::k_most_bytes ? "the files read before leave " : "a scene may have ",
+            bytes_left));
     };
     std::error_code problem;
     const fs::file_status status = fs::status(file, problem);
@@ -121,17 +97,17 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
         return fail(fmt::format("it cannot be looked at: {}", problem.message()));
     if (status.type() == fs::file_type::directory) return fail("this is a directory; a scene is a file");
     if (status.type() != fs::file_type::regular)
-        return fail("this is no ordinary file (a pipe or a device?)");
+        return fail("this is not a regular file (a pipe or a device?)");
     const std::uintmax_t size = fs::file_size(file, problem);
-    if (!problem && size > left.bytes) return too_large(fmt::to_string(size));
+    if (!problem && size > bytes_left) return too_large(fmt::to_string(size));
     const Descriptor descriptor(file);
     if (!descriptor.is_open())
         return fail(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
-    auto text = descriptor.read(left.bytes);
+    auto text = descriptor.read(bytes_left);
     if (!text) return fail(fmt::format("the file cannot be read: {}", std::strerror(errno)));
     // Some files, such as those in /proc, report no size.
-    if (text->size() > left.bytes) return too_large(fmt::format("more than {}", left.bytes));
-    left.bytes -= text->size();
+    if (text->size() > bytes_left) return too_large(fmt::format("more than {}", bytes_left));
+    bytes_left -= text->size();
     // Columns count what is visible, which a byte-order mark is not.
     if (text->starts_with("\xef\xbb\xbf")) text->erase(0, 3);
     if (text->find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");

@@ -16,6 +16,7 @@ module;
 
 module candela.toml;
 
+import :text;
 import candela.diagnostics;
 import candela.text;
 
@@ -86,8 +87,7 @@ void report(const toml::parse_error& problem, std::string_view text, const std::
     SourcePlace place = place_of(problem.source(), shown_name);
     const std::string_view line = line_of(text, place.line);
     // At the end of the file toml++ counts the last line ending as a character.
-    const auto is_first_byte = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
-    place.column = std::min(place.column, 1 + static_cast<int>(std::ranges::count_if(line, is_first_byte)));
+    place.column = std::min(place.column, 1 + static_cast<int>(character_count(line)));
     SyntaxProblem said = syntax_problem(problem.description(), line, place.column);
     diagnostics.error(std::move(place), std::move(said.message), std::move(said.hint));
 }
@@ -95,12 +95,14 @@ void report(const toml::parse_error& problem, std::string_view text, const std::
 /// Whether toml++ can parse the text safely; reports if not.
 bool can_be_parsed(std::string_view text, const std::string& shown_name, std::size_t& values_left,
                    Diagnostics& diagnostics) {
-    if (const auto place = first_invalid_character(text, shown_name)) {
-        diagnostics.error(*place, "this is not UTF-8 text", "save the file as UTF-8");
+    if (const auto invalid = first_invalid_byte(text)) {
+        diagnostics.error(place_at(text, *invalid, shown_name), "this is not UTF-8 text",
+                          "save the file as UTF-8");
         return false;
     }
-    const auto excess = first_excess(text, shown_name, values_left);
+    const auto excess = first_excess(text, values_left);
     if (!excess) return true;
+    const SourcePlace place = place_at(text, excess->offset, shown_name);
     // It may be too deep only because an earlier bracket was not closed.
     constexpr std::size_t k_worth_parsing = 1u << 20;
     try {
@@ -110,12 +112,12 @@ bool can_be_parsed(std::string_view text, const std::string& shown_name, std::si
     } catch (const toml::parse_error& problem) {
         const auto& begin = problem.source().begin;
         if (std::pair(static_cast<int>(begin.line), static_cast<int>(begin.column)) <
-            std::pair(excess->place.line, excess->place.column)) {
+            std::pair(place.line, place.column)) {
             report(problem, text, shown_name, diagnostics);
             return false;
         }
     }
-    diagnostics.error(excess->place, excess->message, "no scene needs that");
+    diagnostics.error(place, excess->message, "no scene needs that");
     return false;
 }
 
@@ -173,7 +175,7 @@ std::optional<TableNode> parse_document(std::string_view text, const std::string
 
 std::optional<TableNode> read_document(const fs::path& file, const std::string& shown_name,
                                        ReadingLimits& left, Diagnostics& diagnostics) {
-    const auto text = text_of_file(file, shown_name, left, diagnostics);
+    const auto text = text_of_file(file, shown_name, left.bytes, diagnostics);
     if (!text) return std::nullopt;
     return parse(*text, shown_name, left.values, diagnostics);
 }
@@ -199,9 +201,9 @@ std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
         return std::nullopt;
     };
     const std::string line = fmt::format("value = {}", text);
-    if (first_invalid_character(line, place.file)) return refuse("it is not UTF-8 text");
+    if (first_invalid_byte(line)) return refuse("it is not UTF-8 text");
     std::size_t values_left = ReadingLimits::k_most_values;
-    if (const auto excess = first_excess(line, place.file, values_left)) return refuse(excess->message);
+    if (const auto excess = first_excess(line, values_left)) return refuse(excess->message);
     try {
         const toml::table table = toml::parse(line);
         const toml::node* const value = table.get("value");

@@ -89,35 +89,3 @@ CANDELA_API std::string toml_text(float x);
 CANDELA_API std::string toml_key(std::string_view key);
 
 }  // namespace candela
-
-// What this module's own units share.
-namespace candela {
-
-/// The text of a file, which may not be UTF-8, but is neither binary nor empty; otherwise reports why it
-/// cannot be read.
-std::optional<std::string> text_of_file(const std::filesystem::path& file, const std::string& shown_name,
-                                        ReadingLimits& left, Diagnostics& diagnostics);
-
-/// Where a text is not UTF-8.
-std::optional<SourcePlace> first_invalid_character(std::string_view text, const std::string& shown_name);
-
-struct Excess {
-    std::size_t offset = 0;  // in bytes; everything before it is within the limits
-    SourcePlace place;
-    std::string message;
-};
-
-/// Where brackets nest so deeply, or keys have so many parts, that recursion would be dangerous; or where
-/// there are more than `values_left` values. Otherwise subtracts their number.
-std::optional<Excess> first_excess(std::string_view text, const std::string& shown_name,
-                                   std::size_t& values_left);
-
-struct SyntaxProblem {
-    std::string message;
-    std::string hint;
-};
-
-/// toml++'s message in plain words. `line` is the line of the problem, `column` its position there.
-SyntaxProblem syntax_problem(std::string_view description, std::string_view line, int column);
-
-}  // namespace candela

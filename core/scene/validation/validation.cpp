@@ -108,7 +108,7 @@ std::optional<std::string> existing_file(const std::string& written, const Sourc
     if (status.type() == fs::file_type::regular) return file.string();
     const char* const what = status.type() == fs::file_type::directory   ? "is a directory, not a file"
                              : status.type() == fs::file_type::not_found ? "does not exist"
-                                                                         : "is no ordinary file";
+                                                                         : "is not a regular file";
     diagnostics.error(
         place, fmt::format("'{}' {}", written, what),
         status.type() == fs::file_type::not_found
@@ -117,16 +117,7 @@ std::optional<std::string> existing_file(const std::string& written, const Sourc
     return std::nullopt;
 }
 
-std::string manual_hint(const TableContext& context) {
-    return context.manual.empty() ? "" : fmt::format("({})", context.manual);
-}
-
 }  // namespace
-
-std::string suggestion(std::string_view name, std::span<const std::string> candidates) {
-    const auto near = closest(name, candidates);
-    return near ? fmt::format("did you mean '{}'?", *near) : "";
-}
 
 std::optional<Value> typed_value(const Node& node, const Parameter& parameter, Diagnostics& diagnostics) {
     auto value = as_value(node, parameter);
@@ -147,8 +138,8 @@ ParamSet read_parameters(const TableNode& table, SharedSchema schema, const Tabl
             if (!p.default_value) {
                 diagnostics.error(
                     context.place,
-                    fmt::format("{} has no '{}': {}", context.where, p.name, constraint_text(p)),
-                    joined(p.meaning, manual_hint(context)));
+                    fmt::format("{} has no '{}': {}", context.where, p.name, constraint_text(p)), p.meaning,
+                    context.help);
             }
             continue;
         }
@@ -186,10 +177,11 @@ ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, 
 
 void report_unknown_keys(const TableNode& table, std::span<const std::string> known,
                          const TableContext& context, Diagnostics& diagnostics) {
+    const std::string note = context.note.empty() ? "" : fmt::format("({})", context.note);
     for (const TableNode::Entry& entry : table.entries) {
         if (std::ranges::find(known, entry.key) != known.end()) continue;
         diagnostics.error(entry.key_place, fmt::format("unknown key '{}' in {}", entry.key, context.where),
-                          joined(suggestion(entry.key, known), manual_hint(context)));
+                          joined(suggestion(entry.key, known), note), context.help);
     }
 }
 

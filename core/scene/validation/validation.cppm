@@ -19,8 +19,9 @@ export namespace candela {
 /// A table's place in the scene, for messages.
 struct TableContext {
     std::string where;   // "[image]", "[[light]] 'lamp'"
-    std::string manual;  // where to learn more: "candela describe light/point"; may be empty
+    Help help;           // where its keys are explained
     SourcePlace place;   // of the table itself, for missing keys
+    std::string note{};  // said with every unknown key; may be empty
 };
 
 /// The values of the keys in `schema`, with its defaults for missing ones. Reports wrong types, values out of
@@ -44,8 +45,5 @@ CANDELA_API void check_relations(const TableNode& table, const ParamSet& values,
 /// `node` as a value of the parameter's type, without checking its range. Reports a type mismatch.
 CANDELA_API std::optional<Value> typed_value(const Node& node, const Parameter& parameter,
                                              Diagnostics& diagnostics);
-
-/// "did you mean 'shininess'?", or empty.
-CANDELA_API std::string suggestion(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace candela

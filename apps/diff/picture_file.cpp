@@ -1,4 +1,4 @@
-#include "picture.h"
+#include "picture_file.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -22,14 +22,14 @@ import candela.toml;
 
 namespace fs = std::filesystem;
 using candela::Error;
-using candela::ExitCode;
+using candela::ErrorCategory;
 
 namespace {
 
 constexpr int k_longest = 65536;  // as of Candela's own pictures
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
-    throw Error(ExitCode::failure, fmt::format("'{}' {}", file.string(), what));
+    throw Error(ErrorCategory::failure, fmt::format("'{}' {}", file.string(), what));
 }
 
 void require_ordinary_file(const fs::path& file) {
@@ -37,13 +37,13 @@ void require_ordinary_file(const fs::path& file) {
     const fs::file_status status = fs::status(file, problem);
     if (status.type() == fs::file_type::not_found) {
         const std::string hint = candela::file_suggestion(file);
-        throw Error(ExitCode::failure,
+        throw Error(ErrorCategory::failure,
                     fmt::format("there is no file '{}'{}{}", file.string(), hint.empty() ? "" : "; ", hint));
     }
     if (status.type() == fs::file_type::none)
         fail(file, fmt::format("cannot be looked at: {}", problem.message()));
     if (status.type() == fs::file_type::directory) fail(file, "is a directory; a picture is a file");
-    if (status.type() != fs::file_type::regular) fail(file, "is no ordinary file (a pipe or a device?)");
+    if (status.type() != fs::file_type::regular) fail(file, "is not a regular file (a pipe or a device?)");
     if (::access(file.c_str(), R_OK) != 0)
         fail(file, fmt::format("cannot be opened: {}", std::strerror(errno)));
 }
@@ -144,8 +144,4 @@ Picture read_picture(const fs::path& file) {
     }
     require_finite(picture, file);
     return picture;
-}
-
-std::string size_text(const Picture& picture) {
-    return fmt::format("{} x {}", picture.width, picture.height);
 }

@@ -1,6 +1,6 @@
 // ImageBufAlgo::compare_Yee of OpenImageIO is not used: it reads its luminances from a channel that is not
 // there (2.4.7), and so finds black and white alike.
-#include "perception.h"
+#include "picture_comparison/perception.h"
 
 #include <fmt/format.h>
 
@@ -174,7 +174,7 @@ std::size_t perceptible_pixels(const Picture& a, const Picture& b) {
     if (a.is_float == b.is_float && a.values == b.values) return 0;
     const std::uint64_t planes = 2 * k_levels + 1;
     candela::require_memory(sizeof(float) * planes * a.pixels(),
-                            fmt::format("comparing pictures of {} pixels", size_text(a)));
+                            fmt::format("comparing pictures of {} pixels", dimensions_text(a)));
     const Metric metric(a, b);
     std::size_t seen = 0;
     for (std::size_t pixel = 0; pixel < a.pixels(); ++pixel) seen += metric.is_seen(pixel) ? 1 : 0;

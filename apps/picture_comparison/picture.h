@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,9 +18,5 @@ struct Picture {
     float normalized(std::size_t i) const { return is_float ? values[i] : values[i] / k_whole; }
 };
 
-/// Reads a picture of any format that OpenImageIO knows; alpha is left out, and grey becomes red, green and
-/// blue alike. Throws candela::Error (failure) for what is no picture, or holds what is no finite number.
-Picture read_picture(const std::filesystem::path& file);
-
 /// "640 x 480"
-std::string size_text(const Picture& picture);
+std::string dimensions_text(const Picture& picture);

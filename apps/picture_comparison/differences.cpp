@@ -1,4 +1,4 @@
-#include "differences.h"
+#include "picture_comparison/differences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,37 +25,38 @@ bool is_white(const Picture& mask, std::size_t pixel) {
 }
 
 /// Until the end, `mean` and `rmse` are sums, of the differences and of their squares.
-void add(Figures& figures, const Picture& a, const Picture& b, std::size_t pixel, double tolerance) {
+void add(DifferenceStatistics& statistics, const Picture& a, const Picture& b, std::size_t pixel,
+         double tolerance) {
     double largest = 0;
     for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
         const double levels = difference(a, b, i);
         largest = std::max(largest, levels);
-        figures.mean += levels;
-        figures.rmse += levels * levels;
+        statistics.mean += levels;
+        statistics.rmse += levels * levels;
     }
-    ++figures.pixels;
-    if (largest == 0) ++figures.identical;
-    if (largest > tolerance) ++figures.beyond;
-    if (largest <= figures.maximum) return;
-    figures.maximum = largest;
-    figures.x = static_cast<int>(pixel % static_cast<std::size_t>(a.width));
-    figures.y = static_cast<int>(pixel / static_cast<std::size_t>(a.width));
+    ++statistics.pixels;
+    if (largest == 0) ++statistics.identical;
+    if (largest > tolerance) ++statistics.beyond;
+    if (largest <= statistics.maximum) return;
+    statistics.maximum = largest;
+    statistics.x = static_cast<int>(pixel % static_cast<std::size_t>(a.width));
+    statistics.y = static_cast<int>(pixel / static_cast<std::size_t>(a.width));
 }
 
-void finish(Figures& figures) {
-    if (figures.pixels == 0) return;
-    const double channels = 3 * static_cast<double>(figures.pixels);
-    figures.mean /= channels;
-    figures.rmse = std::sqrt(figures.rmse / channels);
+void finish(DifferenceStatistics& statistics) {
+    if (statistics.pixels == 0) return;
+    const double channels = 3 * static_cast<double>(statistics.pixels);
+    statistics.mean /= channels;
+    statistics.rmse = std::sqrt(statistics.rmse / channels);
 }
 
 }  // namespace
 
-double Figures::identical_share() const {
+double DifferenceStatistics::identical_share() const {
     return pixels == 0 ? 1 : static_cast<double>(identical) / static_cast<double>(pixels);
 }
 
-std::optional<double> Figures::psnr() const {
+std::optional<double> DifferenceStatistics::psnr() const {
     if (rmse == 0) return std::nullopt;
     return 20 * std::log10(255 / rmse);
 }
@@ -69,8 +70,9 @@ Differences compare(const Picture& a, const Picture& b, const Picture* mask, dou
     Differences result;
     if (mask != nullptr) result.edges.emplace();
     for (std::size_t pixel = 0; pixel < a.pixels(); ++pixel) {
-        Figures& figures = mask != nullptr && is_white(*mask, pixel) ? *result.edges : result.interior;
-        add(figures, a, b, pixel, tolerance);
+        DifferenceStatistics& statistics =
+            mask != nullptr && is_white(*mask, pixel) ? *result.edges : result.interior;
+        add(statistics, a, b, pixel, tolerance);
     }
     finish(result.interior);
     if (result.edges) finish(*result.edges);

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "picture.h"
+#include "picture_comparison/picture.h"
 
 /// How many pixels differ so that a person would see it, by Yee's metric: "A perceptual metric for production
 /// testing", Journal of Graphics Tools 9(4), 2004. The pictures, of one size, are thought to be on a display

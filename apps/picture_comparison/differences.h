@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <optional>
 
-#include "picture.h"
+#include "picture_comparison/picture.h"
 
 /// Of some of the pixels; differences in levels, over all their channels.
-struct Figures {
+struct DifferenceStatistics {
     std::size_t pixels = 0;
     std::size_t identical = 0;  // in all channels
     std::size_t beyond = 0;     // with a channel that differs by more than is tolerated
@@ -23,13 +23,13 @@ struct Figures {
 };
 
 struct Differences {
-    Figures interior;
-    std::optional<Figures> edges;  // with a mask
+    DifferenceStatistics interior;
+    std::optional<DifferenceStatistics> edges;  // with a mask
 };
 
 /// The largest difference among the channels of the `pixel`-th pixel, in levels.
 double largest_difference(const Picture& a, const Picture& b, std::size_t pixel);
 
-/// The figures of two pictures of one size. Where `mask`, of the same size or null, is white (all channels
+/// The statistics of two pictures of one size. Where `mask`, of the same size or null, is white (all channels
 /// above 1/2), pixels are edges. A difference in `beyond` is larger than `tolerance` levels.
 Differences compare(const Picture& a, const Picture& b, const Picture* mask, double tolerance);

@@ -1,0 +1,171 @@
+#include "diagnostics_text.h"
+
+#include <fmt/color.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+import candela.text;
+
+using candela::Diagnostic;
+using candela::Help;
+using candela::Severity;
+using candela::SourcePlace;
+
+namespace {
+
+std::string location(const SourcePlace& place) {
+    if (place.line == 0) return place.file;
+    return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+/// Whether a terminal would obey it, or cannot show it. Tabs stay.
+bool is_unprintable(std::string_view character) {
+    if (candela::first_invalid_byte(character)) return true;
+    const auto first = static_cast<unsigned char>(character[0]);
+    const bool is_c1 = first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
+    return (first < 0x20 && first != '\t') || first == 0x7f || is_c1;
+}
+
+/// Characters of a line; a question mark for those that are not printed.
+std::vector<std::string> characters_of(std::string_view line) {
+    std::vector<std::string> result;
+    while (!line.empty()) {
+        const std::string_view character = candela::first_character(line);
+        result.emplace_back(is_unprintable(character) ? "?" : character);
+        line.remove_prefix(character.size());
+    }
+    return result;
+}
+
+/// A sentence that may quote user input: on one line, without terminal control sequences, and no longer than
+/// anybody reads.
+std::string sentence(std::string_view text) {
+    constexpr std::size_t k_longest = 1000;
+    std::string result;
+    std::size_t count = 0;
+    for (const std::string& character : characters_of(text.substr(0, 4 * k_longest))) {
+        if (++count > k_longest) return result + "...";
+        result += character;
+    }
+    return result;
+}
+
+/// A line, or as much of it as is readable, and marks below the position. Tabs stay tabs, so that the marks
+/// line up whatever the width of a tab.
+std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& place) {
+    constexpr std::size_t k_widest = 160;
+    constexpr std::size_t k_before = 60;
+    const std::size_t all = candela::character_count(line);
+    auto marked = std::min(static_cast<std::size_t>(std::max(place.column, 1)) - 1, all);
+    const std::size_t left_out = all > k_widest && marked > k_before ? marked - k_before : 0;
+    for (std::size_t i = 0; i < left_out; ++i) line.remove_prefix(candela::first_character(line).size());
+    marked -= left_out;
+    const std::vector<std::string> characters = characters_of(line.substr(0, 4 * k_widest));
+    const std::size_t last = std::min(k_widest, characters.size());
+    const bool goes_on = all - left_out > last;
+    std::string shown = left_out > 0 ? "..." : "";
+    std::string marks = left_out > 0 ? "   " : "";
+    for (std::size_t i = 0; i < last; ++i) {
+        shown += characters[i];
+        if (i < marked) marks += characters[i] == "\t" ? '\t' : ' ';
+    }
+    if (goes_on) shown += "...";
+    const std::size_t room = last > marked ? last - marked : 1;
+    marks.append(std::clamp<std::size_t>(static_cast<std::size_t>(std::max(place.length, 1)), 1, room), '^');
+    return {shown, marks};
+}
+
+std::string_view word(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
+
+/// What follows a message.
+std::string remedy(const Help& help) {
+    switch (help.topic) {
+        case Help::Topic::all_plugins:
+            return "; candela list shows all";
+        case Help::Topic::plugin_trust:
+            return ", or use --allow-untrusted-plugins";
+        case Help::Topic::plugin_conformance:
+            return "; candela plugin test tells more";
+        default:
+            return {};
+    }
+}
+
+/// What stands beside a message as a hint.
+std::string pointer(const Help& help) {
+    switch (help.topic) {
+        case Help::Topic::plugin:
+            return fmt::format("(candela describe {})", help.subject);
+        case Help::Topic::plugins_of_kind:
+            return fmt::format("(candela list {})", help.subject);
+        case Help::Topic::default_models:
+            return fmt::format("--defaults uses {}; --shading and --reflection name others", help.subject);
+        default:
+            return {};
+    }
+}
+
+std::string hint_of(const Diagnostic& d) {
+    const std::string more = pointer(d.help);
+    return d.hint + (d.hint.empty() || more.empty() ? "" : "  ") + more;
+}
+
+}  // namespace
+
+std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_color, std::size_t most) {
+    const auto styled = [&](const fmt::text_style& style, std::string_view text) {
+        return fmt::format(in_color ? style : fmt::text_style(), "{}", text);
+    };
+    const fmt::text_style bold = fmt::emphasis::bold;
+    std::string result;
+    const std::vector<Diagnostic> all = diagnostics.sorted();
+    for (std::size_t i = 0; i < std::min(most, all.size()); ++i) {
+        const Diagnostic& d = all[i];
+        const auto color =
+            d.severity == Severity::error ? fmt::terminal_color::red : fmt::terminal_color::magenta;
+        result += fmt::format("{}{} {} {}\n", styled(bold, sentence(location(d.place))),
+                              d.place.file.empty() ? "" : ":",
+                              styled(bold | fmt::fg(color), fmt::format("{}:", word(d.severity))),
+                              styled(bold, sentence(full_message(d.message, d.help))));
+        const std::string hint = sentence(hint_of(d));
+        if (const auto line = diagnostics.source_line(d.place)) {
+            const auto [shown, marks] = excerpt(*line, d.place);
+            result += fmt::format("{:5} | {}\n{:5} | {}", d.place.line, shown, "",
+                                  styled(bold | fmt::fg(fmt::terminal_color::green), marks));
+            result += hint.empty() ? "\n" : fmt::format(" {}\n", hint);
+        } else if (!hint.empty()) {
+            result += fmt::format("      {}\n", hint);
+        }
+    }
+    if (all.size() > most) {
+        const auto rest = std::ranges::count(all.begin() + static_cast<std::ptrdiff_t>(most), all.end(),
+                                             Severity::error, &Diagnostic::severity);
+        result += fmt::format("and {} more ({} of them errors)\n", all.size() - most, rest);
+    }
+    return result;
+}
+
+std::string diagnostics_json(const candela::Diagnostics& diagnostics) {
+    using Json = nlohmann::ordered_json;
+    Json all = Json::array();
+    for (const Diagnostic& d : diagnostics.sorted()) {
+        all.push_back({{"severity", word(d.severity)},
+                       {"file", d.place.file},
+                       {"line", d.place.line},
+                       {"column", d.place.column},
+                       {"length", d.place.length},
+                       {"message", full_message(d.message, d.help)},
+                       {"hint", hint_of(d)}});
+    }
+    return all.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string full_message(std::string message, const Help& help) { return std::move(message) + remedy(help); }

@@ -1,0 +1,21 @@
+// What the core's diagnostics and errors say to a person, with the command's verbs and flags; and as JSON.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+import candela.core;
+
+constexpr std::size_t k_most_diagnostics_shown = 50;
+
+/// The first `most` diagnostics as text, each with its line and a mark below the position, and the number of
+/// those omitted.
+std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_color,
+                             std::size_t most = k_most_diagnostics_shown);
+
+/// All diagnostics for programs: an array of objects with severity, file, line, column, length, message,
+/// hint.
+std::string diagnostics_json(const candela::Diagnostics& diagnostics);
+
+/// The sentence of an error or a refusal, and what else can be done.
+std::string full_message(std::string message, const candela::Help& help);

@@ -1,0 +1,29 @@
+// Names of temporary files, where a signal handler finds them.
+module;
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+module candela.files:unfinished;
+
+namespace candela {
+
+/// A new name in a directory for a file to be; the file of that name goes away with this, and in
+/// remove_unfinished_files().
+class UnfinishedName {
+  public:
+    explicit UnfinishedName(const std::filesystem::path& directory);
+    UnfinishedName(const UnfinishedName&) = delete;
+    UnfinishedName& operator=(const UnfinishedName&) = delete;
+    ~UnfinishedName();
+
+    const char* c_str() const { return name_->c_str(); }
+
+  private:
+    std::unique_ptr<std::string> name_;
+    std::atomic<std::string*>* slot_ = nullptr;
+};
+
+}  // namespace candela

@@ -1,0 +1,65 @@
+// What is asked of all tables of a scene.
+module;
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+module candela.scene:tables;
+
+import :merge;
+import :schema;
+import candela.diagnostics;
+import candela.math;
+import candela.parameters;
+import candela.registry;
+import candela.toml;
+import candela.validation;
+
+namespace candela {
+
+/// The schema of one of the scene's own tables.
+const TableSchema& schema_of(std::string_view table);
+
+/// `keys`, and the names of the parameters.
+std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys = {});
+
+// Values of a set, by name; they must be set.
+float real(const ParamSet& set, std::string_view name);
+int integer(const ParamSet& set, std::string_view name);
+Vec3 vector(const ParamSet& set, std::string_view name);
+const std::string& text(const ParamSet& set, std::string_view name);
+bool has(const ParamSet& set, std::string_view name);
+
+/// The tables of a document, and what applies to all of them.
+class SceneTables {
+  public:
+    SceneTables(const MergedDocument& document, Registry& registry, Diagnostics& diagnostics);
+
+    const TableNode& root() const { return root_; }
+    const SourcePlace& whole() const { return whole_; }
+    Registry& registry() { return registry_; }
+    Diagnostics& diagnostics() { return diagnostics_; }
+
+    /// A table that may occur once; null if it is missing or is not a table, which is reported the first
+    /// time.
+    const TableNode* single(const std::string& name);
+    TableContext context_of(const std::string& name) const;
+    /// All values of a table without a plugin.
+    ParamSet read_plain(const std::string& name);
+    /// The installed plugin of that name, or null, with a message at `place`.
+    const PluginFile* known(PluginKind kind, const std::string& name, const SourcePlace& place);
+    /// A plugin's parameters, including the relations between them.
+    ParamSet read_plugin(const TableNode& table, const PluginFile& plugin, const TableContext& context);
+
+  private:
+    const TableNode& root_;
+    SourcePlace whole_;
+    Registry& registry_;
+    Diagnostics& diagnostics_;
+    std::map<std::string, const TableNode*> singles_;
+};
+
+}  // namespace candela

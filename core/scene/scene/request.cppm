@@ -1,0 +1,36 @@
+// Which scene is wanted: its files, and what is said beside them.
+module;
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+export module candela.scene:request;
+
+export namespace candela {
+
+/// A value given beside the files; it overrides what they say.
+struct Setting {
+    std::string origin;  // who says so, for diagnostics: "--width"
+    std::string path;    // "image.width", "light.lamp.intensity", "object.0.material.kd"
+    std::string value;   // as it would be written in the file; bare words are strings
+};
+
+/// The name of a plugin given beside the files; it overrides what they say.
+struct ModelSetting {
+    std::string name;
+    std::string origin{};  // as in Setting
+};
+
+struct SceneRequest {
+    std::vector<std::filesystem::path> files;  // merged; none: the default scene
+    std::vector<Setting> settings;
+    std::optional<ModelSetting> shading;                   // of every object
+    std::optional<ModelSetting> reflection;                // likewise
+    bool use_defaults = false;                             // if no shading or reflection model is named
+    std::function<bool(const std::string& question)> ask;  // called instead of failing then; may be empty
+};
+
+}  // namespace candela

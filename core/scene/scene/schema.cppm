@@ -1,0 +1,44 @@
+// What the tables of a scene file may hold.
+module;
+
+#include "candela/api.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+export module candela.scene:schema;
+
+import candela.descriptor;
+import candela.parameters;
+
+export namespace candela {
+
+/// A key whose value is the name of a plugin.
+struct PluginKey {
+    std::string key;  // "type"
+    PluginKind kind = PluginKind::light;
+    /// Where in the table the plugin's parameters are: beside the key (""), or in a nested table
+    /// ("material"). Nothing: not in this table.
+    std::optional<std::string> parameters_in{};
+};
+
+/// What a table of the scene file may contain, apart from what plugins declare.
+struct TableSchema {
+    std::string name;   // "image", "light"
+    std::string title;  // as written in a file: "[image]", "[[light]]"
+    std::string meaning;
+    std::vector<Parameter> parameters;
+    bool repeated = false;             // may occur any number of times
+    std::vector<PluginKey> plugins{};  // which of the parameters name plugins
+    std::vector<std::string> lists{};  // which of the parameters are lists of such values
+};
+
+/// The tables of the scene file, in the order in which people write them.
+CANDELA_API std::span<const TableSchema> scene_schema();
+
+/// The keys before all tables; its name is empty.
+CANDELA_API const TableSchema& top_schema();
+
+}  // namespace candela

@@ -1,0 +1,42 @@
+// The text of a document before toml++ sees it, and what toml++ says of it.
+module;
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+module candela.toml:text;
+
+import candela.diagnostics;
+
+namespace candela {
+
+/// The text of a file, which may not be UTF-8, but is neither binary nor empty; otherwise reports why it
+/// cannot be read. A file larger than `bytes_left` is refused; otherwise its size is subtracted.
+std::optional<std::string> text_of_file(const std::filesystem::path& file, const std::string& shown_name,
+                                        std::uintmax_t& bytes_left, Diagnostics& diagnostics);
+
+/// The place of a byte of a text.
+SourcePlace place_at(std::string_view text, std::size_t offset, const std::string& shown_name);
+
+struct Excess {
+    std::size_t offset = 0;  // in bytes; everything before it is within the limits
+    std::string message;
+};
+
+/// Where brackets nest so deeply, or keys have so many parts, that recursion would be dangerous; or where
+/// there are more than `values_left` values. Otherwise subtracts their number.
+std::optional<Excess> first_excess(std::string_view text, std::size_t& values_left);
+
+struct SyntaxProblem {
+    std::string message;
+    std::string hint;
+};
+
+/// toml++'s message in plain words. `line` is the line of the problem, `column` its position there.
+SyntaxProblem syntax_problem(std::string_view description, std::string_view line, int column);
+
+}  // namespace candela
