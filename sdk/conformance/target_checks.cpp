@@ -42,7 +42,7 @@ class Exported {
         }
         candela::Diagnostics diagnostics;
         const auto scene = candela::read_scene(request, registry_, diagnostics);
-        if (!scene) FAIL("the scene cannot be read: " << diagnostics.text(false));
+        if (!scene) FAIL("the scene cannot be read: " << diagnostics.sorted().front().message);
         try {
             export_.emplace(*scene, candela::ExportRequest{.title = title, .abilities = target.abilities()},
                             registry_);

@@ -315,7 +315,7 @@ class Exporter {
             add_shading(object.shading.name, object.shading.parameters);
             add_reflection(object.reflection.name, object.reflection.parameters);
         } catch (const Error& problem) {
-            throw Error(problem.code(), fmt::format("object {}: {}", object.label, problem.what()));
+            throw Error(problem.category(), fmt::format("object {}: {}", object.label, problem.what()));
         }
     }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnostics_text.h"
 #include "support/command.h"
 #include "support/microfacets.h"
 #include "support/plugins.h"
@@ -89,7 +90,7 @@ TEST_CASE(
         candela::SceneRequest request;
         request.files = {file};
         const auto scene = candela::read_scene(request, test_registry(), diagnostics);
-        INFO(diagnostics.text(false));
+        INFO(diagnostics_text(diagnostics, false));
         REQUIRE(scene.has_value());
         const auto compiled = candela::compile(*scene, test_registry(), diagnostics);
         REQUIRE(compiled.has_value());

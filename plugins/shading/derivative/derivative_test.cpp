@@ -4,6 +4,7 @@
 #include <numbers>
 #include <span>
 
+#include "diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
@@ -118,9 +119,9 @@ std::vector<float> rendered(const fs::path& file, const char* shading) {
     candela::Diagnostics diagnostics;
     candela::SceneRequest request;
     request.files = {file};
-    request.shading = shading;
+    request.shading = {shading};
     const auto scene = candela::read_scene(request, test_registry(), diagnostics);
-    INFO(diagnostics.text(false));
+    INFO(diagnostics_text(diagnostics, false));
     REQUIRE(scene.has_value());
     const auto compiled = candela::compile(*scene, test_registry(), diagnostics);
     REQUIRE(compiled.has_value());
