@@ -43,7 +43,9 @@ class Unit:
         self.names = {option.split("=", 2)[2]: option.split("=", 2)[1] for option in of_modules
                       if option.startswith("-fmodule-file=")}
         self.interface = next((option.split("=", 1)[1] for option in of_modules if option.startswith("-fmodule-output=")), None)
-        self.options = [word for word in words[1:] if not word.startswith(("@", "-fsave-optimization-record", "-foptimization-record"))]
+        # Warnings are the build's business.
+        without = ("@", "-fsave-optimization-record", "-foptimization-record", "-Werror")
+        self.options = [word for word in words[1:] if not word.startswith(without)]
         self.includes = includes.get(self.object, [])
 
     def is_checked(self):
@@ -134,7 +136,6 @@ def write_ninja_file(build, out, units, chosen, tidy, compiler, other):
     for unit in units:
         at = shlex.quote(str(unit.directory))
         if unit.interface and compiler:
-            # The build has shown its warnings already.
             options = [word for word in unit.options if word not in ("-c", "-o", unit.object, str(unit.source))]
             options += [*import_options(unit), "-w", "-x", "c++-module", "--precompile", str(unit.source), "-o", own[unit.interface]]
             text.append(edge(own[unit.interface], "interface", unit, f"cd {at} && {shlex.join([compiler, *options])}"))

@@ -71,7 +71,7 @@ class Reader {
     static const SourcePlace& place_of(const TableNode& table, std::string_view key,
                                        const SourcePlace& otherwise) {
         const TableNode::Entry* const entry = table.find(key);
-        // NOLINTNEXTLINE(bugprone-return-const-ref-from-parameter): it is a member's place
+        // NOLINTNEXTLINE(bugprone-return-const-ref-from-parameter): callers copy it at once
         return entry != nullptr ? entry->node.place : otherwise;
     }
 
