@@ -28,6 +28,19 @@ def output_of(*words, **options):
     return subprocess.run(words, check=True, capture_output=True, text=True, **options).stdout
 
 
+def without_precompiled_headers(words):
+    """The headers themselves instead: a precompiled one can be read by one version of clang only."""
+    kept, rest = [], list(words)
+    while rest:
+        if rest[:2] == ["-Xclang", "-include-pch"]:
+            del rest[:4]
+        elif rest[0] in ("-Winvalid-pch", "-fpch-instantiate-templates"):
+            del rest[0]
+        else:
+            kept.append(rest.pop(0))
+    return kept
+
+
 class Unit:
     """What one entry of compile_commands.json compiles."""
 
@@ -35,7 +48,7 @@ class Unit:
         self.directory = pathlib.Path(entry["directory"])
         self.source = pathlib.Path(entry["file"])
         self.object = entry["output"]
-        words = shlex.split(entry["command"])
+        words = without_precompiled_headers(shlex.split(entry["command"]))
         self.compiler = words[0]
         modmaps = [word[1:] for word in words if word.startswith("@")]
         of_modules = [option for name in modmaps for option in (self.directory / name).read_text().split()]

@@ -102,7 +102,7 @@ std::vector<Paragraph> paragraphs_of(const std::string& text) {
 std::string_view kernel_prelude() { return candela_target_prelude; }
 
 bool has_parameters(const ExportedModel& model) {
-    return std::string_view(model.plugin->kernel.parameters) != "";
+    return !std::string_view(model.plugin->kernel.parameters).empty();
 }
 
 bool has_function(const ExportedModel& model, std::string_view name) {

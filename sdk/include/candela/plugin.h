@@ -62,7 +62,7 @@ struct Field {
         if (real != nullptr) return &(params.*real);
         if (integer != nullptr) return &(params.*integer);
         if (vector != nullptr) return &(params.*vector);
-        return text != nullptr ? &(params.*text) : nullptr;
+        return text != nullptr ? static_cast<const void*>(&(params.*text)) : nullptr;
     }
 
     // The rest of the declaration, after the type of value: real(...).minimum(0).unit("m").
