@@ -1,7 +1,7 @@
 #include "kernel_program.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
+#include <cstdlib>
 
 #include <catch2/catch_test_macros.hpp>
 #include <fstream>
