@@ -27,7 +27,10 @@ namespace {
 
 /// Without loss, which would show differences where there are none; and those whose writers need no file of
 /// their own.
-const std::vector<std::string> k_extensions = {"png", "ppm", "bmp", "tga"};
+const std::vector<std::string>& lossless_extensions() {
+    static const std::vector<std::string> k_extensions = {"png", "ppm", "bmp", "tga"};
+    return k_extensions;
+}
 
 /// Red, green and blue of each pixel.
 std::vector<std::uint8_t> heat_colors(const Picture& a, const Picture& b, double maximum) {
@@ -68,13 +71,14 @@ std::vector<unsigned char> encoded(const std::string& extension, int width, int 
 
 void require_heat_map_format(const fs::path& file) {
     const std::string extension = candela::extension_of(file);
-    if (std::ranges::find(k_extensions, extension) != k_extensions.end()) return;
-    const std::string meant = extension.empty() ? "" : candela::suggestion(extension, k_extensions, ".");
+    if (std::ranges::find(lossless_extensions(), extension) != lossless_extensions().end()) return;
+    const std::string meant =
+        extension.empty() ? "" : candela::suggestion(extension, lossless_extensions(), ".");
     throw Error(ErrorCategory::bad_request,
                 fmt::format("'{}' {}{} (possible: {})", file.string(),
                             extension.empty() ? "has no extension that names a picture format"
                                               : "is of no format that a heat-map is written in",
-                            meant.empty() ? "" : "; " + meant, fmt::join(k_extensions, ", ")));
+                            meant.empty() ? "" : "; " + meant, fmt::join(lossless_extensions(), ", ")));
 }
 
 void write_heat_map(const fs::path& file, const Picture& a, const Picture& b, double maximum) {
