@@ -10,11 +10,10 @@ namespace fs = std::filesystem;
 
 LoadedTarget::LoadedTarget(const std::string& name, candela::Registry& registry) : name_(name) {
     if (registry.find(PluginKind::target, name) == nullptr) {
-        const auto near = candela::closest(name, registry.names(PluginKind::target));
-        throw Error(
-            ErrorCategory::bad_request,
-            fmt::format("there is no target '{}'{} (possible: {})", name,
-                        near ? fmt::format("; did you mean '{}'?", *near) : "", target_names(registry)));
+        const std::string meant = candela::suggestion(name, registry.names(PluginKind::target));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("there is no target '{}'{} (possible: {})", name,
+                                meant.empty() ? "" : "; " + meant, target_names(registry)));
     }
     target_ = registry.create<candela::Target>(name, registry.parameters(PluginKind::target, name),
                                                candela::ColorEncoding::none);

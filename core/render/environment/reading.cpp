@@ -4,7 +4,6 @@ module;
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +21,7 @@ import candela.descriptor;
 import candela.diagnostics;
 import candela.image;
 import candela.memory;
+import candela.text;
 
 namespace candela {
 
@@ -63,10 +63,7 @@ class Picture final : public PictureSink {
 }  // namespace
 
 Environment read_environment(const fs::path& file, Registry& registry, ColorEncoding encoding) {
-    std::string extension = file.extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = extension_of(file);
     const PluginFile* const plugin = registry.find_format(extension, FormatUse::read);
     if (plugin == nullptr) {
         throw Error(ErrorCategory::failure,

@@ -349,11 +349,11 @@ class Exporter {
             }
         }
         if (is_known) return;
-        const auto near = closest(name, names);
+        const std::string meant = suggestion(name, names);
         throw Error(ErrorCategory::bad_request,
                     fmt::format("no reflection or shading model is called '{}'{}", name,
-                                near ? fmt::format("; did you mean '{}'?", *near) : ""),
-                    near ? Help{} : Help{Help::Topic::all_plugins});
+                                meant.empty() ? "" : "; " + meant),
+                    meant.empty() ? Help{Help::Topic::all_plugins} : Help{});
     }
 
     /// The scene with that model for all objects, or nothing where it is not valid so. Each model is asked

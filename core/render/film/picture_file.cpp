@@ -4,7 +4,6 @@ module;
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -40,21 +39,17 @@ class FileSink final : public ByteSink {
 
 PictureFormat format_of(const fs::path& path, Registry& registry) {
     if (path == "-") return {.plugin = "png", .extension = "png", .pixels = PixelType::byte};
-    std::string extension = path.extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = extension_of(path);
     const PluginFile* const plugin = extension.empty() ? nullptr : registry.find_format(extension);
     if (plugin == nullptr) {
         const std::vector<std::string> all = registry.extensions();
-        const auto near = closest(extension, all);
+        const std::string meant = extension.empty() ? "" : suggestion(extension, all, ".");
         throw Error(
             ErrorCategory::bad_request,
             fmt::format("'{}' {}{} (possible: {})", path.string(),
                         extension.empty() ? "has no extension that names a picture format"
                                           : fmt::format("is of no format that an image plugin writes"),
-                        near && !extension.empty() ? fmt::format("; did you mean '.{}'?", *near) : "",
-                        fmt::join(all, ", ")));
+                        meant.empty() ? "" : "; " + meant, fmt::join(all, ", ")));
     }
     const auto& formats = plugin->manifest.formats;
     const auto format =
