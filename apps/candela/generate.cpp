@@ -50,8 +50,8 @@ int run_generate(const std::vector<std::string>& arguments) {
     const auto files = target.files_of(exported.scene());
     write_program(files, directory);
     for (const candela::ExportedFile& file : files)
-        std::cerr << fmt::format("{}: {}\n", (directory / file.name).string(),
-                                 candela::size_text(file.content.size()));
+        say(fmt::format("{}: {}\n", (directory / file.name).string(),
+                        candela::size_text(file.content.size())));
     if (line.has("build") || line.has("run")) target.build(directory);
     return line.has("run") ? target.show(directory) : 0;
 }

@@ -3,12 +3,15 @@
 #include <csignal>
 #include <initializer_list>
 
+#include "terminal.h"
+
 import candela.core;
 
 namespace {
 
 void leave_nothing_behind(int signal) {
     candela::remove_unfinished_files();
+    leave_line();
     // SA_RESETHAND: this time the signal does what it always does.
     static_cast<void>(std::raise(signal));
 }
