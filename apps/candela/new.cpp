@@ -59,6 +59,8 @@ int run_new(const std::vector<std::string>& arguments) {
     }
     candela::write_text_file(file, starter_scene(),
                              line.has("force") ? candela::Existing::replaced : candela::Existing::kept);
-    say(fmt::format("Wrote {}. Next, edit it and run: candela render {}\n", file, quoted(file)));
+    say_afterwards([&] {
+        return fmt::format("Wrote {}. Next, edit it and run: candela render {}\n", file, quoted(file));
+    });
     return 0;
 }

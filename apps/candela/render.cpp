@@ -117,6 +117,7 @@ int run_render(const std::vector<std::string>& arguments) {
     }
     const std::string darkness = candela::why_black(*compiled, film, statistics);
     if (!darkness.empty()) warn("nothing in the picture is lit: " + darkness);
+    const bool is_verbose = line.has("verbose");
     const Stopwatch writing;
     // A pixel takes its encoder some three nanoseconds.
     candela::with_threads(
@@ -124,16 +125,19 @@ int run_render(const std::vector<std::string>& arguments) {
         3e-6 * film.width() * film.height());
     const double write_ms = writing.milliseconds();
 
-    if (line.has("verbose")) {
-        say(fmt::format(
-            "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      {:8.2f} "
-            "ms  ({} points lit, {})\n"
-            "  writing    {:8.2f} ms\n",
-            read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles,
-            statistics.points_lit, candela::name_of(candela::instruction_set()), write_ms));
-    }
-    say(fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {}\n", output == "-" ? "picture" : output,
-                    film.width(), film.height(), statistics.triangles, statistics.triangles == 1 ? "" : "s",
-                    statistics.pixels_shaded, duration_text(total.milliseconds())));
+    say_afterwards([&] {
+        std::string stages;
+        if (is_verbose) {
+            stages = fmt::format(
+                "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      {:8.2f} ms  ({} "
+                "points lit, {})\n  writing    {:8.2f} ms\n",
+                read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles,
+                statistics.points_lit, candela::name_of(candela::instruction_set()), write_ms);
+        }
+        return stages + fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {}\n",
+                                    output == "-" ? "picture" : output, film.width(), film.height(),
+                                    statistics.triangles, statistics.triangles == 1 ? "" : "s",
+                                    statistics.pixels_shaded, duration_text(total.milliseconds()));
+    });
     return 0;
 }

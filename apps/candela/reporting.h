@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <new>
 #include <string>
 
 #include "exit_code.h"
@@ -14,6 +15,16 @@ bool is_quiet();
 
 /// Prints what is good to know on stderr, unless --quiet was given.
 void say(const std::string& text);
+
+/// Says what `make` returns after the work is done. If there is no memory for that, it is not said: the result is
+/// whole all the same.
+template <class Make>
+void say_afterwards(Make make) {
+    try {
+        if (!is_quiet()) say(make());
+    } catch (const std::bad_alloc&) {
+    }
+}
 
 /// Prints an error on stderr; its exit code.
 int fail(ExitCode code, const std::string& message);
