@@ -291,6 +291,7 @@ PlacedShape place(const Shape& shape, const MeshRequest& request, const Transfor
     transform(mesh.dpdu, linear, Eigen::Vector3f::Zero());
     transform(mesh.dpdv, linear, Eigen::Vector3f::Zero());
     check_finite(mesh);
+    mesh.bounds = box_around(std::as_const(mesh.position).span(), mesh.vertex_count());
     if (!collected.authored_normal.empty()) {
         transform(collected.authored_normal, linear.inverse().transpose(), Eigen::Vector3f::Zero());
         normalize(collected.authored_normal);

@@ -11,6 +11,7 @@ module;
 export module candela.mesh;
 
 export import candela.arrays;
+export import candela.containment;
 import candela.math;
 import candela.shading;
 import candela.shape;
@@ -36,6 +37,7 @@ struct Mesh {
     Vec3Arrays dpdu, dpdv;      // per vertex, or empty
     bool closed = false;        // otherwise visible from both sides
     std::size_t open_edges = 0;
+    Box bounds{};  // of the vertices
 
     inline std::size_t vertex_count() const { return position.size(); }
     inline std::size_t triangle_count() const { return indices.size() / 3; }
