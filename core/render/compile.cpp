@@ -147,7 +147,9 @@ class Compiler {
         if (solid.surface.reflection->shows_surroundings())
             solid.tree.emplace(std::as_const(solid.mesh.position).span(), solid.mesh.vertex_count(),
                                solid.mesh.indices);
-        if (!solid.mesh.closed) {
+        if (object.encloses) {
+            solid.mesh.closed = false;  // seen from within, too
+        } else if (!solid.mesh.closed) {
             diagnostics_.warning(
                 object.place,
                 fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",

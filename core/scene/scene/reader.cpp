@@ -47,6 +47,7 @@ class Reader {
         draft_.has_room = is_clean([&] { read_room(); });
         draft_.has_observer = is_clean([&] { read_observer(); });
         read_image();
+        read_constraints();
         each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
             read_light(table, place, i);
         });
@@ -163,6 +164,11 @@ class Reader {
                                  "'background' has no effect where there is an environment");
     }
 
+    void read_constraints() {
+        const ParamSet values = tables_.read_plain("constraints");
+        scene_.constraints.overlap = text(values, "overlap") == "warn" ? Severity::warning : Severity::error;
+    }
+
     template <class Visit>
     void each(const std::string& name, Visit visit) {
         const TableNode::Entry* const entry = tables_.root().find(name);
@@ -233,6 +239,7 @@ class Reader {
                 read_parameters(table, schema_of("object").parameters, context, diagnostics_);
             object.transform = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
             object.color = vector(own, "color");
+            object.encloses = boolean(own, "encloses");
             if (auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"})) {
                 object.shape = std::move(*shape);
             }
