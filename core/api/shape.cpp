@@ -1,4 +1,4 @@
-module candela.shape;
+#include "candela/shape.h"
 
 namespace candela {
 

@@ -1,4 +1,4 @@
-module;
+#include "candela/shape.h"
 
 #include <array>
 #include <bit>
@@ -6,8 +6,6 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-module candela.shape;
 
 namespace candela {
 

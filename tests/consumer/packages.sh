@@ -89,7 +89,7 @@ cat >"$scratch/through-lib/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.28)
 project(through-lib LANGUAGES CXX)
 find_package(candela REQUIRED PATHS ${ROOT}/lib/cmake/candela NO_DEFAULT_PATH)
-get_target_property(directories candela::core INTERFACE_INCLUDE_DIRECTORIES)
+get_target_property(directories candela::api INTERFACE_INCLUDE_DIRECTORIES)
 foreach(directory IN LISTS directories)
     if(NOT EXISTS ${directory}/candela/plugin.h)
         message(FATAL_ERROR "${directory} has no candela/plugin.h")

@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-import candela.target;
-
 namespace {
 
 /// A machine on which nothing but some programs is installed, and everything works.
