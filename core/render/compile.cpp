@@ -7,6 +7,7 @@ module;
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -126,6 +127,15 @@ class Compiler {
                 placed_[i] = place(*made<Shape>(object.shape),
                                    {.uv = needs.uv, .derivatives = needs.derivatives}, object.transform);
             });
+            if (placed_[i]) say_once(object, placed_[i]->warnings);
+        }
+    }
+
+    /// A hundred objects may come from one file.
+    void say_once(const Object& object, const std::vector<std::string>& warnings) {
+        for (const std::string& warning : warnings) {
+            if (!said_.insert(warning).second) continue;
+            diagnostics_.warning(object.place, fmt::format("object {}: {}", object.label, warning));
         }
     }
 
@@ -164,6 +174,7 @@ class Compiler {
     Diagnostics& diagnostics_;
     CompiledScene compiled_;
     std::vector<std::optional<PlacedShape>> placed_;
+    std::set<std::string> said_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 export module candela.mesh;
@@ -54,6 +55,7 @@ struct PlacedShape {
     Mesh mesh;
     Vec3Arrays authored_normal;                 // per vertex, unit, or empty
     AlignedVector<std::uint32_t> smooth_group;  // per vertex, or empty: each vertex is its own
+    std::vector<std::string> warnings;          // of the shape, as sentences
 };
 
 /// Tessellates `shape` and places it in the world.

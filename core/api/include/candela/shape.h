@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "candela/api.h"
@@ -35,6 +36,7 @@ struct MeshLayout {
     bool has_derivatives = false;
     bool has_smooth_groups = false;  // otherwise every vertex has a normal of its own
     Closedness closedness = Closedness::unknown;
+    std::size_t open_edges = 0;  // of an open shape, if it has counted them; otherwise the host does
 };
 
 /// Arrays of the requested sizes, zero-filled; null or empty if not requested. Object space, metres.
@@ -55,6 +57,9 @@ class CANDELA_API MeshSink {
     virtual ~MeshSink();
     /// Must be called exactly once. May throw std::bad_alloc.
     virtual MeshSpans allocate(const MeshLayout& layout) = 0;
+    /// Tells the user, at the object's position in the scene, about something that is not as a file says: a
+    /// whole sentence, without a full stop. Any number of times; the same sentence is shown once per scene.
+    virtual void warn(std::string_view sentence);
 };
 
 /// A shape with one set of parameters. Any thread.
