@@ -28,10 +28,6 @@ esac
 command -v apt-get >/dev/null || fail "this script knows apt only; CONTRIBUTING.md lists what to install elsewhere"
 
 as_root=()
-if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || fail "packages must be installed: run this as root, or install sudo"
-  as_root=(sudo)
-fi
 apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive DEBCONF_NOWARNINGS=yes apt-get -qq -o DPkg::Lock::Timeout=300 "$@"; }
 
 installed() { dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null | grep -qx installed; }
@@ -43,7 +39,7 @@ packages=(
   ca-certificates git make
   clang-19 clang-tools-19 lld-19 libstdc++-12-dev ninja-build cmake cmake-data
   libeigen3-dev libtomlplusplus-dev libtbb-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev
-  libassimp-dev libopenimageio-dev esbuild
+  libtinygltf-dev libopenimageio-dev esbuild
 )
 if [ "$everything" = yes ]; then
   packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file
@@ -89,6 +85,11 @@ if [ ${#missing[@]} -eq 0 ]; then
   exit 0
 fi
 
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null ||
+    fail "run this as root, or install sudo; missing: $(printf '%s\n' "${missing[@]}" | sort -u | tr '\n' ' ')"
+  as_root=(sudo)
+fi
 say "missing: $(printf '%s\n' "${missing[@]}" | sort -u | tr '\n' ' ')"
 apt update
 # A bare machine has empty lists until now, so the choices that look at candidates are made again.

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <string>
-#include <system_error>
 #include <utility>
+
+#include "output_folder.h"
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
@@ -68,16 +69,7 @@ candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport&
 }
 
 void write_program(const std::vector<candela::ExportedFile>& files, const fs::path& directory) {
-    std::error_code problem;
-    fs::create_directories(directory, problem);
-    if (!fs::is_directory(directory)) {
-        throw Error(ErrorCategory::failure,
-                    fmt::format("the folder '{}' cannot be made: {}", directory.string(),
-                                problem ? problem.message() : "there is a file of that name"));
-    }
-    for (const candela::ExportedFile& file : files) {
-        const fs::path path = directory / file.name;
-        if (path.parent_path() != directory) fs::create_directories(path.parent_path());
-        candela::write_text_file(path, file.content);
-    }
+    OutputFolder folder(directory);
+    for (const candela::ExportedFile& file : files) folder.write(file.name, file.content);
+    folder.finish();
 }

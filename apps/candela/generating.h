@@ -28,5 +28,5 @@ std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::R
 candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport& scene,
                                 const CommandLine& line, candela::Registry& registry);
 
-/// Writes the files of a program to a folder, which is made where there is none. Each is whole or not there.
+/// Writes the files of a program to a folder, which is made where there is none: all of them, or none.
 void write_program(const std::vector<candela::ExportedFile>& files, const std::filesystem::path& directory);

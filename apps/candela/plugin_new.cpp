@@ -3,10 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <string>
@@ -14,6 +11,7 @@
 
 #include "command_line.h"
 #include "helper.h"
+#include "output_folder.h"
 #include "plugin.h"
 
 namespace fs = std::filesystem;
@@ -88,16 +86,14 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
         throw Error(ErrorCategory::failure, fmt::format("'{}' is already there", target.string()));
     const auto values = names_of(words[1]);
-    fs::create_directories(target);
+    OutputFolder folder(target);
     for (const fs::directory_entry& entry : fs::directory_iterator(source)) {
         const auto read = candela::read_text_file(entry.path());
-        const std::string text = replaced(read.value_or(""), values);
-        const fs::path file = target / replaced(entry.path().filename().string(), values);
-        std::ofstream out(file, std::ios::binary);
-        if (!read || !(out << text) || !out.flush())
-            throw Error(ErrorCategory::failure,
-                        fmt::format("'{}' cannot be written: {}", file.string(), std::strerror(errno)));
+        if (!read)
+            throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", entry.path().string()));
+        folder.write(replaced(entry.path().filename().string(), values), replaced(*read, values));
     }
+    folder.finish();
     std::cout << fmt::format(
         "Made {0}. Next:\n  cd {0}\n  cmake -G Ninja -B build -DCMAKE_BUILD_TYPE=Release "
         "-DCMAKE_CXX_COMPILER=clang++-19\n  cmake --build build && ctest --test-dir build\n",

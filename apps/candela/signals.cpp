@@ -1,18 +1,37 @@
 #include "signals.h"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <initializer_list>
 
+#include "descendants.h"
+#include "temporary_folder.h"
 #include "terminal.h"
 
 import candela.core;
 
 namespace {
 
+/// Async-signal-safe. On the main thread, which so does nothing else meanwhile: it neither reports that a
+/// program was killed under it nor starts the next.
 void leave_nothing_behind(int signal) {
+    const pid_t process = ::getpid();
+    if (::gettid() != process) {
+        ::tgkill(process, process, signal);
+        return;
+    }
+    // Programs write to folders.
+    if (has_temporary_folders()) {
+        end_descendants();
+        remove_temporary_folders();
+    }
     candela::remove_unfinished_files();
     leave_line();
-    // SA_RESETHAND: this time the signal does what it always does.
+    struct sigaction action{};
+    action.sa_handler = SIG_DFL;
+    ::sigaction(signal, &action, nullptr);
+    // Blocked until this returns; then it does what it always does.
     static_cast<void>(std::raise(signal));
 }
 
@@ -25,7 +44,7 @@ void prepare_for_signals() {
         if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) continue;
         struct sigaction action{};
         action.sa_handler = leave_nothing_behind;
-        action.sa_flags = SA_RESETHAND;
+        for (const int other : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&action.sa_mask, other);
         ::sigaction(signal, &action, nullptr);
     }
     std::signal(SIGXFSZ, SIG_IGN);

@@ -1,22 +1,29 @@
 // candela verify: generates programs, builds and runs them, and compares their pictures with Candela's.
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "command_line.h"
+#include "descendants.h"
 #include "exit_code.h"
 #include "generating.h"
 #include "helper.h"
 #include "reporting.h"
 #include "targets.h"
+#include "temporary_folder.h"
 #include "terminal.h"
 #include "verbs.h"
+#include "verify/bias.h"
 #include "verify/comparison.h"
 #include "verify/edges.h"
 #include "verify/report.h"
@@ -28,37 +35,38 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// The folder of the report, or one that is gone when this is.
+/// Where programs are built and drawn: the folder of the report, or one that is gone when this is. What
+/// programs leave in the folder for temporary files is gone with it, too.
 class Workplace {
   public:
-    explicit Workplace(const std::optional<std::string>& report) {
-        if (report) {
-            path_ = *report;
-            std::error_code problem;
-            fs::create_directories(path_, problem);
-            if (!fs::is_directory(path_))
-                throw Error(ErrorCategory::failure,
-                            fmt::format("the folder '{}' cannot be made", path_.string()));
-            return;
-        }
-        std::string name = (fs::temp_directory_path() / "candela-verify-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr)
+    explicit Workplace(const std::optional<std::string>& report)
+        : temporary_(fs::temp_directory_path(), "candela-"), path_(temporary_.path()) {
+        ::setenv("TMPDIR", temporary_.path().c_str(), 1);
+        inherit_orphans();
+        if (!report) return;
+        path_ = *report;
+        const WithoutInterruption during_this;
+        std::error_code problem;
+        const bool is_new = fs::create_directories(path_, problem);
+        if (!fs::is_directory(path_))
             throw Error(ErrorCategory::failure,
-                        fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));
-        path_ = name;
-        is_temporary_ = true;
+                        fmt::format("the folder '{}' cannot be made", path_.string()));
+        if (is_new) new_report_.emplace(path_);
     }
     Workplace(const Workplace&) = delete;
     Workplace& operator=(const Workplace&) = delete;
+    /// A report is kept, also of what went wrong; only a signal takes it away.
     ~Workplace() {
-        std::error_code ignored;
-        if (is_temporary_) fs::remove_all(path_, ignored);
+        if (new_report_) new_report_->release();
     }
     const fs::path& path() const { return path_; }
+    /// For files that are not part of the report.
+    fs::path scratch(const std::string& name) const { return temporary_.path() / name; }
 
   private:
+    TemporaryFolder temporary_;
     fs::path path_;
-    bool is_temporary_ = false;
+    std::optional<TemporaryFolder> new_report_;
 };
 
 std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registry& registry) {
@@ -93,6 +101,73 @@ verify::Limits limits_from(const CommandLine& line) {
     return limits;
 }
 
+/// Candela's picture, written to reference.png and edges.png, and what is known about it.
+verify::Expectation expectation_of(candela::CompiledScene& scene, double tolerance, const fs::path& folder,
+                                   candela::Registry& registry) {
+    const candela::ImageSettings& image = scene.image;
+    candela::Film film(image.width, image.height, candela::PixelType::byte, image.color_management);
+    candela::render(scene, film, {});
+    const auto png = candela::format_of("reference.png", registry);
+    candela::write_picture(film, png, folder / "reference.png", registry);
+    verify::Expectation result{
+        .width = image.width,
+        .height = image.height,
+        .encoding = image.color_management,
+        .levels = verify::unrounded_picture(scene),
+        .sensitivity = verify::sensitivity_of(scene, film, verify::edge_levels(tolerance)),
+        .shown = {}};
+    const std::array<float, 3> background{image.background.x, image.background.y, image.background.z};
+    result.shown.resize(result.levels.size() / 3);
+    for (std::size_t i = 0; i < result.levels.size(); ++i) {
+        constexpr float k_rounding = 0.01f;
+        if (std::abs(result.levels[i] - background[i % 3]) > k_rounding) result.shown[i / 3] = true;
+    }
+    candela::write_picture(verify::mask_of(result.sensitivity.edges, image.width, image.height), png,
+                           folder / "edges.png", registry);
+    return result;
+}
+
+/// How the picture that a program has drawn compares.
+verify::Verdict verdict_on(const std::string& name, const verify::Expectation& expected,
+                           const Workplace& workplace) {
+    const fs::path& folder = workplace.path();
+    const fs::path picture = folder / (name + ".png"), decoded = workplace.scratch(name + ".ppm");
+    verify::Verdict verdict{.target = name};
+    if (!fs::is_regular_file(picture)) {
+        verdict.failure = "the program ended without having written a picture";
+        return verdict;
+    }
+    try {
+        verdict.comparison =
+            verify::compare(beside_command("lib/candela/candela-diff"), folder / "reference.png", picture,
+                            folder / "edges.png", folder / (name + "-difference.png"), decoded);
+    } catch (const Error&) {
+        if (!fs::is_regular_file(decoded)) throw;
+        const verify::RgbPicture read = verify::read_ppm(decoded);
+        if (read.width == expected.width && read.height == expected.height) throw;
+        verdict.failure = fmt::format("the picture has {} x {} pixels; the scene's has {} x {}", read.width,
+                                      read.height, expected.width, expected.height);
+        return verdict;
+    }
+    verdict.bias = verify::bias_of(expected, verify::read_ppm(decoded).bytes);
+    return verdict;
+}
+
+/// So that nothing of an earlier report is taken for this one's.
+void remove_report(const fs::path& folder, const std::vector<LoadedTarget>& targets) {
+    std::vector<std::string> names{"index.html", "reference.png", "edges.png"};
+    for (const LoadedTarget& target : targets)
+        for (const char* const end : {".png", "-difference.png"}) names.push_back(target.name() + end);
+    for (const std::string& name : names) {
+        std::error_code problem;
+        fs::remove(folder / name, problem);
+        if (problem)
+            throw Error(ErrorCategory::failure,
+                        fmt::format("'{}', of an earlier report, cannot be removed: {}",
+                                    (folder / name).string(), problem.message()));
+    }
+}
+
 }  // namespace
 
 int run_verify(const std::vector<std::string>& arguments) {
@@ -103,7 +178,10 @@ int run_verify(const std::vector<std::string>& arguments) {
         "Generates programs from a scene, builds and runs them, and compares their pictures with Candela's "
         "own.\n"
         "Exit code 4: one of them differs, away from edges, by more than the tolerance, or by 0.1 on "
-        "average.");
+        "average; "
+        "is brighter\nor darker, or displaced, as a whole (docs/generated-programs.md has the limits); or "
+        "too little is "
+        "seen to decide.");
     line.options()("target,t", po::value<std::string>()->value_name("NAME")->default_value("all"),
                    help.c_str())("tolerance",
                                  po::value<double>()->value_name("LEVELS")->default_value(2, "2"),
@@ -111,7 +189,8 @@ int run_verify(const std::vector<std::string>& arguments) {
         "report", po::value<std::string>()->value_name("DIR"),
         "keep the programs, the pictures, their differences, and a page that shows them")(
         "program", po::value<std::string>()->value_name("DIR"),
-        "compare the program generated earlier in this folder instead of a new one");
+        "compare the program generated earlier in this folder instead of a new one")(
+        "json", "print the figures as JSON");
     add_models_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
@@ -129,20 +208,15 @@ int run_verify(const std::vector<std::string>& arguments) {
     const Workplace workplace(line.has("report") ? std::optional(line.get<std::string>("report"))
                                                  : std::nullopt);
     const fs::path& folder = workplace.path();
-    const candela::ImageSettings& image = scene->compiled.image;
-    candela::Film film(image.width, image.height, candela::PixelType::byte, image.color_management);
+    remove_report(folder, chosen);
     std::vector<verify::Verdict> verdicts;
     {
         ProgressBar bar("verifying");
         const std::size_t steps = 1 + 3 * chosen.size();
         std::size_t done = 0;
         const auto step = [&] { bar.update(++done, steps); };
-        candela::render(scene->compiled, film, {});
-        const auto png = candela::format_of("reference.png", registry);
-        candela::write_picture(film, png, folder / "reference.png", registry);
-        const auto edges = verify::edge_pixels(scene->compiled, film, static_cast<float>(limits.maximum) / 2);
-        candela::write_picture(verify::mask_of(edges, image.width, image.height), png, folder / "edges.png",
-                               registry);
+        const verify::Expectation expected =
+            expectation_of(scene->compiled, limits.maximum, folder, registry);
         step();
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             const LoadedTarget& target = chosen[i];
@@ -154,19 +228,18 @@ int run_verify(const std::vector<std::string>& arguments) {
             step();
             target.draw(program, folder / (name + ".png"));
             step();
-            verdicts.push_back(
-                {name, verify::compare(beside_command("lib/candela/candela-diff"), folder / "reference.png",
-                                       folder / (name + ".png"), folder / "edges.png",
-                                       folder / (name + "-difference.png"))});
+            verdicts.push_back(verdict_on(name, expected, workplace));
             step();
         }
     }
-    std::cout << verify::table_of(verdicts, limits);
+    std::cout << (line.has("json") ? candela::printable_json(verify::json_of(verdicts, limits))
+                                   : verify::table_of(verdicts, limits));
     bool all_match = true;
-    for (const verify::Verdict& v : verdicts) all_match = all_match && v.is_match(limits);
+    for (const verify::Verdict& v : verdicts)
+        all_match = all_match && v.outcome(limits) == verify::Outcome::match;
     if (line.has("report")) {
         candela::write_text_file(folder / "index.html", verify::report_page(scene->title, verdicts, limits));
-        std::cerr << fmt::format("report: {}\n", (folder / "index.html").string());
+        say(fmt::format("report: {}\n", (folder / "index.html").string()));
     }
     return static_cast<int>(all_match ? ExitCode::ok : ExitCode::verification_failed);
 }

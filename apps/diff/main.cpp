@@ -71,6 +71,14 @@ void require_same_size(const std::string& a_name, const Picture& a, const std::s
                             dimensions_text(a), b_name, dimensions_text(b)));
 }
 
+void write_ppm(const std::string& file, const Picture& picture) {
+    std::string text = fmt::format("P6\n{} {}\n255\n", picture.width, picture.height);
+    text.reserve(text.size() + picture.values.size());
+    for (std::size_t i = 0; i < picture.values.size(); ++i)
+        text += static_cast<char>(std::lround(255 * std::clamp(picture.normalized(i), 0.0f, 1.0f)));
+    candela::write_text_file(file, text);
+}
+
 int verdict(double tolerance, const DifferenceStatistics& statistics) {
     if (statistics.beyond == 0) return 0;
     return fail(
@@ -96,7 +104,8 @@ int run(const std::vector<std::string>& arguments) {
         "a picture of the same size whose white pixels mark edges, which are counted separately")(
         "tolerance", po::value<double>()->value_name("N"),
         "exit with code 4 if a channel of a pixel away from edges differs by more than N levels")(
-        "json", "print the statistics as JSON");
+        "json", "print the statistics as JSON")("decoded", po::value<std::string>()->value_name("FILE"),
+                                                "write what was read of B as a PPM of 8 bits");
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> names = line.all("picture");
     if (names.size() != 2)
@@ -106,6 +115,7 @@ int run(const std::vector<std::string>& arguments) {
     if (line.has("output")) require_heat_map_format(line.get<std::string>("output"));
 
     const Picture a = read_picture(names[0]), b = read_picture(names[1]);
+    if (line.has("decoded")) write_ppm(line.get<std::string>("decoded"), b);
     require_same_size(names[0], a, names[1], b);
     std::optional<Picture> mask;
     if (line.has("mask")) {

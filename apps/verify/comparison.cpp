@@ -11,10 +11,10 @@ namespace fs = std::filesystem;
 namespace verify {
 
 Comparison compare(const fs::path& program, const fs::path& a, const fs::path& b, const fs::path& edges,
-                   const fs::path& heat_map) {
+                   const fs::path& heat_map, const fs::path& decoded) {
     const candela::ProgramOutput result =
         candela::run_program({program.string(), a.string(), b.string(), "--mask", edges.string(), "-o",
-                              heat_map.string(), "--json"});
+                              heat_map.string(), "--decoded", decoded.string(), "--json"});
     if (result.exit_code != 0)
         throw Error(ErrorCategory::failure, fmt::format("the pictures cannot be compared:\n{}", result.err));
     try {

@@ -1,11 +1,13 @@
 #include "verify/edges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <numbers>
+#include <vector>
 
 using candela::Observer;
 using candela::Projection;
@@ -76,12 +78,25 @@ float level_of(float intensity, candela::ColorEncoding encoding) {
 
 }  // namespace
 
-std::vector<bool> edge_pixels(candela::CompiledScene& scene, const candela::Film& reference, float levels) {
+std::vector<float> unrounded_picture(const candela::CompiledScene& scene) {
+    const auto encoding = scene.image.color_management;
+    candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real, encoding);
+    candela::render(scene, film, {});
+    std::vector<float> levels(film.view().reals.begin(), film.view().reals.end());
+    for (float& x : levels) x = level_of(x, encoding);
+    return levels;
+}
+
+Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& reference, float levels) {
     const auto pattern = candela::sample_pattern(scene.image.samples);
     const auto encoding = scene.image.color_management;
     const auto expected = reference.view().bytes;
     const float share = 1 / static_cast<float>(pattern.size());
     std::vector<float> change(expected.size()), mean(expected.size());
+    // What is seen an eighth of a pixel to the left, to the right, above and below.
+    std::array<Intensities, 2> beside_x, beside_y;
+    for (auto* const means : {&beside_x, &beside_y})
+        for (Intensities& each : *means) each.resize(expected.size());
     Mover mover(scene, reference);
     for (const candela::SamplePosition& sample : pattern) {
         const float x = static_cast<float>(sample.x) / 16, y = static_cast<float>(sample.y) / 16;
@@ -90,7 +105,11 @@ std::vector<bool> edge_pixels(candela::CompiledScene& scene, const candela::Film
         for (const float dx : {-k_shift, k_shift}) {
             for (const float dy : {-k_shift, k_shift}) {
                 const Intensities beside = mover.seen_at(x + dx, y + dy);
+                Intensities& mean_x = beside_x[dx > 0 ? 1 : 0];
+                Intensities& mean_y = beside_y[dy > 0 ? 1 : 0];
                 for (std::size_t i = 0; i < there.size(); ++i) {
+                    mean_x[i] += 0.5f * share * beside[i];
+                    mean_y[i] += 0.5f * share * beside[i];
                     if (beside[i] == there[i]) continue;
                     const float moved =
                         std::abs(level_of(beside[i], encoding) - level_of(there[i], encoding));
@@ -103,12 +122,19 @@ std::vector<bool> edge_pixels(candela::CompiledScene& scene, const candela::Film
             mean[i] += share * there[i];
         }
     }
-    std::vector<bool> edges(expected.size() / 3, false);
+    Sensitivity result{.edges = std::vector<bool>(expected.size() / 3, false),
+                       .right = std::vector<float>(expected.size()),
+                       .down = std::vector<float>(expected.size())};
+    const auto slope = [&](const std::array<Intensities, 2>& means, std::size_t i) {
+        return (level_of(means[1][i], encoding) - level_of(means[0][i], encoding)) / (2 * k_shift);
+    };
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const float apart = std::abs(level_of(mean[i], encoding) - static_cast<float>(expected[i]));
-        if (change[i] > levels || apart > levels) edges[i / 3] = true;
+        if (change[i] > levels || apart > levels) result.edges[i / 3] = true;
+        result.right[i] = slope(beside_x, i);
+        result.down[i] = slope(beside_y, i);
     }
-    return edges;
+    return result;
 }
 
 candela::Film mask_of(const std::vector<bool>& edges, int width, int height) {

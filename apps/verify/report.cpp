@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
 #include "candela/target/literals.h"
 
 namespace verify {
@@ -16,28 +21,50 @@ double percent(std::size_t part, std::size_t whole) {
 std::size_t pixels_of(const Verdict& v) { return v.interior().pixels + v.edges().pixels; }
 std::size_t identical_of(const Verdict& v) { return v.interior().identical + v.edges().identical; }
 
+const char* name_of(Outcome outcome) {
+    constexpr const char* k_names[] = {"match", "mismatch", "undecided"};
+    return k_names[static_cast<int>(outcome)];
+}
+
 constexpr const char* k_style = R"(
 :root { color-scheme: light dark; }
 body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 75rem; padding: 0 1rem; }
 table { border-collapse: collapse; width: 100%; }
 th, td { padding: .4rem .8rem; text-align: right; border-bottom: 1px solid #8886; }
 th:first-child, td:first-child { text-align: left; }
-.match { color: #1a7f37; } .mismatch { color: #cf222e; font-weight: bold; }
+.match { color: #1a7f37; } .mismatch, .undecided { color: #cf222e; font-weight: bold; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(18rem, 1fr)); gap: 1rem; }
 figure { margin: 0; } img { width: 100%; image-rendering: pixelated; background: #000; }
 figcaption { font-size: .9rem; opacity: .8; }
 )";
 
 std::string row(const Verdict& v, const Limits& limits) {
-    const bool is_match = v.is_match(limits);
+    const std::string outcome = name_of(v.outcome(limits));
+    if (!v.failure.empty())
+        return fmt::format("<tr><td>{}</td><td colspan=\"10\"></td><td class=\"{}\">{}</td></tr>\n", v.target,
+                           outcome, outcome);
     return fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{:.3f} %</td><td>{:.3g}</td><td>{:.4f}</td><td>{} ({:.2f} "
-        "%)</td><td>{:.3g}</td>"
-        "<td>{}</td><td class=\"{}\">{}</td></tr>\n",
+        "%)</td><td>{:.3g}</td><td>{}</td><td>{} of {}</td><td>{:+.3f} %</td><td>{:+.3f}, {:+.3f}</td>"
+        "<td class=\"{}\">{}</td></tr>\n",
         v.target, pixels_of(v), percent(identical_of(v), pixels_of(v)), v.interior().maximum,
         v.interior().mean, v.edges().pixels, percent(v.edges().pixels, pixels_of(v)), v.edges().maximum,
-        v.comparison.perceptible, is_match ? "match" : "mismatch", is_match ? "match" : "mismatch");
+        v.comparison.perceptible, v.bias.interior, v.bias.shown, 100 * v.bias.gain.value, v.bias.right.value,
+        v.bias.down.value, outcome, outcome);
 }
+
+/// What follows the figures, a paragraph each.
+std::vector<std::string> remarks_on(const Verdict& v, const Limits& limits) {
+    std::vector<std::string> remarks = v.problems(limits);
+    if (const std::string doubt = v.doubt(limits); !doubt.empty()) remarks.push_back(doubt);
+    return remarks;
+}
+
+bool is_beyond(const Estimate& estimate, double limit, const Limits& limits) {
+    return std::abs(estimate.value) > limit && estimate.deviations > limits.deviations;
+}
+
+const char* brighter_or_darker(double difference) { return difference > 0 ? "brighter" : "darker"; }
 
 std::string picture(const std::string& file, const std::string& caption) {
     return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n", file,
@@ -50,21 +77,105 @@ DifferenceStatistics Verdict::edges() const {
     return comparison.differences.edges.value_or(DifferenceStatistics());
 }
 
-bool Verdict::is_match(const Limits& limits) const {
-    return interior().maximum <= limits.maximum && interior().mean <= limits.mean;
+std::vector<std::string> Verdict::problems(const Limits& limits) const {
+    if (!failure.empty()) return {failure};
+    std::vector<std::string> found;
+    if (interior().maximum > limits.maximum)
+        found.push_back(
+            fmt::format("a pixel away from edges, x {}, y {}, differs by {:.3g} levels; {:g} are allowed",
+                        interior().x, interior().y, interior().maximum, limits.maximum));
+    if (interior().mean > limits.mean)
+        found.push_back(
+            fmt::format("pixels away from edges differ by {:.3g} levels on average; {:g} are allowed",
+                        interior().mean, limits.mean));
+    if (is_beyond(bias.gain, limits.gain, limits))
+        found.push_back(fmt::format("the picture is {} by {:.3g} %; {:g} % are allowed",
+                                    brighter_or_darker(bias.gain.value), 100 * std::abs(bias.gain.value),
+                                    100 * limits.gain));
+    if (is_beyond(bias.right, limits.displacement, limits) ||
+        is_beyond(bias.down, limits.displacement, limits))
+        found.push_back(
+            fmt::format("the picture is displaced by {:.3g} pixels to the right and {:.3g} down; "
+                        "{:.3g} are allowed",
+                        bias.right.value, bias.down.value, limits.displacement));
+    const double radius = 0.5 * std::max(comparison.width, comparison.height);
+    if (is_beyond(bias.zoom, limits.distortion / radius, limits))
+        found.push_back(fmt::format("the picture is {} by {:.3g} %; {:.3g} % are allowed",
+                                    bias.zoom.value > 0 ? "larger" : "smaller",
+                                    100 * std::abs(bias.zoom.value), 100 * limits.distortion / radius));
+    if (is_beyond(bias.roll, limits.distortion / radius, limits))
+        found.push_back(fmt::format("the picture is turned by {:.3g} degrees; {:.3g} are allowed",
+                                    bias.roll.value * 180 / std::numbers::pi,
+                                    limits.distortion / radius * 180 / std::numbers::pi));
+    if (is_beyond(bias.region, limits.region, limits))
+        found.push_back(
+            fmt::format("the picture is {} by {:.3g} levels on average in the 16 x 16 pixels from x {}, y "
+                        "{}; {:g} are allowed",
+                        brighter_or_darker(bias.region.value), std::abs(bias.region.value), bias.region_x,
+                        bias.region_y, limits.region));
+    return found;
+}
+
+std::string Verdict::doubt(const Limits& limits) const {
+    if (!failure.empty()) return {};
+    const double share = percent(bias.interior, bias.shown) / 100;
+    if (bias.interior >= limits.least_pixels && share >= limits.least_share) return {};
+    return fmt::format(
+        "of {} pixels that show more than the background, {} are away from edges; a verdict needs {}, and "
+        "{:g} % of "
+        "them. Make the picture larger (--width, --height), bring the observer nearer, or light what is dark",
+        bias.shown, bias.interior, limits.least_pixels, 100 * limits.least_share);
+}
+
+Outcome Verdict::outcome(const Limits& limits) const {
+    if (!problems(limits).empty()) return Outcome::mismatch;
+    return doubt(limits).empty() ? Outcome::match : Outcome::undecided;
 }
 
 std::string table_of(const std::vector<Verdict>& verdicts, const Limits& limits) {
-    std::string text = fmt::format("{:<8} {:>9} {:>11} {:>8} {:>8} {:>15} {:>8} {:>12}\n", "target", "pixels",
-                                   "identical", "largest", "mean", "edges", "largest", "perceptible");
+    std::string text =
+        fmt::format("{:<8} {:>9} {:>11} {:>8} {:>8} {:>15} {:>8} {:>12} {:>9} {:>8}\n", "target", "pixels",
+                    "identical", "largest", "mean", "edges", "largest", "perceptible", "inside", "gain");
+    std::string remarks;
     for (const Verdict& v : verdicts) {
-        text += fmt::format("{:<8} {:>9} {:>9.3f} % {:>8.3g} {:>8.4f} {:>6} ({:.2f} %) {:>8.3g} {:>12}  {}\n",
-                            v.target, pixels_of(v), percent(identical_of(v), pixels_of(v)),
-                            v.interior().maximum, v.interior().mean, v.edges().pixels,
-                            percent(v.edges().pixels, pixels_of(v)), v.edges().maximum,
-                            v.comparison.perceptible, v.is_match(limits) ? "match" : "MISMATCH");
+        constexpr const char* k_outcomes[] = {"match", "MISMATCH", "UNDECIDED"};
+        const char* const outcome = k_outcomes[static_cast<int>(v.outcome(limits))];
+        text += v.failure.empty()
+                    ? fmt::format(
+                          "{:<8} {:>9} {:>9.3f} % {:>8.3g} {:>8.4f} {:>6} ({:.2f} %) {:>8.3g} {:>12} {:>9} "
+                          "{:>6.3f} %  {}\n",
+                          v.target, pixels_of(v), percent(identical_of(v), pixels_of(v)),
+                          v.interior().maximum, v.interior().mean, v.edges().pixels,
+                          percent(v.edges().pixels, pixels_of(v)), v.edges().maximum,
+                          v.comparison.perceptible, v.bias.interior, 100 * v.bias.gain.value, outcome)
+                    : fmt::format("{:<8} {}\n", v.target, outcome);
+        for (const std::string& remark : remarks_on(v, limits))
+            remarks += fmt::format("{}: {}\n", v.target, remark);
     }
-    return text;
+    return text + remarks;
+}
+
+std::string json_of(const std::vector<Verdict>& verdicts, const Limits& limits) {
+    using Json = nlohmann::ordered_json;
+    const auto json = [](const Estimate& estimate) {
+        return Json{{"value", estimate.value}, {"deviations", estimate.deviations}};
+    };
+    Json all = Json::array();
+    for (const Verdict& v : verdicts) {
+        Json one = {{"target", v.target},
+                    {"outcome", name_of(v.outcome(limits))},
+                    {"remarks", remarks_on(v, limits)}};
+        if (v.failure.empty()) {
+            one["comparison"] = Json::parse(to_json(v.comparison));
+            one["shown"] = {{"pixels", v.bias.shown}, {"away_from_edges", v.bias.interior}};
+            one["bias"] = {{"gain", json(v.bias.gain)}, {"right", json(v.bias.right)},
+                           {"down", json(v.bias.down)}, {"zoom", json(v.bias.zoom)},
+                           {"roll", json(v.bias.roll)}, {"region", json(v.bias.region)}};
+            one["bias"]["region"]["at"] = {v.bias.region_x, v.bias.region_y};
+        }
+        all.push_back(std::move(one));
+    }
+    return all.dump(2) + "\n";
 }
 
 std::string report_page(const std::string& title, const std::vector<Verdict>& verdicts,
@@ -78,17 +189,26 @@ std::string report_page(const std::string& title, const std::vector<Verdict>& ve
         "Pixels whose colour "
         "depends on where exactly an edge lies are counted apart; all others may differ by {2:g} at most, "
         "and by {3:g} on "
-        "average.</p>\n"
+        "average. "
+        "Inside: pixels that show more than the background and are away from edges. Bias: by how many levels "
+        "these "
+        "are brighter on average ({4:g} are allowed), and by how many pixels the picture is displaced to the "
+        "right "
+        "and down ({5:.3g} are allowed).</p>\n"
         "<table>\n<tr><th>program</th><th>pixels</th><th>identical</th><th>largest</th><th>mean</th><th>on "
         "edges</th>"
-        "<th>largest there</th><th>perceptible</th><th></th></tr>\n",
-        name, k_style, limits.maximum, limits.mean);
+        "<th>largest "
+        "there</th><th>perceptible</th><th>inside</th><th>gain</th><th>displaced</th><th></th></tr>\n",
+        name, k_style, limits.maximum, limits.mean, 100 * limits.gain, limits.displacement);
     for (const Verdict& v : verdicts) text += row(v, limits);
     text += "</table>\n<div class=\"pictures\">\n" + picture("reference.png", "Candela") +
             picture("edges.png", "edges") + "</div>\n";
     for (const Verdict& v : verdicts) {
-        text += fmt::format("<h2>{}</h2>\n<div class=\"pictures\">\n", v.target) +
-                picture(v.target + ".png", v.target) +
+        text += fmt::format("<h2>{}</h2>\n", v.target);
+        for (const std::string& remark : remarks_on(v, limits))
+            text += fmt::format("<p>{}</p>\n", candela::target::html_text(remark));
+        if (!v.failure.empty()) continue;
+        text += "<div class=\"pictures\">\n" + picture(v.target + ".png", v.target) +
                 picture(v.target + "-difference.png", "difference; the largest is brightest") + "</div>\n";
     }
     return text + "</html>\n";

@@ -1,9 +1,7 @@
-module;
+#include "candela/color.h"
 
 #include <algorithm>
 #include <cmath>
-
-module candela.color;
 
 namespace candela {
 

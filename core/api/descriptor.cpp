@@ -1,10 +1,8 @@
-module;
+#include "candela/descriptor.h"
 
 #include <array>
 #include <optional>
 #include <string_view>
-
-module candela.descriptor;
 
 namespace candela {
 

@@ -1,8 +1,6 @@
-module;
+#include "candela/image.h"
 
 #include <stdexcept>
-
-module candela.image;
 
 namespace candela {
 

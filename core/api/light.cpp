@@ -1,4 +1,4 @@
-module candela.light;
+#include "candela/light.h"
 
 namespace candela {
 

@@ -1,4 +1,4 @@
-module;
+#include "candela/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/info.h>
@@ -16,8 +16,6 @@ module;
 extern "C" void __tsan_acquire(void* address);
 extern "C" void __tsan_release(void* address);
 #endif
-
-module candela.parallel;
 
 namespace candela {
 

@@ -1,47 +1,12 @@
-// Parallel loops behind two functions, so that nobody else pays for oneTBB's headers.
 module;
 
-#include "candela/api.h"
-
-#include <cstddef>
-#include <limits>
-#include <type_traits>
+#include "candela/parallel.h"
 
 export module candela.parallel;
 
 export namespace candela {
-
-/// The number of processors this process may use.
-CANDELA_API int available_threads() noexcept;
-
-/// Refers to a callable without copying it; valid only during the call it is passed to.
-template <class... Arguments>
-class FunctionRef {
-  public:
-    template <class Function>
-        requires(!std::is_same_v<std::remove_cvref_t<Function>, FunctionRef>)
-    FunctionRef(Function&& function)
-        : object_(const_cast<void*>(static_cast<const void*>(&function))),
-          call_([](void* object, Arguments... arguments) {
-              (*static_cast<std::remove_reference_t<Function>*>(object))(arguments...);
-          }) {}
-    void operator()(Arguments... arguments) const { call_(object_, arguments...); }
-
-  private:
-    void* object_;
-    void (*call_)(void*, Arguments...);
-};
-
-/// Runs `work` with `threads` threads available to every parallel_for() within it. 0 means all available
-/// threads, but only this one if the others have not been started yet and `milliseconds`, a single thread's
-/// estimated time for the work, is not worth starting them.
-CANDELA_API void with_threads(int threads, FunctionRef<> work,
-                              double milliseconds = std::numeric_limits<double>::infinity());
-
-/// Calls `body(begin, end)` for ranges that partition [0, count), each of at least `grain` elements except
-/// the last. An exception ends the work and is rethrown here. Work of one grain, or with one thread, starts
-/// no other thread.
-CANDELA_API void parallel_for(std::size_t count, std::size_t grain,
-                              FunctionRef<std::size_t, std::size_t> body);
-
+using candela::available_threads;
+using candela::FunctionRef;
+using candela::parallel_for;
+using candela::with_threads;
 }  // namespace candela

@@ -1,10 +1,8 @@
-module;
+#include "candela/params.h"
 
 #include <array>
 #include <cstddef>
 #include <string_view>
-
-module candela.params;
 
 namespace candela {
 

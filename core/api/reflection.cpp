@@ -1,4 +1,4 @@
-module candela.reflection;
+#include "candela/reflection.h"
 
 namespace candela {
 

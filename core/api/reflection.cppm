@@ -1,92 +1,17 @@
-// The interface of reflection-model plugins.
 module;
 
-#include "candela/api.h"
-
-#include <cstddef>
+#include "candela/reflection.h"
 
 export module candela.reflection;
 
 export import candela.descriptor;
 export import candela.math;
-import candela.color;
 
 export namespace candela {
-
-/// Points on one object's surface. World space; all vectors are unit vectors that point away from the
-/// surface.
-struct SurfaceBatch {
-    std::size_t count = 0;
-    ConstVec3Span normal;       // N
-    ConstVec3Span to_observer;  // V
-    ConstVec3Span tangent;      // along dp/du, orthogonal to N; null unless needs_tangent()
-    Rgb color;                  // C_o, the object's colour, 0 to 1, the same for the whole batch
-    ConstVec3Span position{};   // metres
-};
-
-/// What one sample of a light sends to each of the points.
-struct LightingBatch {
-    ConstVec3Span to_light;  // L
-    ConstVec3Span diffuse;   // intensity per channel
-    ConstVec3Span specular;
-};
-
-/// Reflected intensity per channel, in separate parts (CA IM3, IM4; DD6 adds them up). A model adds to the
-/// existing values.
-struct ReflectedBatch {
-    Vec3Span ambient;   // I_a
-    Vec3Span diffuse;   // I_d
-    Vec3Span specular;  // I_s
-};
-
-/// Where rays within an object leave it. World space.
-struct ExitBatch {
-    Vec3Span position;
-    Vec3Span normal;            // unit, from the object's shading model; points away from the surface
-    float* distance = nullptr;  // along the ray, metres; negative where the surface is open: no exit
-};
-
-/// What surrounds an object. Light stays local (CA AS2): no other object is seen. Owned by the host; used for
-/// one batch, by one thread.
-class CANDELA_API Surroundings {
-  public:
-    virtual ~Surroundings();
-
-    /// Writes the intensity, per channel, that arrives from far away in the directions `towards` (unit
-    /// vectors).
-    virtual void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) = 0;
-
-    /// Follows rays within the object from `origin`, on its surface, along `direction` (unit vectors) to
-    /// where they leave it. Arrays do not alias.
-    virtual void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
-                       const ExitBatch& exit) = 0;
-};
-
-/// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays need
-/// no alignment and do not alias. Results are finite and, unless the model declares otherwise, not negative.
-class CANDELA_API ReflectionModel : public Instance {
-  public:
-    ~ReflectionModel() override;
-
-    /// Whether SurfaceBatch::tangent must be filled.
-    virtual bool needs_tangent() const noexcept { return false; }
-
-    /// Adds what each point reflects of the light to `reflected.diffuse` and `reflected.specular`.
-    virtual void reflect(const SurfaceBatch& surface, const LightingBatch& light,
-                         const ReflectedBatch& reflected) const = 0;
-
-    /// Adds what each point reflects of ambient light to `reflected.ambient`.
-    virtual void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
-                                 const ReflectedBatch& reflected) const = 0;
-
-    /// Whether the surroundings are visible in the surface or through it, so that show_surroundings() is
-    /// called.
-    virtual bool shows_surroundings() const noexcept { return false; }
-
-    /// Adds to `reflected.specular` what each point shows of the surroundings, by mirroring and refraction
-    /// (CA LC1).
-    virtual void show_surroundings(const SurfaceBatch& surface, Surroundings& surroundings,
-                                   const ReflectedBatch& reflected) const;
-};
-
+using candela::ExitBatch;
+using candela::LightingBatch;
+using candela::ReflectedBatch;
+using candela::ReflectionModel;
+using candela::SurfaceBatch;
+using candela::Surroundings;
 }  // namespace candela

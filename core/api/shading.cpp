@@ -1,12 +1,8 @@
-module;
+#include "candela/shading.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-module candela.shading;
-
-import candela.math;
 
 namespace candela {
 

@@ -1,12 +1,6 @@
-// The interface of shape plugins.
 module;
 
-#include "candela/api.h"
-
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
+#include "candela/shape.h"
 
 export module candela.shape;
 
@@ -14,63 +8,11 @@ export import candela.descriptor;
 export import candela.math;
 
 export namespace candela {
-
-/// Which optional arrays the renderer can use. A shape omits those that are not requested, and those it has
-/// no values for.
-struct MeshRequest {
-    bool uv = false;
-    bool derivatives = false;
-};
-
-/// What a shape knows about its surface.
-enum class Closedness : int {
-    unknown,  // the host finds out
-    closed,   // every edge is shared by two triangles that agree on which side is outside
-    open,     // visible from both sides
-};
-
-/// The arrays that a shape asks for.
-struct MeshLayout {
-    std::size_t vertices = 0;
-    std::size_t triangles = 0;
-    bool has_normals = false;  // authored normals, which take precedence over those of a shading model
-    bool has_uv = false;
-    bool has_derivatives = false;
-    bool has_smooth_groups = false;  // otherwise every vertex has a normal of its own
-    Closedness closedness = Closedness::unknown;
-};
-
-/// Arrays of the requested sizes, zero-filled; null or empty if not requested. Object space, metres.
-struct MeshSpans {
-    Vec3Span position;
-    std::span<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from outside
-    Vec3Span normal;
-    Vec2Span uv;
-    Vec3Span dpdu;
-    Vec3Span dpdv;
-    std::span<std::uint32_t>
-        smooth_group;  // per vertex, 0 … vertices - 1; vertices of one group share a normal
-};
-
-/// Receives a shape's triangles. Owned by the host; used only during tessellate().
-class CANDELA_API MeshSink {
-  public:
-    virtual ~MeshSink();
-    /// Must be called exactly once. May throw std::bad_alloc.
-    virtual MeshSpans allocate(const MeshLayout& layout) = 0;
-};
-
-/// A shape with one set of parameters. Any thread.
-class CANDELA_API Shape : public Instance {
-  public:
-    ~Shape() override;
-
-    /// Writes the shape's triangles, centred on the origin of object space unless its parameters say
-    /// otherwise. May throw std::exception if a file cannot be read.
-    virtual void tessellate(const MeshRequest& request, MeshSink& sink) const = 0;
-};
-
-/// For each vertex, the first one at the same position, compared bit by bit (-0 equals 0).
-CANDELA_API std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count);
-
+using candela::Closedness;
+using candela::MeshLayout;
+using candela::MeshRequest;
+using candela::MeshSink;
+using candela::MeshSpans;
+using candela::Shape;
+using candela::welded;
 }  // namespace candela

@@ -1,9 +1,7 @@
-module;
+#include "candela/target.h"
 
 #include <stdexcept>
 #include <string>
-
-module candela.target;
 
 namespace candela {
 

@@ -1,19 +1,12 @@
+module;
+
+#include "candela/transform.h"
+
 export module candela.transform;
 
 export import candela.math;
 
 export namespace candela {
-
-/// Position, orientation and size of an object: scaled (by more than zero), then rotated about x, then y,
-/// then z (fixed axes, degrees), then translated.
-struct Transform {
-    Vec3 position{};
-    Vec3 rotation{};
-    Vec3 scale{1, 1, 1};
-
-    friend constexpr bool operator==(const Transform&, const Transform&) = default;
-};
-
-enum class Projection : int { perspective, orthographic };
-
+using candela::Projection;
+using candela::Transform;
 }  // namespace candela

@@ -7,6 +7,7 @@ module;
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -128,6 +129,15 @@ class Compiler {
                 placed_[i] = place(*made<Shape>(object.shape),
                                    {.uv = needs.uv, .derivatives = needs.derivatives}, object.transform);
             });
+            if (placed_[i]) say_once(object, placed_[i]->warnings);
+        }
+    }
+
+    /// A hundred objects may come from one file.
+    void say_once(const Object& object, const std::vector<std::string>& warnings) {
+        for (const std::string& warning : warnings) {
+            if (!said_.insert(warning).second) continue;
+            diagnostics_.warning(object.place, fmt::format("object {}: {}", object.label, warning));
         }
     }
 
@@ -149,7 +159,9 @@ class Compiler {
         if (solid.surface.reflection->shows_surroundings())
             solid.tree.emplace(std::as_const(solid.mesh.position).span(), solid.mesh.vertex_count(),
                                solid.mesh.indices);
-        if (!solid.mesh.closed) {
+        if (object.encloses) {
+            solid.mesh.closed = false;  // seen from within, too
+        } else if (!solid.mesh.closed) {
             diagnostics_.warning(
                 object.place,
                 fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
@@ -164,6 +176,7 @@ class Compiler {
     Diagnostics& diagnostics_;
     CompiledScene compiled_;
     std::vector<std::optional<PlacedShape>> placed_;
+    std::set<std::string> said_;
 };
 
 }  // namespace

@@ -4,6 +4,12 @@ target_compile_options(candela_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     $<$<BOOL:${CANDELA_WERROR}>:-Werror>)
 
+if(NOT CANDELA_SANITIZE)
+    add_compile_options(${CANDELA_HARDENING_COMPILE_OPTIONS})
+    add_link_options(${CANDELA_HARDENING_LINK_OPTIONS})
+    set(CANDELA_IS_HARDENED ON)
+endif()
+
 if(CANDELA_SANITIZE)
     add_compile_options(-fsanitize=${CANDELA_SANITIZE} -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${CANDELA_SANITIZE})

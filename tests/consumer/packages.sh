@@ -19,7 +19,7 @@ for package in clang-19 clang-tools-19 cmake ninja-build catch2; do
         skip "candela-dev needs $package, which is not installed as a package here"
 done
 rm -rf "$scratch"
-mkdir -p "$scratch/bin"
+mkdir -p "$scratch"
 
 say "make the packages"
 quiet "$(dirname "$cmake")/cpack" --config "$build/CPackConfig.cmake" -B "$scratch/packages"
@@ -33,8 +33,8 @@ for package in "${runtime[0]}" "${development[0]}"; do
     if dpkg-deb -f "$package" Description | grep -q '^  '; then fail "the description of $package is indented"; fi
 done
 
-# A root with the machine's list of packages, so that dpkg itself decides whether all dependencies are met. The scripts,
-# which call ldconfig, run outside of it (there is no shell in it), and must not write the machine's cache.
+# A root with the machine's list of packages, so that dpkg itself decides whether all dependencies are met. Triggers would
+# have the machine's own cache of libraries written.
 root=$scratch/root
 mkdir -p "$root/var/lib/dpkg/info" "$root/var/lib/dpkg/updates" "$root/usr/lib"
 ln -s usr/lib "$root/lib"
@@ -42,11 +42,9 @@ touch "$root/usr/lib/of-another-package"  # dpkg removes a folder once nothing i
 for file in status arch info/format; do
     [ ! -e "/var/lib/dpkg/$file" ] || cp "/var/lib/dpkg/$file" "$root/var/lib/dpkg/$file"
 done
-printf '#!/bin/sh\necho "ldconfig for $DPKG_ROOT" >>"%s/ldconfig"\n' "$scratch" >"$scratch/bin/ldconfig"
-chmod +x "$scratch/bin/ldconfig"
 package_manager() {
-    PATH=$scratch/bin:$PATH:/usr/sbin:/sbin dpkg --root="$root" --log="$scratch/dpkg.log" --no-triggers \
-        --force-not-root --force-script-chrootless "$@"
+    PATH=$PATH:/usr/sbin:/sbin dpkg --root="$root" --log="$scratch/dpkg.log" --no-triggers \
+        --force-not-root "$@"
 }
 files() { (cd "$root" && find . -path ./var -prune -o -print | sort); }
 files >"$scratch/before"
@@ -58,7 +56,7 @@ quiet package_manager --purge candela-dev
 
 say "install"
 quiet package_manager -i "${runtime[@]}"
-grep -q "ldconfig for $root" "$scratch/ldconfig" || fail "the loader's cache was not asked to be written"
+dpkg-deb --info "${runtime[0]}" triggers | grep -q "^activate-noawait ldconfig" || fail "the loader's cache would not be written"
 [ "$(dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${db:Status-Status}' candela)" = installed ] || fail "not installed"
 candela=$root/usr/bin/candela
 quiet "$candela" render -o "$scratch/picture.png"
@@ -89,7 +87,7 @@ cat >"$scratch/through-lib/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.28)
 project(through-lib LANGUAGES CXX)
 find_package(candela REQUIRED PATHS ${ROOT}/lib/cmake/candela NO_DEFAULT_PATH)
-get_target_property(directories candela::core INTERFACE_INCLUDE_DIRECTORIES)
+get_target_property(directories candela::api INTERFACE_INCLUDE_DIRECTORIES)
 foreach(directory IN LISTS directories)
     if(NOT EXISTS ${directory}/candela/plugin.h)
         message(FATAL_ERROR "${directory} has no candela/plugin.h")

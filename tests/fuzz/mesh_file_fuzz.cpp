@@ -5,10 +5,6 @@
 #include "fuzz/fuzz.h"
 #include "support/plugins.h"
 
-/// What assimp leaves behind when it gives up on a file is not ours.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp.so\n"; }
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     constexpr std::array k_names = {"mesh.obj", "mesh.ply", "mesh.stl", "mesh.gltf", "mesh.glb"};
     if (size == 0) return 0;

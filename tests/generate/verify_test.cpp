@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "support/command.h"
@@ -117,6 +119,88 @@ TEST_CASE("verify: a plugin whose kernel says something else than its code is ca
     CHECK(result.exit_code == 4);
 }
 #endif
+
+namespace {
+
+/// A plain grey picture from every program of this target.
+CommandResult verify_grey(const std::vector<std::string>& more) {
+    const fs::path program = scratch_directory() / "grey";
+    std::vector<std::string> words{"generate", "--target", "cpp", "-o", program.string()};
+    words.insert(words.end(), k_small.begin(), k_small.end());
+    REQUIRE(run_candela(words).exit_code == 0);
+    replace_in(program / "scene.cpp", "255.0f * encoded(std::min(std::max(x, 0.0f), 1.0f)) + 0.5f",
+               "127.0f + 0 * x");
+    words = {"--target", "cpp", "--program", program.string()};
+    words.insert(words.end(), k_small.begin(), k_small.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return verify(words);
+}
+
+}  // namespace
+
+TEST_CASE("verify: a tolerance of 0 does not make every pixel an edge") {
+    const CommandResult grey = verify_grey({"--tolerance", "0"});
+    INFO(grey.out << grey.err);
+    CHECK(grey.exit_code == 4);
+    const CommandResult result = verify_changed("cpp", "", "", "");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("verify: a program that draws nothing is not saved by a picture of an earlier report") {
+    const fs::path directory = scratch_directory(), report = directory / "report", program = report / "cpp";
+    std::vector<std::string> words{"--target", "cpp", "--report", report.string()};
+    words.insert(words.end(), k_small.begin(), k_small.end());
+    REQUIRE(verify(words).exit_code == 0);
+    REQUIRE(fs::exists(report / "cpp.png"));
+    write_file(program / "scene.cpp", "int main() {}\n");
+    words.insert(words.end(), {"--program", program.string()});
+    const CommandResult result = verify(words);
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 4);
+    CHECK(result.out.find("ended without having written a picture") != std::string::npos);
+    CHECK_FALSE(fs::exists(report / "cpp.png"));
+    CHECK(read_file(report / "index.html").find("ended without having written a picture") !=
+          std::string::npos);
+}
+
+TEST_CASE("verify: a picture of another size is a mismatch that says so") {
+    const CommandResult result =
+        verify_changed("cpp", "scene.cpp", "k_width = 160, k_height = 120", "k_width = 80, k_height = 60");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 4);
+    CHECK(result.out.find("80 x 60") != std::string::npos);
+}
+
+TEST_CASE("verify: where hardly a pixel is away from edges, there is no verdict, and it says what to do") {
+    for (const std::string& size : {std::string("12"), std::string("30")}) {
+        const CommandResult result = verify({"--target", "cpp", "--width", size, "--height", size});
+        INFO(result.out << result.err);
+        CHECK(result.exit_code == 4);
+        CHECK(result.out.find("UNDECIDED") != std::string::npos);
+        CHECK(result.out.find("--width") != std::string::npos);
+    }
+}
+
+TEST_CASE("verify: --json has the figures, and how many pixels the verdict rests on") {
+    std::vector<std::string> words{"--target", "cpp", "--json"};
+    words.insert(words.end(), k_small.begin(), k_small.end());
+    const CommandResult result = verify(words);
+    INFO(result.out << result.err);
+    REQUIRE(result.exit_code == 0);
+    const auto json = nlohmann::json::parse(result.out);
+    REQUIRE(json.size() == 1);
+    CHECK(json[0].at("target") == "cpp");
+    CHECK(json[0].at("outcome") == "match");
+    const std::size_t shown = json[0].at("shown").at("pixels"),
+                      away = json[0].at("shown").at("away_from_edges");
+    CHECK(away >= 1000);
+    CHECK(shown > away);
+    // The others are background.
+    CHECK(shown < json[0].at("comparison").at("interior").at("pixels"));
+    for (const char* const figure : {"gain", "right", "down", "zoom", "roll", "region"})
+        CHECK(std::abs(json[0].at("bias").at(figure).at("value").get<double>()) < 1e-3);
+}
 
 TEST_CASE("verify: wrong arguments are usage errors with a way out") {
     CHECK(verify({"--target", "webg"}).err.find("did you mean 'webgl'?") != std::string::npos);

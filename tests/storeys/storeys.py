@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks that imports and includes point down: api < base < host < scene < render < core < sdk, apps.
 
-Plugins, and the parts of the SDK that are built into plugins, see api and the SDK's headers, and nothing else.
+Plugins, and the parts of the SDK that are built into plugins, include headers of api and of the SDK, and nothing else; any
+compiler builds them, so they import no module. Each module of api exports what its header declares, all of it.
     storeys.py ROOT
 """
 import pathlib
@@ -12,6 +13,13 @@ STOREYS = ["api", "base", "host", "scene", "render", "core"]
 SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
 # What is compiled into plugins, as opposed to the SDK's programs.
 SDK_OF_PLUGINS = ("sdk/include/", "sdk/target/", "sdk/templates/")
+# Headers of api that declare nothing a module could export: macros, kernels, and templates of their own.
+HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "kernel.h", "multiversion.h"}
+# A declaration at the beginning of a line, as clang-format puts what is in a namespace: a type, a function, a constant.
+DECLARATION = re.compile(
+    r"^(?:template <.*> )?(?:enum class |struct |class )(?:CANDELA_API )?(?P<type>\w+)[^;\n]*\{(?:.*\};)?$"
+    r"|^(?:CANDELA_API |inline |constexpr )+(?:[\w:<>,*& ]|\[\[.*?\]\])*?(?P<function>operator[^\w\s(]+|\w+)\("
+    r"|^inline constexpr [\w:<>]+ (?P<constant>\w+) = ", re.MULTILINE)
 
 
 def sources(root):
@@ -31,13 +39,49 @@ def below(path):
     """The storeys that a file may import."""
     if path.startswith("core/"):
         return STOREYS[: STOREYS.index(storey_of(path)) + 1]
-    if path.startswith("plugins/") or path.startswith(SDK_OF_PLUGINS):
-        return STOREYS if path.endswith("_test.cpp") else ["api"]
-    return STOREYS
+    return ["api"] if of_plugins(path) else STOREYS
+
+
+def of_plugins(path):
+    return path.startswith(("plugins/",) + SDK_OF_PLUGINS) and not path.endswith("_test.cpp")
+
+
+def declared(text):
+    """What a header of api declares in namespace candela, and the lines that are not understood."""
+    names, unknown = set(), []
+    inside = text.split("namespace candela {\n", 1)[1]
+    for line in inside.splitlines():
+        if not re.match(r"[A-Za-z\[]", line) or line.startswith("template <") or line == "namespace candela {":
+            continue
+        found = DECLARATION.match(line)
+        if found:
+            names.add(found["type"] or found["function"] or found["constant"])
+        else:
+            unknown.append(line)
+    return names, unknown
+
+
+def export_findings(files):
+    """Where a header of api and its module differ. A plugin sees the header, the core and programs the module."""
+    for path, text in files.items():
+        folder, name = path.rsplit("/", 1)
+        if folder != "core/api/include/candela" or not name.endswith(".h") or name in HEADERS_ALONE:
+            continue
+        module = f"core/api/{name[:-2]}.cppm"
+        if module not in files:
+            yield f"{path}: there is no {module} that exports what it declares"
+            continue
+        names, unknown = declared(text)
+        exported = set(re.findall(r"^\s*using candela::([^;]+);", files[module], re.MULTILINE))
+        for line in unknown:
+            yield f"{path}: what is declared by '{line}'?"
+        for missing in sorted(names - exported):
+            yield f"{module}: {missing} is declared in {name} and not exported"
 
 
 def findings(root):
     files = dict(sources(root))
+    yield from export_findings(files)
     modules = {}
     for path, text in files.items():
         for name in re.findall(r"^export module (candela\.\w+);", text, re.MULTILINE):
@@ -48,6 +92,9 @@ def findings(root):
             imported = re.match(r"\s*(?:export )?import (candela\.\w+)", line)
             included = re.match(r'\s*#include "([^"]+)"', line)
             to = None
+            if imported and of_plugins(path):
+                yield f"{path}:{number}: plugins are built without modules; include the header instead of {imported[1]}"
+                continue
             if imported:
                 to = modules.get(imported[1])
                 if to is None:
@@ -77,7 +124,7 @@ def main():
     found = list(findings(pathlib.Path(sys.argv[1])))
     for finding in found:
         print(finding)
-    print(f"storeys: {len(found)} imports or includes point up")
+    print(f"storeys: {len(found)} findings")
     return 1 if found else 0
 
 

@@ -22,8 +22,8 @@ Mesh mesh_of(const char* shape, Given given, const Transform& transform = {}) {
     return candela::place(*instance<candela::Shape>(shape, given), {}, transform).mesh;
 }
 
-Body body_of(const Mesh& mesh) {
-    return {mesh.position.span(), mesh.vertex_count(), mesh.indices, mesh.closed};
+Body body_of(const Mesh& mesh, candela::Solidity solidity = candela::Solidity::solid) {
+    return {mesh.position.span(), mesh.vertex_count(), mesh.indices, mesh.closed, solidity};
 }
 
 Mesh cube(Vec3 position, float size = 1, Vec3 rotation = {}) {
@@ -238,6 +238,16 @@ TEST_CASE("one body wholly inside another overlaps it, also where only a part of
     CHECK(overlap_of(sphere({}, 1), sphere({}, 0.3)));
     CHECK(overlap_of(joined({cube({5, 0, 0}), cube({}, 0.1f)}), cube({}, 2)));
     CHECK(overlap_of(torus({}), sphere({1, 0, 0}, 0.1)));
+}
+
+TEST_CASE(
+    "a hollow body overlaps what crosses its surface, not what is inside; a solid one inside it stays "
+    "solid") {
+    const Body room = body_of(cube({}, 2), candela::Solidity::hollow);
+    CHECK_FALSE(overlap(room, body_of(sphere({}, 0.3))));
+    CHECK_FALSE(overlap(body_of(sphere({}, 0.3)), room));
+    CHECK(overlap(room, body_of(sphere({1, 0, 0}, 0.3))));
+    CHECK(overlap(room, body_of(cube({}, 3))));
 }
 
 TEST_CASE("rings that are linked, and what lies in a ring's hole, do not overlap") {

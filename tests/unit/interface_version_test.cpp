@@ -1,4 +1,5 @@
-// docs/versioning.md: a plugin works with the interface version that it was built for, and with no other.
+// docs/versioning.md: a plugin works with the interface version, and the layout, that it was built for, and
+// with no other.
 #include "candela/abi.h"
 
 #include <catch2/catch_test_macros.hpp>
@@ -24,11 +25,10 @@ std::string fingerprint(int version) {
     return abi.replace(0, here.size(), "candela interface " + std::to_string(version) + ";");
 }
 
-/// A folder with the plugin that was built for `version`, and a manifest that says `abi`.
-fs::path installed(int version, const std::string& abi, const std::string& folder) {
-    const fs::path directory = scratch_directory() / (folder + "-" + std::to_string(version));
+/// A folder with the plugin `built`, and a manifest that says `abi`.
+fs::path installed(const std::string& built, const std::string& abi, const std::string& folder) {
+    const fs::path directory = scratch_directory() / folder;
     fs::create_directory(directory);
-    const std::string built = "interface_" + std::to_string(version) + ".so";
     fs::copy_file(fs::path(CANDELA_TEST_LIBRARIES) / built, directory / "reflection-other-interface.so");
     candela::Manifest manifest;
     manifest.abi = abi;
@@ -38,6 +38,12 @@ fs::path installed(int version, const std::string& abi, const std::string& folde
     manifest.title = "Other interface";
     write_file(directory / "reflection-other-interface.json", candela::to_json(manifest));
     return directory;
+}
+
+/// The same with the plugin that was built for `version`.
+fs::path installed(int version, const std::string& abi, const std::string& folder) {
+    const std::string number = std::to_string(version);
+    return installed("interface_" + number + ".so", abi, folder + "-" + number);
 }
 
 /// What is said when an instance of the model is wanted; empty where it is made.
@@ -60,10 +66,22 @@ std::string progress() {
     return value != nullptr ? value : "";
 }
 
-std::string expected(const fs::path& directory, int version) {
+std::string expected(const fs::path& directory, const std::string& abi) {
     return "plugin '" + (directory / "reflection-other-interface.so").string() +
-           "' is refused: it was built for '" + fingerprint(version) + "', this is '" +
-           std::string(candela::host_abi()) + "'; build it again with this Candela's SDK";
+           "' is refused: it was built for '" + abi + "', this is '" + std::string(candela::host_abi()) +
+           "'; build it again with this Candela's SDK";
+}
+
+std::string expected(const fs::path& directory, int version) {
+    return expected(directory, fingerprint(version));
+}
+
+/// This host's fingerprint with `part` instead of `here`, which it must have.
+std::string fingerprint_with(const std::string& here, const std::string& part) {
+    std::string abi(candela::host_abi());
+    const auto at = abi.find(here);
+    REQUIRE(at != std::string::npos);
+    return abi.replace(at, here.size(), part);
 }
 
 }  // namespace
@@ -102,4 +120,29 @@ TEST_CASE("the command refuses a plugin of the interface before this one, and wr
     CHECK(result.exit_code == (lies ? 1 : 3));  // found while checking the input, if the manifest is honest
     CHECK(result.err.find(expected(directory, version)) != std::string::npos);
     CHECK_FALSE(fs::exists(picture));
+}
+
+TEST_CASE(
+    "a plugin built with a switch that changes what crosses the boundary is refused, and makes nothing") {
+    const std::string size = std::to_string(sizeof(candela::PluginDescriptor));
+    const auto [built, here, part] = GENERATE_COPY(table<std::string, std::string, std::string>(
+        {{"no-rtti", "; rtti", "; no rtti"},
+         {"no-exceptions", "; exceptions", "; no exceptions"},
+         {"short-enums", "; enum 4", "; enum 1"},
+         // The kind is then followed by the name without a gap.
+         {"pack-struct", "; descriptor " + size,
+          "; descriptor " + std::to_string(sizeof(candela::PluginDescriptor) - 4)},
+         {"debug-containers", "libstdc++ cxx11", "libstdc++ cxx11 debug"}}));
+    CAPTURE(built);
+    const fs::path directory = installed(built + ".so", std::string(candela::host_abi()), built);
+    CHECK(refusal(directory) == expected(directory, fingerprint_with(here, part)));
+    CHECK(progress() == "loaded");
+}
+
+TEST_CASE("a plugin built when the interface was modules only is refused by its manifest, and not loaded") {
+    const std::string before = "candela interface 3; c++ abi 1002; libstdc++ cxx11";
+    const fs::path directory =
+        installed("interface_" + std::to_string(CANDELA_INTERFACE_VERSION) + ".so", before, "before");
+    CHECK(refusal(directory) == expected(directory, before));
+    CHECK(progress().empty());
 }

@@ -71,7 +71,8 @@ TEST_CASE("kernel pow keeps zero and one exact, and stays out of the denormal ra
         CHECK(power < 1e-29f);
     }
     CHECK(std::isfinite(k::exp2(1e9f)));
-    CHECK(k::clamped_power(-0.5f, 2.0f) < 1e-20f);
+    for (const float exponent : {0.001f, 0.01f, 0.1f, 2.0f}) CHECK(k::clamped_power(-0.5f, exponent) == 0.0f);
+    CHECK(std::abs(k::clamped_power(0.5f, 0.01f) - std::pow(0.5, 0.01)) < 1e-6);
     CHECK(k::clamped_power(-0.5f, 0.0f) == 1.0f);
 }
 

@@ -95,6 +95,9 @@ samples          = 1
 background       = [0, 0, 0]
 color_management = "srgb"
 
+[constraints]
+overlap = "error"
+
 [shading]
 model = "phong"
 
@@ -115,6 +118,7 @@ position = [1.0, 0.0, 0.0]
 rotation = [0.0, 0.0, 0.0]
 scale    = 2.0
 color    = [200, 200, 200]
+encloses = false
 [object.material]
 ka = 0.1
 kd = 0.7
@@ -181,6 +185,7 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.image.samples = 4; },
         [](Scene& s) { s.image.background.z += 1; },
         [](Scene& s) { s.image.color_management = candela::ColorEncoding::none; },
+        [](Scene& s) { s.constraints.overlap = candela::Severity::warning; },
         [](Scene& s) { s.lights.pop_back(); },
         [](Scene& s) { s.lights[1].label = "'moon light'"; },
         [](Scene& s) { s.lights[1].model.parameters.set("intensity", 3.0); },
@@ -191,6 +196,7 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.objects[1].transform.rotation.x += 1; },
         [](Scene& s) { s.objects[1].transform.scale.x += 1; },
         [](Scene& s) { s.objects[1].color.x += 1; },
+        [](Scene& s) { s.objects[1].encloses = true; },
         [](Scene& s) { s.objects[1].shading.name = "flat"; },
         [](Scene& s) { s.objects[1].reflection.parameters.set("kd", Vec3{0.1f, 0.2f, 0.3f}); },
     };

@@ -14,6 +14,7 @@ module;
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,7 @@ class Collector final : public MeshSink {
         }
         require_memory(memory_for(layout), fmt::format("a shape of {} triangles", layout.triangles));
         closedness = layout.closedness;
+        open_edges = layout.open_edges;
         mesh.position.resize(layout.vertices);
         mesh.indices.resize(3 * layout.triangles);
         if (layout.has_normals) authored_normal.resize(layout.vertices);
@@ -76,10 +78,14 @@ class Collector final : public MeshSink {
                 .smooth_group = smooth_group};
     }
 
+    void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
+
     Mesh mesh;
     Vec3Arrays authored_normal;
     AlignedVector<std::uint32_t> smooth_group;
     Closedness closedness = Closedness::unknown;
+    std::size_t open_edges = 0;
+    std::vector<std::string> warnings;
 
   private:
     bool allocated_ = false;
@@ -293,6 +299,7 @@ PlacedShape place(const Shape& shape, const MeshRequest& request, const Transfor
     transform(mesh.dpdu, linear, Eigen::Vector3f::Zero());
     transform(mesh.dpdv, linear, Eigen::Vector3f::Zero());
     check_finite(mesh);
+    mesh.bounds = box_around(std::as_const(mesh.position).span(), mesh.vertex_count());
     if (!collected.authored_normal.empty()) {
         transform(collected.authored_normal, linear.inverse().transpose(), Eigen::Vector3f::Zero());
         normalize(collected.authored_normal);
@@ -300,10 +307,12 @@ PlacedShape place(const Shape& shape, const MeshRequest& request, const Transfor
     if (collected.closedness == Closedness::closed) {
         mesh.closed = true;
     } else {
-        mesh.open_edges = count_open_edges(mesh);
+        const bool are_counted = collected.closedness == Closedness::open && collected.open_edges > 0;
+        mesh.open_edges = are_counted ? collected.open_edges : count_open_edges(mesh);
         mesh.closed = mesh.open_edges == 0;
     }
-    return {std::move(mesh), std::move(collected.authored_normal), std::move(collected.smooth_group)};
+    return {std::move(mesh), std::move(collected.authored_normal), std::move(collected.smooth_group),
+            std::move(collected.warnings)};
 }
 
 Mesh with_normals(PlacedShape placed, const ShadingModel& shading) {

@@ -6,11 +6,13 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 export module candela.mesh;
 
 export import candela.arrays;
+export import candela.containment;
 import candela.math;
 import candela.shading;
 import candela.shape;
@@ -36,6 +38,7 @@ struct Mesh {
     Vec3Arrays dpdu, dpdv;      // per vertex, or empty
     bool closed = false;        // otherwise visible from both sides
     std::size_t open_edges = 0;
+    Box bounds{};  // of the vertices
 
     inline std::size_t vertex_count() const { return position.size(); }
     inline std::size_t triangle_count() const { return indices.size() / 3; }
@@ -52,6 +55,7 @@ struct PlacedShape {
     Mesh mesh;
     Vec3Arrays authored_normal;                 // per vertex, unit, or empty
     AlignedVector<std::uint32_t> smooth_group;  // per vertex, or empty: each vertex is its own
+    std::vector<std::string> warnings;          // of the shape, as sentences
 };
 
 /// Tessellates `shape` and places it in the world.

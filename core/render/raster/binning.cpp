@@ -118,7 +118,7 @@ class Binner {
   private:
     ClipVertex vertex(std::size_t i) const {
         const ProjectedVertex& v = scene_.vertices[i];
-        if (perspective_) return {v.x, v.y, v.w, v.distance - k_near, 1};
+        if (perspective_) return {v.x, v.y, v.w, v.distance - scene_.near, 1};
         return {v.x, v.y, v.w, v.distance, -v.distance};
     }
 

@@ -35,7 +35,7 @@ constexpr float k_moderate = 0x1p40f;
 /// Projects vertices to homogeneous and to fixed-point pixels. `*largest_bits`: the largest magnitude among
 /// homogeneous pixels and, times the largest picture's size, distances.
 struct ProjectLoop {
-    CANDELA_BATCH_LOOP static void run(Camera camera, int subpixel_bits, ConstVec3Span position,
+    CANDELA_BATCH_LOOP static void run(Camera camera, float near, int subpixel_bits, ConstVec3Span position,
                                        std::size_t count, ProjectedVertex* projected, ScreenVertex* screen,
                                        std::int32_t* largest_bits) {
         const Vec3 eye = camera.eye;
@@ -59,7 +59,7 @@ struct ProjectLoop {
             projected[i].distance = distance;
 
             // No && and ||: they are branches, and stores behind a branch are made one by one.
-            const float ahead = perspective ? distance - k_near : distance;
+            const float ahead = perspective ? distance - near : distance;
             const float half_x = cx * w, half_y = cy * w;
             const std::uint32_t view = (ahead < 0 ? Outside::near : 0u) | (x < 0 ? Outside::left : 0u) |
                                        (x > width * w ? Outside::right : 0u) | (y < 0 ? Outside::top : 0u) |
@@ -86,6 +86,21 @@ struct ProjectLoop {
     }
 };
 
+/// At most a tenth of a millimetre, and less where the whole scene is small. What is nearer than a
+/// hundred-thousandth of the farthest distance cannot be clipped accurately in floats.
+float near_distance(std::span<const Mesh* const> meshes, const Camera& camera) {
+    constexpr float k_most = 1e-4f, k_of_farthest = 1e-5f;
+    float farthest = 0;
+    for (const Mesh* mesh : meshes) {
+        const Box& box = mesh->bounds;
+        const Vec3& ahead = camera.forward;
+        const Vec3 corner{ahead.x > 0 ? box.high.x : box.low.x, ahead.y > 0 ? box.high.y : box.low.y,
+                          ahead.z > 0 ? box.high.z : box.low.z};
+        farthest = std::max(farthest, dot(ahead, corner - camera.eye));
+    }
+    return farthest > 0 ? std::min(k_most, k_of_farthest * farthest) : k_most;
+}
+
 struct Stretch {
     std::size_t mesh;
     std::size_t first;  // triangle of the mesh
@@ -107,6 +122,7 @@ void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile
     scene.first_triangle.clear();
     scene.samples = samples;
     scene.camera = camera;
+    scene.near = near_distance(meshes, camera);
     scene.tile_size = tile_size;
     scene.tile_columns = (camera.width + tile_size - 1) / tile_size;
     scene.tile_rows = (camera.height + tile_size - 1) / tile_size;
@@ -139,8 +155,9 @@ void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile
             const std::size_t at = scene.first_vertex[m] + begin;
             std::int32_t largest = 0;
             std::int32_t* const largest_bits = &largest;
-            multiversion<ProjectLoop>(camera, scene.subpixel_bits, meshes[m]->position.span().from(begin),
-                                      end - begin, &scene.vertices[at], &scene.screen[at], largest_bits);
+            multiversion<ProjectLoop>(camera, scene.near, scene.subpixel_bits,
+                                      meshes[m]->position.span().from(begin), end - begin,
+                                      &scene.vertices[at], &scene.screen[at], largest_bits);
             if (!(std::bit_cast<float>(largest) < k_moderate)) is_moderate = false;
         });
     }

@@ -52,6 +52,7 @@ struct ProjectedScene {
     int tile_size = 64;
     int samples = 1;
     int subpixel_bits = 8;
+    float near = 0;  // metres from the eye: nothing closer is seen (perspective only)
     int tile_columns = 0, tile_rows = 0;
 
     // Per vertex, all meshes in turn.

@@ -11,6 +11,7 @@ module;
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -143,7 +144,7 @@ class Checker {
 
     void report_if_inside(const std::string& what, Vec3 point, const SourcePlace& place) {
         for (const std::size_t i : tree_.at(point)) {
-            if (surfaces_[i].empty() || !body(i).contains(point)) continue;
+            if (surfaces_[i].empty() || is_hollow(i) || !body(i).contains(point)) continue;
             diagnostics_.error(place, fmt::format("{} is inside object {}{}", what, scene_.objects[i].label,
                                                   at(scene_.objects[i].place)));
         }
@@ -157,23 +158,37 @@ class Checker {
                 if (j >= i || surfaces_[j].empty() || !overlap(body(i), body(j))) continue;
                 const Object& first = scene_.objects[j];
                 const Object& second = scene_.objects[i];
-                diagnostics_.error(second.position_place,
-                                   fmt::format("object {} overlaps object {}{}", second.label, first.label,
-                                               at(first.position_place)));
+                report_overlap(second.position_place,
+                               fmt::format("object {} overlaps object {}{}", second.label, first.label,
+                                           at(first.position_place)));
                 if (++found == k_most_overlaps) {
-                    diagnostics_.error(second.position_place,
-                                       fmt::format("{} objects overlap; the rest is not looked at", found));
+                    report_overlap(second.position_place,
+                                   fmt::format("{} objects overlap; the rest is not looked at", found));
                     return;
                 }
             }
         }
     }
 
+    void report_overlap(const SourcePlace& place, std::string message) {
+        if (scene_.constraints.overlap == Severity::warning) {
+            diagnostics_.warning(place, std::move(message));
+        } else {
+            diagnostics_.error(
+                place, std::move(message),
+                "move one of them; if one is a room or a shade for the other, write: encloses = true");
+        }
+    }
+
+    /// An open surface has no inside, and one that encloses others is meant to have them there.
+    bool is_hollow(std::size_t i) const { return !surfaces_[i].closed || scene_.objects[i].encloses; }
+
     /// Created on demand: most objects are far from everything else.
     const Body& body(std::size_t i) {
         if (!bodies_[i]) {
             const SurfaceView& surface = surfaces_[i];
-            bodies_[i].emplace(surface.position, surface.vertex_count, surface.indices, surface.closed);
+            bodies_[i].emplace(surface.position, surface.vertex_count, surface.indices, surface.closed,
+                               is_hollow(i) ? Solidity::hollow : Solidity::solid);
         }
         return *bodies_[i];
     }

@@ -28,6 +28,9 @@ struct Box {
 
 CANDELA_API Box box_around(ConstVec3Span position, std::size_t count);
 
+/// Whether other bodies may be inside one.
+enum class Solidity : bool { solid, hollow };
+
 /// The space enclosed by a surface of triangles. Immutable; any thread.
 ///
 /// Touching bodies do not overlap, and floats round, so the surface is shrunk by a hundred-thousandth of the
@@ -37,7 +40,7 @@ class CANDELA_API Body {
     /// Triangles are counter-clockwise seen from outside; a closed surface with the opposite orientation is
     /// detected. `closed`: each edge is shared by two triangles.
     Body(ConstVec3Span position, std::size_t vertex_count, std::span<const std::uint32_t> indices,
-         bool closed);
+         bool closed, Solidity solidity = Solidity::solid);
     Body(Body&&) noexcept;
     Body& operator=(Body&&) noexcept;
     ~Body();
@@ -47,7 +50,6 @@ class CANDELA_API Body {
     /// inside-outside segmentation using generalized winding numbers", section 3).
     bool contains(Vec3 point) const;
 
-    /// Whether two bodies overlap: their surfaces cross, or a part of one is inside the other.
     friend CANDELA_API bool overlap(const Body& a, const Body& b);
 
   private:
@@ -55,6 +57,8 @@ class CANDELA_API Body {
     std::unique_ptr<Surface> surface_;
 };
 
+/// Whether two bodies overlap: their surfaces cross, or a part of one is inside the other and that is not
+/// hollow.
 CANDELA_API bool overlap(const Body& a, const Body& b);
 
 /// Finds the boxes that intersect, out of many.

@@ -24,6 +24,13 @@ struct Room {
     friend bool operator==(const Room&, const Room&) = default;
 };
 
+/// How strictly a scene as a whole is checked.
+struct ConstraintSettings {
+    Severity overlap = Severity::error;  // of objects with each other
+
+    friend bool operator==(const ConstraintSettings&, const ConstraintSettings&) = default;
+};
+
 struct Observer {
     Vec3 position;
     Vec3 look_at;
@@ -81,7 +88,8 @@ struct Object {
     std::string label;
     Model shape;
     Transform transform;
-    Vec3 color;  // 0-255
+    Vec3 color;             // 0-255
+    bool encloses = false;  // others may be inside; drawn from both sides
     Model shading;
     Model reflection;
     SourcePlace place;
@@ -90,7 +98,7 @@ struct Object {
     /// Ignores where they are in their files.
     friend inline bool operator==(const Object& a, const Object& b) {
         return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
-               a.shading == b.shading && a.reflection == b.reflection;
+               a.encloses == b.encloses && a.shading == b.shading && a.reflection == b.reflection;
     }
 };
 
@@ -100,6 +108,7 @@ struct Scene {
     Room room;
     Observer observer;
     ImageSettings image;
+    ConstraintSettings constraints;
     std::vector<LightSource> lights;
     std::vector<Object> objects;
 

@@ -54,6 +54,7 @@ class Reader {
         draft_.has_room = tables_.has_valid("room", {"height", "width", "depth"});
         read_observer();
         read_image();
+        read_constraints();
         each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
             read_light(table, place, i);
         });
@@ -175,6 +176,11 @@ class Reader {
                                  "'background' has no effect where there is an environment");
     }
 
+    void read_constraints() {
+        const ParamSet values = tables_.read_plain("constraints");
+        scene_.constraints.overlap = text(values, "overlap") == "warn" ? Severity::warning : Severity::error;
+    }
+
     template <class Visit>
     void each(const std::string& name, Visit visit) {
         const TableNode::Entry* const entry = tables_.root().find(name);
@@ -252,6 +258,7 @@ class Reader {
         const ParamSet own = read_parameters(table, schema_of("object").parameters, context, diagnostics_);
         object.transform = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
         object.color = vector(own, "color");
+        object.encloses = boolean(own, "encloses");
         auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"});
         object.shading = models.shading_for(table);
         object.reflection = models.reflection_for(table, short_label(object.label), place);
@@ -268,7 +275,7 @@ class Reader {
         const auto& schema = schema_of("object").parameters;
         const auto& relations = tables_.registry().require(PluginKind::shape, shape.name).manifest.relations;
         return std::ranges::all_of(
-                   std::array{"position", "rotation", "scale"},
+                   std::array{"position", "rotation", "scale", "encloses"},
                    [&](std::string_view name) { return is_known(*parameter_named(schema, name)); }) &&
                std::ranges::all_of(shape.parameters.schema(), is_known) &&
                std::ranges::none_of(relations, [&](const Relation& relation) {

@@ -26,6 +26,7 @@ constexpr const char* k_projections[] = {"perspective", "orthographic"};
 constexpr const char* k_encodings[] = {"srgb", "none"};
 constexpr const char* k_sample_counts[] = {"1", "4", "8", "16"};
 
+constexpr const char* k_severities[] = {"error", "warn"};
 constexpr const char* k_versions[] = {"1"};
 
 constexpr ParamSpec k_top[] = {
@@ -126,6 +127,13 @@ constexpr ParamSpec k_image[] = {
                 "\"none\": values are used as they are",
      .choices = k_encodings},
 };
+constexpr ParamSpec k_constraints[] = {
+    {.name = "overlap",
+     .type = Type::choice,
+     .meaning = "what objects that overlap are: an error, or a warning, for scenes that were made for other "
+                "programs",
+     .choices = k_severities},
+};
 constexpr ParamSpec k_shading[] = {
     {.name = "model",
      .type = Type::text,
@@ -162,6 +170,12 @@ constexpr ParamSpec k_object[] = {
      .type = Type::color,
      .meaning = "colour of the surface",
      .default_value = {{200, 200, 200}}},
+    {.name = "encloses",
+     .type = Type::boolean,
+     .meaning = "whether lights, the observer and other objects may be inside, as in a room or a lampshade; "
+                "it is then drawn "
+                "from both sides",
+     .default_value = {}},
     {.name = "shading", .type = Type::text, .meaning = "shading plugin; overrides [shading]"},
     {.name = "reflection", .type = Type::text, .meaning = "reflection plugin; overrides [reflection]"},
 };
@@ -192,6 +206,8 @@ std::span<const TableSchema> scene_schema() {
         table("observer", "[observer]", "who sees the scene; required, exactly once over all files",
               k_observer),
         table("image", "[image]", "the picture; optional", k_image),
+        table("constraints", "[constraints]", "how strict the checks of the whole scene are; optional",
+              k_constraints),
         table("shading", "[shading]", "how normals are found; if omitted, Candela asks", k_shading,
               {{"model", PluginKind::shading, ""}}),
         table("reflection", "[reflection]", "how light is reflected; if omitted, Candela asks", k_reflection,

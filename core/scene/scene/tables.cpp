@@ -46,6 +46,7 @@ float real(const ParamSet& set, std::string_view name) {
 int integer(const ParamSet& set, std::string_view name) {
     return static_cast<int>(std::get<std::int64_t>(set.get(name)));
 }
+bool boolean(const ParamSet& set, std::string_view name) { return std::get<bool>(set.get(name)); }
 Vec3 vector(const ParamSet& set, std::string_view name) { return std::get<Vec3>(set.get(name)); }
 const std::string& text(const ParamSet& set, std::string_view name) {
     return std::get<std::string>(set.get(name));

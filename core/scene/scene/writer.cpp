@@ -83,6 +83,7 @@ class Writer {
         write_room(scene.room);
         write_observer(scene.observer);
         write_image(scene.image);
+        write_constraints(scene.constraints);
         if (!scene.objects.empty()) {
             shading_ = shared_shading(scene.objects);
             reflection_ = most_common(scene.objects, &Object::reflection).name;
@@ -154,6 +155,12 @@ class Writer {
         end();
     }
 
+    void write_constraints(const ConstraintSettings& constraints) {
+        begin("[constraints]");
+        add("overlap", constraints.overlap == Severity::error ? "\"error\"" : "\"warn\"");
+        end();
+    }
+
     /// The model of [shading]. Only that table can set parameters of a shading model: an object that names a
     /// model gets its defaults.
     static Model shared_shading(const std::vector<Object>& objects) {
@@ -188,6 +195,7 @@ class Writer {
         add("rotation", vector_text(object.transform.rotation));
         add("scale", rgb_text(object.transform.scale));
         add("color", color_text(object.color));
+        add("encloses", object.encloses ? "true" : "false");
         if (object.shading != shading_) add("shading", toml_text(object.shading.name));
         if (object.reflection.name != reflection_) add("reflection", toml_text(object.reflection.name));
         end();

@@ -12,11 +12,10 @@
 #include <vector>
 
 #include "candela/image_plugin.h"
+#include "candela/parallel.h"
+#include "candela/pool.h"
 #include "deflate.h"
 #include "filter.h"
-
-import candela.parallel;
-import candela.pool;
 
 using namespace candela::sdk;
 

@@ -15,7 +15,7 @@ TEST_CASE(
         check_reflection(
             *model,
             [&](Double3 n, Double3 v, Double3 l, Double3 color) -> ExactPair {
-                const double light = dot(n, l), observer = std::max(dot(n, v), 1e-4);
+                const double light = dot(n, l), observer = std::max(dot(n, v), 0.02);
                 if (light <= 0) return {};
                 // Cosines are clamped to at least 0.0001.
                 const double factor =

@@ -30,7 +30,7 @@ TEST_CASE(
                     const double lobe =
                         std::exp(-std::pow(std::tan(delta), 2) *
                                  (std::pow(std::cos(phi) / a_u, 2) + std::pow(std::sin(phi) / k_a_v, 2)));
-                    const double pi = std::numbers::pi, observer = std::max(dot(n, v), 1e-4);
+                    const double pi = std::numbers::pi, observer = std::max(dot(n, v), 0.02);
                     const double brdf =
                         form == "ward"
                             ? lobe / (4 * pi * a_u * k_a_v * std::sqrt(dot(n, l) * observer))

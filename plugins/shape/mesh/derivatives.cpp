@@ -1,10 +1,9 @@
 #include "derivatives.h"
+#include "candela/math.h"
 
 #include <array>
 #include <cmath>
 #include <vector>
-
-import candela.math;
 
 using candela::Vec3;
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-import candela.shape;
+#include "candela/shape.h"
 
 /// Fills `mesh.dpdu` and `mesh.dpdv` for `vertices` vertices, with the area-weighted mean over each vertex's
 /// triangles of the derivatives with respect to the texture coordinates. Zero if the texture coordinates of

@@ -1,22 +1,25 @@
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
+#include <fmt/format.h>
 
-#include <assimp/BaseImporter.h>
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <memory>
-#include <span>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "candela/shape_plugin.h"
+#include "corners.h"
+#include "crease.h"
 #include "derivatives.h"
+#include "file_bytes.h"
+#include "readers.h"
+#include "surface.h"
+
+import candela.parallel;
 
 using namespace candela::sdk;
 
@@ -24,121 +27,132 @@ namespace {
 
 struct MeshShape {
     const char* file;
+    float crease_angle;  // radians
 };
 
-std::string lower_extension(const std::filesystem::path& file) {
+enum class Format { obj, ply, stl, gltf };
+
+Format format_of(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+    if (extension == ".obj") return Format::obj;
+    if (extension == ".ply") return Format::ply;
+    if (extension == ".stl") return Format::stl;
+    if (extension == ".gltf" || extension == ".glb") return Format::gltf;
+    throw mesh::BadFile("has not the extension of a mesh: .obj, .ply, .stl, .gltf or .glb");
 }
 
-/// If the extension does not decide, assimp guesses from the content, with forty readers of which we support
-/// none. Only the reader for the extension may be used.
-void keep_one_format(Assimp::Importer& importer, const std::string& file) {
-    constexpr std::array<std::string_view, 5> k_extensions = {".obj", ".ply", ".stl", ".gltf", ".glb"};
-    const std::string extension = lower_extension(file);
-    if (std::ranges::find(k_extensions, extension) == k_extensions.end()) {
-        throw std::runtime_error("'" + file +
-                                 "' has not the extension of a mesh: .obj, .ply, .stl, .gltf or .glb");
+mesh::Surface surface_of(const std::filesystem::path& file) {
+    const Format format = format_of(file);
+    const mesh::Array<char> bytes = mesh::read_file(file);
+    mesh::Surface surface;
+    switch (format) {
+        case Format::obj:
+            surface = mesh::read_obj(mesh::text_of(bytes));
+            break;
+        case Format::ply:
+            surface = mesh::read_ply(mesh::text_of(bytes));
+            break;
+        case Format::stl:
+            surface = mesh::read_stl(mesh::text_of(bytes));
+            break;
+        case Format::gltf:
+            surface = mesh::read_gltf(mesh::text_of(bytes), file.parent_path());
+            break;
     }
-    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-        // Extensions are separated by spaces.
-        const std::string extensions = std::string(" ") + importer.GetImporterInfo(i)->mFileExtensions + " ";
-        if (extensions.find(" " + extension.substr(1) + " ") != std::string::npos) continue;
-        const std::unique_ptr<Assimp::BaseImporter> reader(importer.GetImporter(i));
-        importer.UnregisterLoader(reader.get());
-    }
+    if (surface.triangles() == 0) throw mesh::BadFile("has no triangles");
+    if (surface.indices.size() > 0xffff'fff0u) throw mesh::BadFile("has more triangles than can be numbered");
+    return surface;
 }
 
-/// assimp 5.2 never stops reading a PLY file whose header has no end.
-void require_end_of_header(const std::string& file) {
-    constexpr std::string_view k_end = "end_header";
-    constexpr std::size_t k_longest_header = 1 << 20;
-    std::string header(k_longest_header, ' ');
-    std::ifstream input(file, std::ios::binary);
-    input.read(header.data(), static_cast<std::streamsize>(header.size()));
-    header.resize(static_cast<std::size_t>(input.gcount()));
-    for (std::size_t at = header.find(k_end); at != std::string::npos; at = header.find(k_end, at + 1)) {
-        const std::size_t after = at + k_end.size();
-        const bool is_line = at > 0 && (header[at - 1] == '\n' || header[at - 1] == '\r') &&
-                             after < header.size() &&
-                             std::isspace(static_cast<unsigned char>(header[after])) != 0;
-        if (is_line) return;
-    }
-    throw std::runtime_error("'" + file + "' is no PLY file: it has no line 'end_header'");
+bool has_all_normals(const mesh::Surface& surface) {
+    for (std::size_t i = 0; i < surface.normal.size(); ++i)
+        if (surface.normal.span()[i] == candela::Vec3{}) return false;
+    return !surface.normal.empty();
+}
+
+/// Copies `from[source[i]]` to `to[i]`; all of `from` if `source` is empty.
+void copy(const mesh::Array<float>& from, const mesh::Array<std::uint32_t>& source, std::size_t count,
+          float* to) {
+    constexpr std::size_t k_per_task = 65536;
+    candela::parallel_for(count, k_per_task, [&](std::size_t begin, std::size_t end) {
+        if (source.empty()) {
+            std::copy(from.data() + begin, from.data() + end, to + begin);
+        } else {
+            for (std::size_t i = begin; i < end; ++i) to[i] = from[source[i]];
+        }
+    });
+}
+
+void copy(const mesh::Vectors& from, const mesh::Array<std::uint32_t>& source, std::size_t count,
+          candela::Vec3Span to) {
+    copy(from.x, source, count, to.x);
+    copy(from.y, source, count, to.y);
+    copy(from.z, source, count, to.z);
 }
 
 /// The triangles of a file, with its parts joined and its node transformations applied.
 class FileMesh final : public candela::Shape {
   public:
-    explicit FileMesh(const MeshShape& shape) : file_(shape.file != nullptr ? shape.file : "") {}
+    explicit FileMesh(const MeshShape& shape)
+        : file_(shape.file != nullptr ? shape.file : ""), crease_angle_(shape.crease_angle) {}
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
-        Assimp::Importer importer;
-        keep_one_format(importer, file_);
-        if (lower_extension(file_) == ".ply") require_end_of_header(file_);
-        // Points and lines have no surface.
-        importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        const aiScene* const scene =
-            importer.ReadFile(file_, aiProcess_ValidateDataStructure | aiProcess_Triangulate |
-                                         aiProcess_SortByPType | aiProcess_PreTransformVertices);
-        if (scene == nullptr) throw std::runtime_error("'" + file_ + "': " + importer.GetErrorString());
-        const std::span<aiMesh* const> parts(scene->mMeshes, scene->mNumMeshes);
-
-        candela::MeshLayout layout{.has_normals = true, .has_uv = request.uv || request.derivatives};
-        for (const aiMesh* part : parts) {
-            layout.vertices += part->mNumVertices;
-            layout.triangles += part->mNumFaces;
-            layout.has_normals = layout.has_normals && part->HasNormals();
-            layout.has_uv = layout.has_uv && part->HasTextureCoords(0);
+        try {
+            write(surface_of(file_), request, sink);
+        } catch (const mesh::BadFile& problem) {
+            throw std::runtime_error(fmt::format("'{}' {}", file_, problem.what()));
         }
-        // STL files have facet normals, not vertex normals.
-        if (lower_extension(file_) == ".stl") layout.has_normals = false;
-        layout.has_smooth_groups = !layout.has_normals;
-        // Zero without texture coordinates: a triangle's edges, which differ from its neighbours', would make
-        // no better tangents.
-        layout.has_derivatives = request.derivatives;
-        if (layout.triangles == 0) throw std::runtime_error("'" + file_ + "' has no triangles");
-
-        const candela::MeshSpans mesh = sink.allocate(layout);
-        std::size_t vertex = 0;
-        std::size_t corner = 0;
-        for (const aiMesh* part : parts) {
-            const auto first = static_cast<std::uint32_t>(vertex);
-            for (const aiFace& face : std::span(part->mFaces, part->mNumFaces)) {
-                if (face.mNumIndices != 3)
-                    throw std::runtime_error("'" + file_ + "' has a face that is no triangle");
-                for (const unsigned index : std::span(face.mIndices, 3)) {
-                    if (index >= part->mNumVertices) {
-                        throw std::runtime_error("'" + file_ + "' has a face whose corner is vertex " +
-                                                 std::to_string(index) + " of " +
-                                                 std::to_string(part->mNumVertices));
-                    }
-                    mesh.indices[corner++] = first + index;
-                }
-            }
-            for (unsigned i = 0; i < part->mNumVertices; ++i, ++vertex) {
-                mesh.position.set(vertex, vector(part->mVertices[i]));
-                if (layout.has_normals) mesh.normal.set(vertex, vector(part->mNormals[i]));
-                if (layout.has_uv) {
-                    mesh.uv.x[vertex] = part->mTextureCoords[0][i].x;
-                    mesh.uv.y[vertex] = part->mTextureCoords[0][i].y;
-                }
-            }
-        }
-        if (layout.has_derivatives && layout.has_uv) derivatives_from_uv(mesh, vertex);
-        if (layout.has_smooth_groups) weld_by_position(mesh.position, vertex, mesh.smooth_group);
     }
 
   private:
-    static candela::Vec3 vector(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+    void write(mesh::Surface surface, const candela::MeshRequest& request, candela::MeshSink& sink) const {
+        mesh::Corners corners(surface);
+        const std::uint64_t open = mesh::open_edges(surface, corners);
+        if (open == 0 && mesh::turn_outwards(surface)) corners = mesh::Corners(surface);
+        mesh::SplitVertices split;
+        if (!has_all_normals(surface)) split = mesh::split_at_creases(surface, corners, crease_angle_);
+        const mesh::Array<std::uint32_t>& indices = split.indices.empty() ? surface.indices : split.indices;
+
+        const candela::MeshLayout layout{
+            .vertices = split.indices.empty() ? surface.position.size() : split.source.size(),
+            .triangles = surface.triangles(),
+            .has_normals = !surface.normal.empty(),
+            .has_uv = (request.uv || request.derivatives) && !surface.u.empty(),
+            // Zero without texture coordinates: a triangle's edges, which differ from its neighbours', would
+            // make no better tangents.
+            .has_derivatives = request.derivatives,
+            .has_smooth_groups = !split.group.empty(),
+            .closedness = open == 0 ? candela::Closedness::closed : candela::Closedness::open,
+            .open_edges = open};
+        const candela::MeshSpans to = sink.allocate(layout);
+        copy(surface.position, split.source, layout.vertices, to.position);
+        if (layout.has_normals) copy(surface.normal, split.source, layout.vertices, to.normal);
+        if (layout.has_uv) {
+            copy(surface.u, split.source, layout.vertices, to.uv.x);
+            copy(surface.v, split.source, layout.vertices, to.uv.y);
+        }
+        std::ranges::copy(indices, to.indices.begin());
+        if (layout.has_smooth_groups) std::ranges::copy(split.group, to.smooth_group.begin());
+        if (layout.has_derivatives && layout.has_uv) derivatives_from_uv(to, layout.vertices);
+        if (!surface.losses.empty())
+            sink.warn(
+                fmt::format("'{}' also has {}, which {} left out", file_, mesh::listed(surface.losses),
+                            surface.losses.size() == 1 && !surface.losses[0].ends_with('s') ? "is" : "are"));
+        for (const std::string& note : surface.notes) sink.warn(fmt::format("'{}' {}", file_, note));
+    }
 
     std::string file_;
+    double crease_angle_;
 };
 
-constexpr auto k_fields =
-    fields(file(&MeshShape::file, "file", "OBJ, PLY, STL, glTF or GLB file, relative to the scene file"));
+constexpr auto k_fields = fields(
+    file(&MeshShape::file, "file", "OBJ, PLY, STL, glTF or GLB file, relative to the scene file"),
+    angle(&MeshShape::crease_angle, "crease_angle", 40,
+          "where the file has no normals and no smoothing groups, edges are hard if the angle between the "
+          "normals of their faces is larger; 180: none")
+        .range(0, 180));
 
 }  // namespace
 
@@ -146,6 +160,10 @@ CANDELA_PLUGIN(
     shape, FileMesh, k_fields,
     {.title = "Mesh from a file",
      .summary =
-         "Triangles from OBJ, PLY, STL, glTF and GLB files. Normals are the file's; where it has none, the "
-         "shading model makes them, smooth where corners touch.",
-     .reference = "The Open Asset Import Library, assimp"})
+         "Triangles from OBJ, PLY, STL, glTF and GLB files. Normals are the file's. Where it has none, the "
+         "shading "
+         "model makes them, smooth where corners touch, except across hard edges: those between an OBJ "
+         "file's "
+         "smoothing groups, or wherever faces (of an STL file: their facet normals) turn by more than "
+         "`crease_angle`. What else the file has, such as materials and lines, is left out with a warning.",
+     .reference = ""})

@@ -1,12 +1,18 @@
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
+
+import candela.parallel;
 
 using candela::Mesh;
 using candela::Shape;
@@ -14,9 +20,38 @@ using candela::Vec3;
 
 namespace {
 
-Mesh mesh_of(const std::filesystem::path& file, const char* shading = "phong") {
-    return candela::build_mesh(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {},
-                               *instance<candela::ShadingModel>(shading));
+Mesh mesh_of(const std::filesystem::path& file, double crease_angle = 40, const char* shading = "phong") {
+    return candela::build_mesh(
+        *instance<Shape>("mesh", {{"file", file.string()}, {"crease_angle", crease_angle}}), {}, {},
+        *instance<candela::ShadingModel>(shading));
+}
+
+Mesh mesh_of_text(const char* name, const std::string& text, double crease_angle = 40,
+                  const char* shading = "phong") {
+    return mesh_of(write_file(scratch_directory() / name, text), crease_angle, shading);
+}
+
+std::vector<std::string> warnings_about(const char* name, const std::string& text) {
+    const auto file = write_file(scratch_directory() / name, text);
+    return candela::place(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {}).warnings;
+}
+
+Vec3 normal_of_corner(const Mesh& mesh, std::size_t corner) {
+    return mesh.vertices[mesh.indices[corner]].normal;
+}
+
+/// Two squares that meet along the z axis, the first in the plane y = 0, the second turned up by `degrees`.
+std::string fold(double degrees) {
+    const double turn = degrees * std::acos(-1.0) / 180;
+    return fmt::format(
+        "v 0 0 0\nv 0 0 1\nv -1 0 1\nv -1 0 0\nv {0} {1} 0\nv {0} {1} 1\nf 1 4 3 2\nf 1 2 6 5\n",
+        std::cos(turn), std::sin(turn));
+}
+
+bool has_hard_edge(const Mesh& mesh) {
+    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner)
+        if (!agree(normal_of_corner(mesh, corner), mesh.face_normal.span()[corner / 3], 1e-6)) return false;
+    return true;
 }
 
 /// A mesh as careless exporters write it: every triangle with three vertices of its own, and no normals.
@@ -87,7 +122,7 @@ TEST_CASE("shape/mesh reads the formats that it names, by their extension, and n
         CHECK(validation_error(name, triangle).find("extension of a mesh: .obj, .ply, .stl, .gltf or .glb") !=
               std::string::npos);
     }
-    // assimp itself would look into the file and find a reader for it.
+    // What is in the file does not matter.
     const std::string off = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     CHECK_FALSE(validation_error("off.obj", off).empty());
     CHECK_FALSE(validation_error("off.stl", off).empty());
@@ -129,8 +164,9 @@ TEST_CASE("shape/mesh reads PLY, STL and glTF") {
     CHECK(mesh_of(ply).triangle_count() == 1);
     CHECK(mesh_of(gltf).triangle_count() == 1);
     CHECK(mesh_of(gltf).position.span()[0].z == 5);
-    // Facet normals are not vertex normals: where facets touch, the surface is smooth.
-    const Mesh facets = mesh_of(stl);
+    // Facets at right angles share a normal only where no edge is hard.
+    CHECK(has_hard_edge(mesh_of(stl)));
+    const Mesh facets = mesh_of(stl, 180);
     CHECK(facets.triangle_count() == 2);
     const float half = 1 / std::sqrt(2.0f);
     CHECK(agree(facets.vertices[facets.indices[0]].normal, Vec3{half, 0, half}, 1e-6));
@@ -138,7 +174,8 @@ TEST_CASE("shape/mesh reads PLY, STL and glTF") {
 
 TEST_CASE("a teapot that lost its normals and its shared vertices looks like the teapot") {
     const Mesh original = built(*instance<Shape>("teapot"));
-    const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", soup_of(original)));
+    // Its lid and its rim have edges that the built-in one smooths.
+    const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", soup_of(original)), 180);
     REQUIRE(read.triangle_count() == original.triangle_count());
     for (std::size_t corner = 0; corner < read.indices.size(); ++corner) {
         REQUIRE(agree(read.vertices[read.indices[corner]].normal,
@@ -189,4 +226,209 @@ TEST_CASE("shape/mesh: without texture coordinates, or with useless ones, deriva
             CHECK(mesh.dpdv.span()[i] == Vec3{0, 0, 0});
         }
     }
+}
+
+TEST_CASE("shape/mesh: without normals, edges are hard where faces turn by more than the crease angle") {
+    // Of a fold by d degrees the normals are turned by d.
+    for (const double degrees : {10.0, 39.0, 41.0, 90.0, 135.0}) {
+        INFO(degrees);
+        CHECK(has_hard_edge(mesh_of_text("fold.obj", fold(degrees))) == (degrees > 40));
+        CHECK(has_hard_edge(mesh_of_text("fold.obj", fold(degrees), degrees - 0.5)));
+        CHECK_FALSE(has_hard_edge(mesh_of_text("fold.obj", fold(degrees), degrees + 0.5)));
+        CHECK_FALSE(has_hard_edge(mesh_of_text("fold.obj", fold(degrees), 180)));
+    }
+    // Where it is smooth, the edge's normals lie between those of the squares.
+    const Mesh mesh = mesh_of_text("fold.obj", fold(30));
+    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) {
+        const Vec3 p = mesh.position.span()[mesh.indices[corner]];
+        if (p.x != 0) continue;
+        const Double3 n = exact(normal_of_corner(mesh, corner));
+        const double turned = std::atan2(-n.x, n.y) * 180 / std::acos(-1.0);
+        CHECK(agree(n.z, 0, 1e-6, 1e-6));
+        CHECK(turned > 9.9);
+        CHECK(turned < 20.1);
+    }
+}
+
+TEST_CASE("shape/mesh: hard edges hold for every shading model that has vertex normals") {
+    for (const char* const shading :
+         {"gouraud", "phong", "angle-weighted", "area-weighted", "max-weighted"}) {
+        INFO(shading);
+        CHECK(has_hard_edge(mesh_of_text("fold.obj", fold(90), 40, shading)));
+        CHECK_FALSE(has_hard_edge(mesh_of_text("fold.obj", fold(90), 180, shading)));
+    }
+}
+
+TEST_CASE("shape/mesh: smoothing groups decide where a file has them, whatever the crease angle") {
+    const std::string text = fold(90);
+    const std::size_t second = text.rfind("f ");
+    const auto grouped = [&](const char* first, const char* then) {
+        return text.substr(0, text.find("f ")) + first +
+               text.substr(text.find("f "), second - text.find("f ")) + then + text.substr(second);
+    };
+    for (const double crease_angle : {0.0, 40.0, 180.0}) {
+        INFO(crease_angle);
+        CHECK_FALSE(has_hard_edge(mesh_of_text("s.obj", grouped("s 1\n", ""), crease_angle)));
+        CHECK(has_hard_edge(mesh_of_text("s.obj", grouped("s 1\n", "s 2\n"), crease_angle)));
+        CHECK(has_hard_edge(mesh_of_text("s.obj", grouped("s off\n", ""), crease_angle)));
+        CHECK(has_hard_edge(mesh_of_text("s.obj", grouped("s 0\n", ""), crease_angle)));
+        CHECK(has_hard_edge(mesh_of_text("s.obj", grouped("s 1\n", "s off\n"), crease_angle)));
+    }
+}
+
+TEST_CASE("shape/mesh: a cylinder without normals is smooth around, and sharp at its rims") {
+    constexpr int k_sides = 24;  // 15 degrees from one to the next
+    std::string text;
+    std::string top = "f", bottom;
+    for (int i = 0; i < k_sides; ++i) {
+        const double phi = 2 * std::acos(-1.0) * i / k_sides;
+        for (const int y : {0, 1})
+            text += fmt::format("v {:.9} {} {:.9}\n", std::cos(phi), y, -std::sin(phi));
+        top += fmt::format(" {}", 2 * i + 2);
+        bottom = fmt::format(" {}", 2 * i + 1) + bottom;
+    }
+    text += top + "\nf" + bottom + "\n";
+    for (int i = 0; i < k_sides; ++i) {
+        const int a = 2 * i + 1, b = 2 * ((i + 1) % k_sides) + 1;
+        text += fmt::format("f {} {} {} {}\n", a, b, b + 1, a + 1);
+    }
+    const Mesh mesh = mesh_of_text("cylinder.obj", text);
+    CHECK(mesh.closed);
+    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) {
+        const Vec3 p = mesh.position.span()[mesh.indices[corner]];
+        const bool on_side = std::abs(mesh.face_normal.span()[corner / 3].y) < 0.5f;
+        const Vec3 expected = on_side ? Vec3{p.x, 0, p.z} : mesh.face_normal.span()[corner / 3];
+        // Two triangles of one side and one of the other lean the mean by a sixth of 15 degrees.
+        CHECK(dot(normal_of_corner(mesh, corner), expected) > (on_side ? 0.998f : 0.99999f));
+    }
+}
+
+TEST_CASE("shape/mesh: where hundreds of triangles meet, the crease angle holds as well") {
+    // A cone of 400 sides: smooth around the tip. Its foot: hard.
+    constexpr int k_sides = 400;
+    std::string text = "v 0 1 0\nv 0 0 0\n";
+    for (int i = 0; i < k_sides; ++i) {
+        const double phi = 2 * std::acos(-1.0) * i / k_sides;
+        text += fmt::format("v {:.9} 0 {:.9}\n", std::cos(phi), -std::sin(phi));
+    }
+    for (int i = 0; i < k_sides; ++i) {
+        const int a = i + 3, b = (i + 1) % k_sides + 3;
+        text += fmt::format("f 1 {} {}\nf 2 {} {}\n", a, b, b, a);
+    }
+    const Mesh mesh = mesh_of_text("cone.obj", text);
+    CHECK(mesh.closed);
+    CHECK(mesh.vertex_count() == 2 + 2 * k_sides);
+    for (std::size_t corner = 0; corner < mesh.indices.size(); corner += 6)
+        CHECK(agree(normal_of_corner(mesh, corner), Vec3{0, 1, 0}, 1e-4, 1e-4));
+}
+
+TEST_CASE("shape/mesh: concave polygons are covered once, by their corners' triangles") {
+    // A comb of twenty teeth, 2 wide with a gap of 1, over a back of height 1; and the same standing upright.
+    std::string upright, flat, face = "f";
+    int corner = 0;
+    const auto add = [&](int x, int y) {
+        flat += fmt::format("v {} {} 0\n", x, y);
+        upright += fmt::format("v 0 {} {}\n", x, y);
+        face += fmt::format(" {}", ++corner);
+    };
+    constexpr int k_teeth = 20;
+    add(0, 0);
+    add(3 * k_teeth - 1, 0);
+    for (int i = k_teeth - 1; i >= 0; --i) {
+        add(3 * i + 2, 5);
+        add(3 * i, 5);
+        if (i > 0) {
+            add(3 * i, 1);
+            add(3 * i - 1, 1);
+        }
+    }
+    const double area = (3 * k_teeth - 1) + 4 * 2 * k_teeth;
+    for (const std::string& vertices : {flat, upright}) {
+        const Mesh mesh = mesh_of_text("comb.obj", vertices + face + "\n");
+        CHECK(mesh.triangle_count() == static_cast<std::size_t>(corner) - 2);
+        double covered = 0;
+        for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+            const auto at = [&](std::size_t k) {
+                return exact(mesh.position.span()[mesh.indices[3 * t + k]]);
+            };
+            const Double3 twice = cross(at(1) - at(0), at(2) - at(0));
+            // None is turned over.
+            CHECK(twice.x + twice.z >= 0);
+            covered += (twice.x + twice.z) / 2;
+        }
+        CHECK(agree(covered, area, 1e-9));
+    }
+}
+
+TEST_CASE("shape/mesh: what a file has and Candela leaves out is said, once and in one sentence") {
+    const std::string triangle = std::string(k_triangle) + "f 1 2 3\n";
+    CHECK(warnings_about("a.obj", triangle).empty());
+    const auto said = warnings_about("b.obj", "mtllib a.mtl\nl 1 2\nusemtl b\nl 2 3\np 1\n" + triangle);
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].ends_with(
+        "also has 2 lines, points, a material library and a use of a material, which are left out"));
+}
+
+TEST_CASE(
+    "shape/mesh: a closed mesh that is wound inside out is turned round, its normals too, with a warning") {
+    // A tetrahedron, seen from within.
+    const std::string corners = "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\n";
+    const std::string faces = "f 2 1 4\nf 2 3 1\nf 3 4 1\nf 3 2 4\n";
+    const auto said = warnings_about("t.obj", corners + faces);
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].ends_with("is closed but wound inside out, so its triangles are turned round"));
+    const Mesh mesh = mesh_of_text("t.obj", corners + faces);
+    CHECK(mesh.closed);
+    for (std::size_t t = 0; t < 4; ++t)
+        CHECK(dot(mesh.face_normal.span()[t], mesh.position.span()[mesh.indices[3 * t]]) > 0);
+    // Half a tetrahedron has no inside.
+    CHECK(warnings_about("h.obj", corners + "f 2 1 4\n").empty());
+
+    std::string with_normals = corners + "vn -1 -1 -1\nvn 1 1 -1\nvn 1 -1 1\nvn -1 1 1\n";
+    with_normals += "f 2//2 1//1 4//4\nf 2//2 3//3 1//1\nf 3//3 4//4 1//1\nf 3//3 2//2 4//4\n";
+    const Mesh turned = mesh_of_text("n.obj", with_normals);
+    for (std::size_t corner = 0; corner < 12; ++corner)
+        CHECK(dot(normal_of_corner(turned, corner), turned.position.span()[turned.indices[corner]]) > 0);
+    // Normals that were right stay as they are.
+    std::string right = corners + "vn 1 1 1\nvn -1 -1 1\nvn -1 1 -1\nvn 1 -1 -1\n";
+    right += "f 2//2 1//1 4//4\nf 2//2 3//3 1//1\nf 3//3 4//4 1//1\nf 3//3 2//2 4//4\n";
+    const Mesh kept = mesh_of_text("r.obj", right);
+    for (std::size_t corner = 0; corner < 12; ++corner)
+        CHECK(dot(normal_of_corner(kept, corner), kept.position.span()[kept.indices[corner]]) > 0);
+}
+
+TEST_CASE("shape/mesh: a pipe, a folder and a device are refused, and nobody waits for them") {
+    const auto directory = scratch_directory();
+    const auto pipe = directory / "pipe.ply";
+    std::filesystem::remove(pipe);
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    std::filesystem::create_directory(directory / "folder.obj");
+    std::filesystem::remove(directory / "zero.stl");
+    std::filesystem::create_symlink("/dev/zero", directory / "zero.stl");
+    for (const char* const name : {"pipe.ply", "folder.obj", "zero.stl"}) {
+        INFO(name);
+        CHECK_THROWS_WITH(mesh_of(directory / name),
+                          Catch::Matchers::ContainsSubstring("is not a regular file"));
+    }
+    // A buffer that is one, too.
+    std::filesystem::remove(directory / "a.bin");
+    REQUIRE(::mkfifo((directory / "a.bin").c_str(), 0600) == 0);
+    const auto gltf = write_file(directory / "p.gltf", R"({"asset": {"version": "2.0"},
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "a.bin"}]})");
+    CHECK_THROWS_WITH(mesh_of(gltf),
+                      Catch::Matchers::ContainsSubstring("names 'a.bin', which is not a regular file"));
+}
+
+TEST_CASE("shape/mesh: the number of threads changes nothing") {
+    const Mesh sphere = built(*instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{300}}}));
+    const auto file = write_file(scratch_directory() / "many.obj", soup_of(sphere));
+    Mesh by_one, by_four;
+    candela::with_threads(1, [&] { by_one = mesh_of(file, 5); });
+    candela::with_threads(4, [&] { by_four = mesh_of(file, 5); });
+    CHECK(by_one.indices == by_four.indices);
+    CHECK(by_one.position.x == by_four.position.x);
+    CHECK(by_one.closed);
+    CHECK(by_one.triangle_count() == sphere.triangle_count());
 }

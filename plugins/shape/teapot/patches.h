@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-import candela.math;
+#include "candela/math.h"
 
 namespace teapot {
 

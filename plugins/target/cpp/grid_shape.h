@@ -3,7 +3,7 @@
 
 #include <optional>
 
-import candela.target;
+#include "candela/target.h"
 
 namespace candela::cpp_target {
 

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "candela/target.h"
 #include "grid_shape.h"
-
-import candela.target;
 
 namespace candela::cpp_target {
 

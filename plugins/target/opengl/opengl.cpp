@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "candela/color.h"
 #include "candela/embed.h"
 #include "candela/target/arrays.h"
 #include "candela/target/building.h"
@@ -14,8 +15,6 @@
 #include "candela/target/literals.h"
 #include "candela/target/text_template.h"
 #include "candela/target_plugin.h"
-
-import candela.color;
 
 CANDELA_EMBED(candela_opengl_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
 CANDELA_EMBED(candela_opengl_meshes, CANDELA_SOURCE_DIR "/templates/meshes.h");

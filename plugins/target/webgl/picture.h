@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-import candela.target;
+#include "candela/target.h"
 
 namespace candela::webgl_target {
 

@@ -4,6 +4,5 @@
 //     CANDELA_PLUGIN(image, MyFormat, candela::sdk::k_no_fields, {.title = …, .formats = k_formats})
 #pragma once
 
+#include "candela/image.h"
 #include "candela/plugin.h"
-
-import candela.image;

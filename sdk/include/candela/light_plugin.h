@@ -9,10 +9,9 @@
 //     Incident x_illuminate(XLight light, Receiver r, int index) what sample `index` sends, 0 to the count
 #pragma once
 
+#include "candela/light.h"
 #include "candela/multiversion.h"
 #include "candela/plugin.h"
-
-import candela.light;
 
 namespace candela::sdk {
 

@@ -18,11 +18,10 @@
 
 #include "candela/abi.h"
 #include "candela/batch.h"
+#include "candela/color.h"
+#include "candela/descriptor.h"
 #include "candela/kernel.h"
-
-import candela.color;
-import candela.descriptor;
-import candela.math;
+#include "candela/math.h"
 
 namespace candela::sdk {
 
@@ -54,7 +53,10 @@ struct Field {
     void store(Params& params, const ParamValue& value) const {
         if (real != nullptr) params.*real = value.number[0];
         if (integer != nullptr) params.*integer = value.integer;
-        if (vector != nullptr) params.*vector = vec3(value.number[0], value.number[1], value.number[2]);
+        // Otherwise g++ warns of a member beyond the end of a struct that is too small for one.
+        if constexpr (sizeof(Params) >= sizeof(vec3)) {
+            if (vector != nullptr) params.*vector = vec3(value.number[0], value.number[1], value.number[2]);
+        }
         if (text != nullptr) params.*text = value.text;
     }
 

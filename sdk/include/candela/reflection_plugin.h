@@ -8,8 +8,7 @@
 
 #include "candela/multiversion.h"
 #include "candela/plugin.h"
-
-import candela.reflection;
+#include "candela/reflection.h"
 
 namespace candela::sdk {
 

@@ -21,8 +21,7 @@
 
 #include "candela/multiversion.h"
 #include "candela/plugin.h"
-
-import candela.shading;
+#include "candela/shading.h"
 
 namespace candela::sdk {
 

@@ -19,8 +19,7 @@
 
 #include "candela/multiversion.h"
 #include "candela/plugin.h"
-
-import candela.shape;
+#include "candela/shape.h"
 
 namespace candela::sdk {
 

@@ -8,5 +8,4 @@
 #pragma once
 
 #include "candela/plugin.h"
-
-import candela.target;
+#include "candela/target.h"

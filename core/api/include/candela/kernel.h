@@ -3,8 +3,8 @@
 // A kernel is in the common subset of C++ and GLSL: structs of float, int, vec2 and vec3; functions marked
 // KERNEL that take and return values; locals, ternaries, arithmetic; float literals written 0.5f; and the
 // functions below, which have GLSL's names and meanings. Every function is inlined into the batch loop that
-// calls it and written so that clang vectorises that loop: no branches, no calls, no errno, and no results in
-// the denormal range.
+// calls it and written so that the compiler vectorises that loop: no branches, no calls, no errno, and no
+// results in the denormal range.
 //
 // Include kernels inside `namespace candela::kernel { ... }`, where the names resolve to these functions.
 #pragma once
@@ -288,6 +288,17 @@ CANDELA_KERNEL_INLINE vec3 abs(vec3 a) { return vec3(abs(a.x), abs(a.y), abs(a.z
 CANDELA_KERNEL_INLINE vec3 exp(vec3 a) { return vec3(exp(a.x), exp(a.y), exp(a.z)); }
 CANDELA_KERNEL_INLINE vec3 sqrt(vec3 a) { return vec3(sqrt(a.x), sqrt(a.y), sqrt(a.z)); }
 CANDELA_KERNEL_INLINE vec3 pow(vec3 a, vec3 b) { return vec3(pow(a.x, b.x), pow(a.y, b.y), pow(a.z, b.z)); }
+
+// GLSL constructs structs with parentheses, which clang knows from version 16 on. A struct of a kernel's own
+// has to be filled member by member for older ones.
+#if !defined(__cpp_aggregate_paren_init)
+#define Reflected(...) \
+    Reflected { __VA_ARGS__ }
+#define Refracted(...) \
+    Refracted { __VA_ARGS__ }
+#define Incident(...) \
+    Incident { __VA_ARGS__ }
+#endif
 
 #include "candela/prelude.kernel"
 

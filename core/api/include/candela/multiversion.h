@@ -37,7 +37,7 @@
 
 namespace candela {
 
-/// candela::instruction_set() as a number, for headers, which cannot import: 0 baseline, 1 AVX2, 2 AVX-512.
+/// candela::instruction_set() as a number, for headers, which import nothing: 0 baseline, 1 AVX2, 2 AVX-512.
 CANDELA_API int instruction_set_level() noexcept;
 
 /// The versions of one loop. Not inlined, so that each can be found by name in a profile and in the

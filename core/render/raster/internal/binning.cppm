@@ -18,9 +18,6 @@ struct Outside {
     static constexpr std::uint32_t guard = 32, nowhere = 64;
 };
 
-/// The near plane: nothing closer to the eye than a tenth of a millimetre is seen (perspective only).
-inline constexpr float k_near = 1e-4f;
-
 /// Makes the fixed-point triangles of a range of a mesh, and sorts them into tiles. `first_id`: of the mesh's
 /// first triangle.
 void bin_triangles(const ProjectedScene& scene, const Mesh& mesh, std::uint32_t first_vertex,

@@ -33,6 +33,7 @@ const Parameter* parameter_named(std::span<const Parameter> schema, std::string_
 // Values of a set, by name; they must be set.
 float real(const ParamSet& set, std::string_view name);
 int integer(const ParamSet& set, std::string_view name);
+bool boolean(const ParamSet& set, std::string_view name);
 Vec3 vector(const ParamSet& set, std::string_view name);
 const std::string& text(const ParamSet& set, std::string_view name);
 bool has(const ParamSet& set, std::string_view name);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-import candela.math;
+#include "candela/math.h"
 
 namespace candela::target {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-import candela.target;
+#include "candela/target.h"
 
 namespace candela::target {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-import candela.target;
+#include "candela/target.h"
 
 namespace candela::target {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-import candela.target;
+#include "candela/target.h"
 
 namespace candela::target {
 

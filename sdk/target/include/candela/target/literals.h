@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-import candela.color;
-import candela.math;
-import candela.params;
+#include "candela/color.h"
+#include "candela/math.h"
+#include "candela/params.h"
 
 namespace candela::target {
 

@@ -1,3 +1,11 @@
+module;
+
+#include "candela/light.h"
+
 export module candela.light;
 
 import candela.files;
+
+export namespace candela {
+using candela::Light;
+}

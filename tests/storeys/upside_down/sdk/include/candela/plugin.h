@@ -1,4 +1,4 @@
 #pragma once
 
 #include "candela/kernel.h"
-import candela.light;
+#include "candela/light.h"

@@ -1,0 +1,97 @@
+#include "descendants.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+
+#include "directory_entries.h"
+
+namespace {
+
+/// A path under /proc, put together without memory of its own.
+class ProcPath {
+  public:
+    ProcPath& add(const char* text) noexcept {
+        const std::size_t length = std::strlen(text);
+        if (size_ + length < sizeof text_) {
+            std::memcpy(text_ + size_, text, length + 1);
+            size_ += length;
+        }
+        return *this;
+    }
+    ProcPath& add(pid_t number) noexcept {
+        char digits[24] = {};
+        char* at = digits + sizeof digits - 1;
+        do {
+            *--at = static_cast<char>('0' + number % 10);
+            number /= 10;
+        } while (number > 0);
+        return add(at);
+    }
+    const char* c_str() const noexcept { return text_; }
+
+  private:
+    char text_[96] = "/proc/";
+    std::size_t size_ = 6;
+};
+
+/// Calls visit(pid) for those that a thread has started.
+template <class Visit>
+void for_each_child_of_thread(pid_t process, const char* thread, const Visit& visit) noexcept {
+    const int file = ::open(ProcPath().add(process).add("/task/").add(thread).add("/children").c_str(),
+                            O_RDONLY | O_CLOEXEC);
+    if (file < 0) return;
+    pid_t number = 0;
+    char c = 0;
+    while (::read(file, &c, 1) == 1) {
+        if (c >= '0' && c <= '9') {
+            number = 10 * number + (c - '0');
+        } else if (number > 0) {
+            visit(number);
+            number = 0;
+        }
+    }
+    ::close(file);
+}
+
+template <class Visit>
+void for_each_child(pid_t process, const Visit& visit) noexcept {
+    const int threads =
+        ::open(ProcPath().add(process).add("/task").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (threads < 0) return;
+    for_each_entry(threads, [&](const char* thread) { for_each_child_of_thread(process, thread, visit); });
+    ::close(threads);
+}
+
+/// `levels`: as deep as the stack of a signal handler should go.
+void kill_tree(pid_t process, int levels) noexcept {
+    ::kill(process, SIGSTOP);  // or it would start others meanwhile
+    if (levels > 0) for_each_child(process, [&](pid_t child) { kill_tree(child, levels - 1); });
+    ::kill(process, SIGKILL);
+}
+
+}  // namespace
+
+void inherit_orphans() noexcept { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
+
+void end_descendants() noexcept {
+    constexpr int k_levels = 12, k_generations = 20;
+    const pid_t self = ::getpid();
+    // Those that are orphaned by this are children then.
+    for (int i = 0; i < k_generations; ++i) {
+        bool has_children = false;
+        for_each_child(self, [&](pid_t child) {
+            has_children = true;
+            kill_tree(child, k_levels);
+        });
+        if (!has_children) return;
+        while (::waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
+        }
+    }
+}

@@ -1,0 +1,27 @@
+// Folders of files, written whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "temporary_folder.h"
+
+/// Files on their way to a folder. They are written beside their places and are moved there together once all
+/// are whole, so that a full disk or a signal leaves the folder as it was: not there, or with all of its old
+/// files. What else is in it stays. One thread.
+class OutputFolder {
+  public:
+    /// Throws candela::Error (failure) where `target` cannot become a folder.
+    explicit OutputFolder(const std::filesystem::path& target);
+
+    /// `name` is relative, and may be in folders of its own. Throws candela::Error (failure).
+    void write(const std::filesystem::path& name, std::string_view content);
+    /// Moves all of them. Call it once, after the last write(). Throws candela::Error (failure).
+    void finish();
+
+  private:
+    std::filesystem::path target_;
+    TemporaryFolder beside_;
+    std::vector<std::filesystem::path> names_;
+};

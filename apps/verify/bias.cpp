@@ -1,0 +1,174 @@
+#include "verify/bias.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace verify {
+
+namespace {
+
+constexpr double k_undecided = 0.01;  // levels from being rounded the other way
+constexpr double k_white = 255;
+constexpr std::size_t k_region = 16;           // pixels each way
+constexpr std::size_t k_least_of_region = 64;  // values; the mean of fewer is mostly noise
+
+constexpr int k_causes = 5;  // as Bias has them: gain, right, down, zoom, roll
+using Causes = Eigen::Matrix<double, k_causes, 1>;
+
+/// Finds the causes c that leave the least of differences d = effects . c, and their standard errors, which
+/// hold also where differences are not alike: White (1980), A heteroskedasticity-consistent covariance matrix
+/// estimator.
+class Fit {
+  public:
+    void add(const Causes& effects, double difference) {
+        normal_.selfadjointView<Eigen::Lower>().rankUpdate(effects);
+        if (difference == 0) return;
+        right_side_ += difference * effects;
+        noise_.selfadjointView<Eigen::Lower>().rankUpdate(effects, difference * difference);
+    }
+
+    void solve() {
+        // What has no effect on the picture, such as a displacement of one colour, is 0.
+        const Matrix normal = normal_.selfadjointView<Eigen::Lower>(),
+                     noise = noise_.selfadjointView<Eigen::Lower>();
+        const Causes scale =
+            normal.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
+        const Matrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+        const Matrix inverse = scale.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse() *
+                               scale.asDiagonal();
+        values_ = inverse * right_side_;
+        errors_ = (inverse * noise * inverse).diagonal().cwiseMax(0).cwiseSqrt();
+    }
+    const Causes& values() const { return values_; }
+    Estimate estimate(int cause) const {
+        return {.value = values_[cause],
+                .deviations = errors_[cause] > 0 ? std::abs(values_[cause]) / errors_[cause] : 0};
+    }
+
+  private:
+    using Matrix = Eigen::Matrix<double, k_causes, k_causes>;
+    Matrix normal_ = Matrix::Zero(), noise_ = Matrix::Zero();
+    Causes right_side_ = Causes::Zero(), values_ = Causes::Zero(), errors_ = Causes::Zero();
+};
+
+/// By how many levels a value grows where intensity does, in relation to it: dL / d ln I.
+double effect_of_gain(double level, candela::ColorEncoding encoding) {
+    if (level >= k_white) return 0;
+    constexpr double k_linear = 12.92 * 0.0031308 * k_white, k_offset = 0.055 * k_white, k_exponent = 1 / 2.4;
+    if (encoding == candela::ColorEncoding::none || level <= k_linear) return level;
+    return k_exponent * (level + k_offset);
+}
+
+/// What each cause, of size 1, does to the i-th value.
+Causes effects_on(const Expectation& expected, std::size_t i) {
+    const auto width = static_cast<std::size_t>(expected.width);
+    const double x = static_cast<double>(i / 3 % width) + 0.5 - 0.5 * expected.width;
+    const double y = static_cast<double>(i / 3 / width) + 0.5 - 0.5 * expected.height;
+    // What is displaced to the right shows what lies to the left.
+    const double right = -static_cast<double>(expected.sensitivity.right[i]);
+    const double down = -static_cast<double>(expected.sensitivity.down[i]);
+    Causes effects;
+    effects << effect_of_gain(static_cast<double>(expected.levels[i]), expected.encoding), right, down,
+        right * x + down * y, down * x - right * y;
+    return effects;
+}
+
+/// A mean of differences, and how sure it is.
+class Mean {
+  public:
+    void add(double difference) {
+        sum_ += difference;
+        squares_ += difference * difference;
+        ++count_;
+    }
+    std::size_t count() const { return count_; }
+    Estimate estimate() const {
+        if (squares_ == 0) return {};
+        return {.value = sum_ / static_cast<double>(count_),
+                .deviations = std::abs(sum_) / std::sqrt(squares_)};
+    }
+
+  private:
+    double sum_ = 0, squares_ = 0;
+    std::size_t count_ = 0;
+};
+
+/// Whether a program that is right has no choice but to round as Candela does.
+bool is_decided(float level) {
+    const double fraction = static_cast<double>(level) - std::floor(static_cast<double>(level));
+    return std::abs(fraction - 0.5) > k_undecided;
+}
+
+}  // namespace
+
+Bias bias_of(const Expectation& expected, const std::vector<std::uint8_t>& program) {
+    Bias bias;
+    const auto for_each_decided = [&](const auto& visit) {
+        for (std::size_t i = 0; i < expected.levels.size(); ++i) {
+            if (!expected.shown[i / 3] || expected.sensitivity.edges[i / 3] ||
+                !is_decided(expected.levels[i]))
+                continue;
+            visit(i, static_cast<double>(program[i]) -
+                         std::floor(static_cast<double>(expected.levels[i]) + 0.5));
+        }
+    };
+    for (std::size_t pixel = 0; pixel < expected.pixels(); ++pixel) {
+        if (!expected.shown[pixel]) continue;
+        ++bias.shown;
+        if (!expected.sensitivity.edges[pixel]) ++bias.interior;
+    }
+
+    Fit fit;
+    for_each_decided([&](std::size_t i, double difference) { fit.add(effects_on(expected, i), difference); });
+    fit.solve();
+    Estimate* const estimates[k_causes] = {&bias.gain, &bias.right, &bias.down, &bias.zoom, &bias.roll};
+    for (int cause = 0; cause < k_causes; ++cause) *estimates[cause] = fit.estimate(cause);
+
+    const auto columns = static_cast<std::size_t>(expected.width);
+    const std::size_t across = (columns + k_region - 1) / k_region;
+    const std::size_t rows = (static_cast<std::size_t>(expected.height) + k_region - 1) / k_region;
+    std::vector<Mean> regions(across * rows);
+    for_each_decided([&](std::size_t i, double difference) {
+        const std::size_t x = i / 3 % columns, y = i / 3 / columns;
+        regions[y / k_region * across + x / k_region].add(difference -
+                                                          effects_on(expected, i).dot(fit.values()));
+    });
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        if (regions[i].count() < k_least_of_region) continue;
+        const Estimate mean = regions[i].estimate();
+        if (std::abs(mean.value) <= std::abs(bias.region.value)) continue;
+        bias.region = mean;
+        bias.region_x = k_region * static_cast<int>(i % across);
+        bias.region_y = k_region * static_cast<int>(i / across);
+    }
+    return bias;
+}
+
+RgbPicture read_ppm(const std::filesystem::path& file) {
+    const auto content = candela::read_text_file(file);
+    RgbPicture picture;
+    std::string magic;
+    int largest = 0;
+    std::istringstream header(content.value_or(""));
+    header >> magic >> picture.width >> picture.height >> largest;
+    const auto size = 3 * static_cast<std::size_t>(std::max(picture.width, 0)) *
+                      static_cast<std::size_t>(std::max(picture.height, 0));
+    const auto begin = static_cast<std::size_t>(std::max<std::streamoff>(header.tellg(), 0)) + 1;
+    if (!header || magic != "P6" || largest != 255 || !content || content->size() != begin + size)
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' is not the picture that was written there", file.string()));
+    picture.bytes.assign(content->begin() + static_cast<std::ptrdiff_t>(begin), content->end());
+    return picture;
+}
+
+}  // namespace verify

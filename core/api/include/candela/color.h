@@ -1,0 +1,40 @@
+// Colours, and how they are encoded in scenes and pictures.
+#pragma once
+
+#include "candela/api.h"
+#include "candela/math.h"
+
+namespace candela {
+
+/// A colour or an intensity, one value per channel. Scene-linear unless colour management is off.
+struct Rgb {
+    float r = 0;
+    float g = 0;
+    float b = 0;
+
+    friend constexpr bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+constexpr Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+constexpr Rgb operator*(float s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
+
+/// How scene colours are read and 8-bit pictures are written (`color_management` in the scene file).
+enum class ColorEncoding : int {
+    srgb,  // decoded before lighting, encoded again in 8-bit pictures
+    none,  // used as they are
+};
+
+/// How an image format stores a channel.
+enum class PixelType : int {
+    byte,  // 8 bits: clamped, and encoded as color_management says
+    real,  // 32-bit float: the computed intensities, unclamped
+};
+
+/// The sRGB transfer functions (IEC 61966-2-1:1999): encoded to linear and back, per channel, 0 to 1.
+CANDELA_API float srgb_to_linear(float encoded) noexcept;
+CANDELA_API float linear_to_srgb(float linear) noexcept;
+
+/// A scene colour 0-255 as intensities 0 to 1; 256 counts as 255.
+CANDELA_API Rgb decoded(Vec3 color, ColorEncoding encoding) noexcept;
+
+}  // namespace candela

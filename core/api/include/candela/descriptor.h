@@ -1,0 +1,85 @@
+// What a plugin says about itself, and the base class of everything it creates.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "candela/api.h"
+#include "candela/color.h"
+#include "candela/params.h"
+
+namespace candela {
+
+enum class PluginKind : int { light, reflection, shading, shape, image, target };
+
+inline constexpr std::array k_plugin_kinds = {PluginKind::light, PluginKind::reflection, PluginKind::shading,
+                                              PluginKind::shape, PluginKind::image,      PluginKind::target};
+
+CANDELA_API std::string_view name_of(PluginKind kind) noexcept;
+CANDELA_API std::optional<PluginKind> plugin_kind_named(std::string_view name) noexcept;
+
+/// One set of parameter values of a plugin: a light, a material, a shape. Created by the plugin and owned by
+/// the host, which deletes it. Immutable after construction: every member function of the kinds is const and
+/// may be called from many threads at once.
+class CANDELA_API Instance {
+  public:
+    Instance() = default;
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+    virtual ~Instance();
+};
+
+/// A fact that a plugin declares, for listings and the conformance kit: {"reciprocal", "true"}.
+struct Property {
+    const char* name = "";
+    const char* value = "true";
+};
+
+/// A file format that an image plugin writes, and optionally reads.
+struct FileFormat {
+    const char* extension = "";  // lower case, without the dot
+    const char* title = "";
+    PixelType pixels = PixelType::byte;
+    bool reads = false;
+};
+
+/// A function of a kernel that programs call: <prefix>_<name>.
+struct KernelFunction {
+    const char* name = "";          // "reflect", "corner_weight"
+    bool takes_parameters = false;  // its first argument is the struct of the parameters
+};
+
+/// The mathematics of a plugin as text, for programs that are generated from it.
+struct KernelText {
+    const char* text = nullptr;    // the whole .kernel file; null if there is none
+    const char* prefix = nullptr;  // its functions are called <prefix>_reflect, <prefix>_normal, …
+    const char* parameters =
+        "";  // the struct that they take first; its members are named after the parameters
+    std::span<const KernelFunction> functions{};
+    std::span<const std::size_t> members{};  // the struct's members in their order: indices of parameters
+};
+
+/// Everything about one plugin. Plain data with static lifetime in the plugin's library.
+struct PluginDescriptor {
+    PluginKind kind = PluginKind::light;
+    const char* name = "";       // "half-lambert"; lower case, digits, hyphens
+    const char* version = "";    // of the plugin
+    const char* title = "";      // "Half Lambert"
+    const char* summary = "";    // one sentence
+    const char* formula = "";    // as text; lines separated by \n
+    const char* reference = "";  // author, year, title; empty if there is none
+    std::span<const ParamSpec> parameters{};
+    std::span<const RelationSpec> relations{};
+    std::span<const Property> properties{};
+    std::span<const FileFormat> formats{};  // image plugins only
+    KernelText kernel{};
+
+    /// Creates an instance of the kind's interface class. `values` are in the order of `parameters`. May
+    /// throw std::exception for bad files or values. Any thread.
+    Instance* (*create)(std::span<const ParamValue> values) = nullptr;
+};
+
+}  // namespace candela

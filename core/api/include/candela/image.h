@@ -1,0 +1,56 @@
+// The interface of image-format plugins.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "candela/api.h"
+#include "candela/descriptor.h"
+#include "candela/math.h"
+
+namespace candela {
+
+/// A finished picture: red, green, blue interleaved, rows from the top, no padding.
+struct PictureView {
+    int width = 0;
+    int height = 0;
+    PixelType pixels = PixelType::byte;            // as the descriptor asks: `bytes` or `reals` is filled
+    ColorEncoding encoding = ColorEncoding::srgb;  // how `bytes` are encoded; `reals` are linear if srgb
+    std::span<const std::uint8_t> bytes{};
+    std::span<const float> reals{};
+};
+
+/// Receives the bytes of the file that an image plugin writes, in order. Owned by the host, which writes the
+/// file atomically.
+class CANDELA_API ByteSink {
+  public:
+    virtual ~ByteSink();
+    /// May throw, for instance when the disk is full.
+    virtual void write(std::span<const std::byte> bytes) = 0;
+};
+
+/// Receives the picture that an image plugin reads. Owned by the host.
+class CANDELA_API PictureSink {
+  public:
+    virtual ~PictureSink();
+    /// Returns memory for the picture: red, green, blue interleaved, rows from the top, no padding.
+    /// `is_encoded`: the values are sRGB-encoded, 0 to 1; otherwise they are intensities. May throw if the
+    /// picture is too large.
+    virtual std::span<float> allocate(int width, int height, bool is_encoded) = 0;
+};
+
+/// Writes, and optionally reads, one or more file formats. Any thread.
+class CANDELA_API ImageFormat : public Instance {
+  public:
+    ~ImageFormat() override;
+
+    /// Writes `picture` in the format of `extension`, one of the descriptor's. May throw std::exception.
+    virtual void write(const PictureView& picture, const char* extension, ByteSink& sink) const = 0;
+
+    /// Reads the picture at `path`, in a format that the descriptor declares as read. May throw
+    /// std::exception.
+    virtual void read(const char* path, PictureSink& sink) const;
+};
+
+}  // namespace candela

@@ -1,0 +1,47 @@
+// The interface of light plugins.
+#pragma once
+
+#include <cstddef>
+
+#include "candela/api.h"
+#include "candela/descriptor.h"
+#include "candela/math.h"
+
+namespace candela {
+
+/// Points that a light illuminates. World space, metres; normals are unit vectors.
+struct ReceiverBatch {
+    std::size_t count = 0;
+    ConstVec3Span position;
+    ConstVec3Span normal;
+};
+
+/// Where one sample of a light comes from, and what it sends to each receiver; written by the light.
+struct IncidentBatch {
+    Vec3Span to_light;  // unit vectors from the receiver towards the light
+    Vec3Span diffuse;   // intensity per channel, >= 0, attenuated
+    Vec3Span specular;  // the same for highlights
+};
+
+/// A light. Any thread, any batch size from 1; arrays need no alignment and do not alias. All intensities are
+/// >= 0 and finite, even where a receiver coincides with the light.
+class CANDELA_API Light : public Instance {
+  public:
+    ~Light() override;
+
+    /// From how many directions the light reaches a point: 0 for ambient light, 1 for a point light, more for
+    /// a source modelled by several points (RE: "we model a distributed source by using a number of point
+    /// light sources").
+    virtual int sample_count() const noexcept = 0;
+
+    /// Writes what sample `sample`, 0 <= sample < sample_count(), sends. The samples of a light add up.
+    virtual void illuminate(int sample, const ReceiverBatch& receivers, const IncidentBatch& incident) const;
+
+    /// Whether the light also has a part that comes from everywhere (CA DD3).
+    virtual bool has_ambient() const noexcept = 0;
+
+    /// Writes the intensity of the ambient part, per channel. Never attenuated.
+    virtual void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const;
+};
+
+}  // namespace candela

@@ -1,0 +1,68 @@
+// Parameters as a plugin declares them (`ParamSpec`) and as it receives their values (`ParamValue`): plain
+// data that crosses the plugin's boundary.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include "candela/api.h"
+
+namespace candela {
+
+enum class ParamType : int {
+    real,       // one number
+    integer,    // one integer
+    boolean,    // true or false
+    choice,     // one of the listed words
+    text,       // any text
+    file,       // a path, relative to the file that names it
+    vector,     // three numbers
+    point,      // three numbers, a position in the scene
+    direction,  // three numbers, not all zero; received as a unit vector
+    color,      // three integers 0-255; received as 0 to 1, decoded according to the image's color_management
+    rgb,        // a number, or one per channel
+};
+
+/// "real", "integer", ...
+CANDELA_API std::string_view name_of(ParamType type) noexcept;
+
+/// A value as a plugin receives it; the type determines which member counts. Angles (unit "deg") are in
+/// radians.
+struct ParamValue {
+    float number[3] = {0, 0, 0};  // real (the first), vector, point, direction, color, rgb
+    std::int32_t integer = 0;     // integer, boolean, the index of a choice
+    const char* text = nullptr;   // text, file (an absolute path); valid while the instance is being created
+};
+
+inline constexpr float k_no_minimum = -std::numeric_limits<float>::infinity();
+inline constexpr float k_no_maximum = std::numeric_limits<float>::infinity();
+
+/// One parameter as a plugin declares it. Plain data with static lifetime; crosses the plugin's boundary.
+struct ParamSpec {
+    const char* name = "";
+    ParamType type = ParamType::real;
+    const char* unit = "";       // "m", "deg", or empty
+    const char* meaning = "";    // one sentence
+    bool required = false;       // no default: the scene must set it
+    ParamValue default_value{};  // as a person writes it: degrees, colours 0-255
+    float minimum = k_no_minimum;
+    float maximum = k_no_maximum;
+    bool minimum_excluded = false;
+    bool maximum_excluded = false;
+    std::span<const char* const> choices{};  // of a choice; of an integer if only some values are allowed
+};
+
+enum class RelationType : int { less, less_or_equal, sum_at_most_one };
+
+/// A constraint between two parameters of one plugin; for rgb parameters, in each channel.
+struct RelationSpec {
+    RelationType type = RelationType::less_or_equal;
+    const char* left = "";
+    const char* right = "";
+    bool only_warns = false;
+    const char* meaning = "";  // why, as the end of the sentence "... because "
+};
+
+}  // namespace candela

@@ -1,0 +1,41 @@
+// Which corners of triangles meet at one place.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "surface.h"
+
+namespace mesh {
+
+/// The corners of a surface's triangles, sorted by place. A place is a position, compared bit by bit; its
+/// number is that of the first vertex there.
+class Corners {
+  public:
+    explicit Corners(const Surface& surface);
+
+    /// Per vertex.
+    std::uint32_t place(std::uint32_t vertex) const { return place_[vertex]; }
+    std::size_t places() const { return place_.size(); }
+    /// Positions in `surface.indices`, in rising order; empty for a vertex that is not the first at its
+    /// place.
+    std::span<const std::uint32_t> at(std::size_t place) const {
+        return std::span(corners_).subspan(begin_[place], begin_[place + 1] - begin_[place]);
+    }
+
+  private:
+    std::vector<std::uint32_t> place_;
+    Array<std::uint32_t> begin_;
+    Array<std::uint32_t> corners_;
+};
+
+/// The number of edges that are not shared by two triangles that agree on which side is outside, as the
+/// renderer counts them.
+std::uint64_t open_edges(const Surface& surface, const Corners& corners);
+
+/// If `surface`, which is closed, encloses a negative volume: turns its triangles round, and its normals
+/// where they were meant for the other side, says so in `surface.notes`, and returns true. Its corners then
+/// lie elsewhere.
+bool turn_outwards(Surface& surface);
+
+}  // namespace mesh

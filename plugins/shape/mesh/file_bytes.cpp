@@ -1,0 +1,73 @@
+#include "file_bytes.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+import candela.parallel;
+
+namespace mesh {
+
+namespace {
+
+class Descriptor {
+  public:
+    explicit Descriptor(const std::filesystem::path& file)
+        : number_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+        if (number_ < 0) throw BadFile(fmt::format("cannot be read: {}", reason()));
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() { ::close(number_); }
+
+    std::size_t regular_size() const {
+        struct stat status{};
+        if (::fstat(number_, &status) != 0) throw BadFile(fmt::format("cannot be read: {}", reason()));
+        if (!S_ISREG(status.st_mode)) throw BadFile("is not a regular file");
+        return static_cast<std::size_t>(status.st_size);
+    }
+
+    void read(char* to, std::size_t begin, std::size_t end) const {
+        while (begin < end) {
+            const ::ssize_t some = ::pread(number_, to + begin, end - begin, static_cast<::off_t>(begin));
+            if (some < 0 && errno == EINTR) continue;
+            if (some < 0) throw BadFile(fmt::format("cannot be read: {}", reason()));
+            if (some == 0) throw BadFile("became shorter while it was read");
+            begin += static_cast<std::size_t>(some);
+        }
+    }
+
+    static std::string reason() { return std::generic_category().message(errno); }
+
+  private:
+    int number_;
+};
+
+}  // namespace
+
+Array<char> read_file(const std::filesystem::path& file) {
+    const Descriptor descriptor(file);
+    Array<char> bytes(descriptor.regular_size());
+    constexpr std::size_t k_stretch = std::size_t{4} << 20;
+    candela::parallel_for(bytes.size(), k_stretch, [&](std::size_t begin, std::size_t end) {
+        descriptor.read(bytes.data(), begin, end);
+    });
+    return bytes;
+}
+
+std::filesystem::path require_below(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    const std::filesystem::path root = std::filesystem::weakly_canonical(folder.empty() ? "." : folder);
+    std::filesystem::path real = std::filesystem::weakly_canonical(folder / file);
+    const auto [end, unused] = std::ranges::mismatch(root, real);
+    if (end != root.end())
+        throw BadFile(fmt::format("names '{}', which is not in its own folder or below", file.string()));
+    return real;
+}
+
+}  // namespace mesh

@@ -1,0 +1,41 @@
+// Numbers out of the accessors of a glTF file.
+#pragma once
+
+#include <cstdint>
+
+#include "gltf_document.h"
+#include "surface.h"
+
+namespace mesh::gltf {
+
+/// An accessor whose bytes have been found to be there: read() cannot go wrong.
+class Accessor {
+  public:
+    /// Throws BadFile unless accessor `index` has `components` numbers per element (1, 2 or 3), in views that
+    /// lie within their buffers.
+    Accessor(const Document& document, int index, int components);
+
+    std::size_t count() const { return count_; }
+
+    /// Component `c` of all elements.
+    Array<double> read(int c) const;
+
+  private:
+    struct Bytes {
+        const unsigned char* first = nullptr;  // null: all zero
+        std::size_t stride = 0;
+        int component_type = 0;
+    };
+    Bytes bytes(int view, std::size_t offset, int component_type, int components, std::size_t count) const;
+    double value(const Bytes& bytes, std::size_t i, int c) const;
+
+    const tinygltf::Model& model_;
+    int index_;
+    std::size_t count_ = 0;
+    bool normalized_ = false;
+    Bytes dense_;
+    std::size_t sparse_count_ = 0;
+    Bytes sparse_indices_, sparse_values_;
+};
+
+}  // namespace mesh::gltf

@@ -1,0 +1,277 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <boost/unordered/unordered_flat_map.hpp>
+#include <map>
+
+#include "polygons.h"
+#include "readers.h"
+#include "text_scanner.h"
+
+using candela::Vec3;
+
+namespace mesh {
+
+namespace {
+
+constexpr std::uint32_t k_none = 0xffff'ffffu;
+
+/// What a corner names: a vertex, and perhaps texture coordinates and a normal.
+using Corner = std::array<std::uint32_t, 3>;
+
+struct Hash {
+    std::size_t operator()(const Corner& corner) const {
+        std::uint64_t h = 0x9e3779b97f4a7c15u;
+        for (const std::uint32_t part : corner) h = (h ^ part) * 0xff51afd7ed558ccdu, h ^= h >> 32;
+        return h;
+    }
+};
+
+class Reader {
+  public:
+    explicit Reader(std::string_view text) : scanner_(text) {}
+
+    Surface read() {
+        for (; !scanner_.at_end(); scanner_.next_line()) {
+            const std::string_view word = next();
+            if (!word.empty()) statement(word);
+        }
+        require_listed(highest_[0], position_.size(), "vertex", "vertices");
+        require_listed(highest_[1], u_.size(), "texture coordinate", "texture coordinates");
+        require_listed(highest_[2], normal_.size(), "normal", "normals");
+        make_vertices();
+        if (has_smoothing_) {
+            triangulate(polygons_, smoothing_, surface_);
+        } else {
+            triangulate(polygons_, {}, surface_);
+        }
+        note_losses();
+        return std::move(surface_);
+    }
+
+  private:
+    // ---- statements
+
+    void statement(std::string_view keyword) {
+        if (keyword == "v") {
+            vertex();
+        } else if (keyword == "vn") {
+            normal_.push_back({coordinate(), coordinate(), coordinate()});
+        } else if (keyword == "vt") {
+            u_.push_back(coordinate());
+            const std::string_view word = next();
+            v_.push_back(word.empty() ? 0.0f : number(word));
+        } else if (keyword == "f" || keyword == "fo") {
+            face();
+        } else if (keyword == "s") {
+            smoothing_group();
+        } else if (keyword == "mtllib" || keyword == "usemtl") {
+            if (keyword == "usemtl") ++losses_["use of a material"];
+            if (keyword == "mtllib") ++losses_["material library"];
+        } else if (keyword == "l") {
+            ++losses_["line"];
+        } else if (keyword == "p") {
+            ++losses_["list of points"];
+        } else if (keyword == "curv" || keyword == "curv2" || keyword == "surf") {
+            ++losses_["free-form curve or surface"];
+        } else if (keyword != "o" && keyword != "g") {
+            other(keyword);
+        }
+    }
+
+    void vertex() {
+        std::array<float, 8> values{};
+        std::size_t count = 0;
+        for (std::string_view word = next(); !word.empty() && count < values.size(); word = next())
+            values[count++] = number(word);
+        if (count < 3) refuse("a vertex has three coordinates");
+        position_.push_back({values[0], values[1], values[2]});
+        // A fourth number is the weight that a rational curve gives the vertex; more are its colour.
+        if (count == 4 && values[3] != 1) ++losses_["weight of a vertex"];
+        if (count > 4) has_colors_ = true;
+    }
+
+    void face() {
+        for (std::string_view word = next(); !word.empty(); word = next()) {
+            Corner corner = {k_none, k_none, k_none};
+            const std::array<std::size_t, 3> listed_so_far = {position_.size(), u_.size(), normal_.size()};
+            std::string_view rest = word;
+            for (std::size_t part = 0; part < 3; ++part) {
+                const std::size_t slash = rest.find('/');
+                const std::string_view index = rest.substr(0, slash);
+                if (!index.empty()) {
+                    corner[part] = index_from(index, listed_so_far[part], part);
+                } else if (part == 0) {
+                    refuse(in_quotes(word) + " names no vertex");
+                }
+                if (slash == std::string_view::npos) break;
+                if (part == 2) refuse(in_quotes(word) + " has more than three parts");
+                rest.remove_prefix(slash + 1);
+            }
+            corners_.push_back(corner);
+            polygons_.corners.push_back(0);
+        }
+        polygons_.end_face();
+        corners_.resize(polygons_.corners.size());
+        if (smoothing_.size() < polygons_.ends.size()) smoothing_.push_back(group_);
+    }
+
+    /// Counts from 1, or backwards from the last one listed so far.
+    std::uint32_t index_from(std::string_view word, std::size_t count, std::size_t part) {
+        const auto index = integer_from(word);
+        if (!index || *index == 0)
+            refuse(in_quotes(word) + " is no index; they count from 1, or backwards from -1");
+        const std::int64_t at = *index > 0 ? *index - 1 : static_cast<std::int64_t>(count) + *index;
+        if (at < 0) refuse(fmt::format("{} goes back beyond the first of {}", in_quotes(word), count));
+        if (at >= std::int64_t{k_none}) refuse(in_quotes(word) + " is too large");
+        // It may be listed further down.
+        const auto result = static_cast<std::uint32_t>(at);
+        Highest& highest = highest_[part];
+        if (highest.line == 0 || result > highest.index) highest = {result, scanner_.line()};
+        return result;
+    }
+
+    void smoothing_group() {
+        const std::string_view word = next();
+        has_smoothing_ = true;
+        if (word == "off" || word.empty()) {
+            group_ = k_flat;
+            return;
+        }
+        const auto group = word == "on" ? std::optional<std::int64_t>(1) : integer_from(word);
+        if (!group || *group < 0 || *group >= std::int64_t{k_by_angle})
+            refuse(in_quotes(word) + " is no smoothing group; it is 'off' or a number");
+        group_ = static_cast<std::uint32_t>(*group);
+    }
+
+    void other(std::string_view keyword) {
+        static constexpr std::array<std::string_view, 26> k_silent = {
+            "vp",       "cstype",   "deg",  "bmat",   "step",         "parm",       "trim",
+            "hole",     "scrv",     "sp",   "end",    "con",          "mg",         "bevel",
+            "c_interp", "d_interp", "lod",  "maplib", "usemap",       "shadow_obj", "trace_obj",
+            "ctech",    "stech",    "call", "csh",    "shadow_object"};
+        for (const std::string_view known : k_silent) {
+            if (keyword != known) continue;
+            ++losses_[fmt::format("statement '{}'", known)];
+            return;
+        }
+        // Whatever this file is, it is not this.
+        if (unknown_++ == 0) first_unknown_ = in_quotes(keyword);
+    }
+
+    // ---- words
+
+    /// The next word of a statement, which a backslash continues on the next line; empty at its end.
+    std::string_view next() {
+        for (;;) {
+            const std::string_view word = scanner_.word_on_line();
+            if (word.starts_with('#')) return {};
+            if (!word.ends_with('\\')) return word;
+            scanner_.next_line();
+            if (word.size() > 1) return word.substr(0, word.size() - 1);
+        }
+    }
+
+    float coordinate() {
+        const std::string_view word = next();
+        if (word.empty()) refuse("a number is missing");
+        return number(word);
+    }
+
+    float number(std::string_view word) const {
+        const auto value = number_from(word);
+        if (!value) refuse(in_quotes(word) + " is no number");
+        return static_cast<float>(*value);
+    }
+
+    [[noreturn]] void refuse(const std::string& problem) const {
+        throw BadFile(fmt::format("line {}: {}", scanner_.line(), problem));
+    }
+
+    // ---- the whole
+
+    struct Highest {
+        std::uint32_t index = 0;
+        std::size_t line = 0;  // 0: none
+    };
+
+    static void require_listed(const Highest& highest, std::size_t count, std::string_view what,
+                               std::string_view plural) {
+        if (highest.line == 0 || highest.index < count) return;
+        throw BadFile(fmt::format("line {}: a face has {} {}, but there are only {} {}", highest.line, what,
+                                  std::uint64_t{highest.index} + 1, count, plural));
+    }
+
+    /// A vertex for each combination that corners name.
+    void make_vertices() {
+        const bool has_uv = highest_[1].line != 0, has_normals = highest_[2].line != 0;
+        if (!has_uv && !has_normals) {
+            for (std::size_t i = 0; i < corners_.size(); ++i) polygons_.corners[i] = corners_[i][0];
+            surface_.position = std::move(position_);
+            return;
+        }
+        boost::unordered_flat_map<Corner, std::uint32_t, Hash> vertex_of;
+        vertex_of.reserve(position_.size());
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            const Corner& corner = corners_[i];
+            const auto [found, is_new] =
+                vertex_of.try_emplace(corner, static_cast<std::uint32_t>(surface_.position.size()));
+            polygons_.corners[i] = found->second;
+            if (!is_new) continue;
+            surface_.position.push_back(position_.span()[corner[0]]);
+            if (has_uv) {
+                surface_.u.push_back(corner[1] == k_none ? 0.0f : u_[corner[1]]);
+                surface_.v.push_back(corner[1] == k_none ? 0.0f : v_[corner[1]]);
+            }
+            if (has_normals)
+                surface_.normal.push_back(corner[2] == k_none ? Vec3{} : normal_.span()[corner[2]]);
+        }
+    }
+
+    void note_losses() {
+        if (unknown_ > 0 && polygons_.ends.empty())
+            throw BadFile(fmt::format("is no OBJ file: {} begins no statement", first_unknown_));
+        if (unknown_ > 0)
+            surface_.losses.push_back(fmt::format("{} that no OBJ file has, such as {}",
+                                                  counted(unknown_, "statement"), first_unknown_));
+        if (has_colors_) surface_.losses.push_back("vertex colours");
+        for (const auto& [what, count] : losses_) {
+            if (what == "use of a material") {
+                surface_.losses.push_back(count == 1 ? "a use of a material"
+                                                     : fmt::format("{} uses of materials", count));
+            } else if (what == "weight of a vertex") {
+                surface_.losses.push_back("weights of vertices");
+            } else if (what == "material library") {
+                surface_.losses.push_back(count == 1 ? "a material library"
+                                                     : fmt::format("{} material libraries", count));
+            } else if (what == "list of points") {
+                surface_.losses.push_back("points");
+            } else if (what == "free-form curve or surface") {
+                surface_.losses.push_back("free-form curves and surfaces");
+            } else {
+                surface_.losses.push_back(counted(count, what));
+            }
+        }
+    }
+
+    TextScanner scanner_;
+    Surface surface_;
+    Vectors position_, normal_;
+    Array<float> u_, v_;
+    std::vector<Corner> corners_;
+    Polygons polygons_;                     // their corners are filled in at the end
+    std::vector<std::uint32_t> smoothing_;  // per face
+    std::array<Highest, 3> highest_{};
+    std::uint32_t group_ = k_flat;
+    bool has_smoothing_ = false;
+    bool has_colors_ = false;
+    std::map<std::string, std::uint64_t> losses_;
+    std::uint64_t unknown_ = 0;
+    std::string first_unknown_;
+};
+
+}  // namespace
+
+Surface read_obj(std::string_view text) { return Reader(text).read(); }
+
+}  // namespace mesh

@@ -1,0 +1,24 @@
+// One function per format: from bytes to a surface. All throw BadFile for what is no such file, check counts
+// against the bytes there are before they allocate, and have no state.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "surface.h"
+
+namespace mesh {
+
+/// The Polygon File Format, text or binary (Turk 1994).
+Surface read_ply(std::string_view bytes);
+
+/// Stereolithography, text or binary (3D Systems 1989).
+Surface read_stl(std::string_view bytes);
+
+/// Wavefront OBJ: polygons, no curves. Material libraries are not opened.
+Surface read_obj(std::string_view text);
+
+/// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder` or below.
+Surface read_gltf(std::string_view bytes, const std::filesystem::path& folder);
+
+}  // namespace mesh

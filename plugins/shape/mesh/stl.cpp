@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "readers.h"
+#include "text_scanner.h"
+
+import candela.parallel;
+
+using candela::Vec3;
+
+namespace mesh {
+
+namespace {
+
+constexpr std::size_t k_header = 84;  // 80 bytes of anything, and the number of facets
+constexpr std::size_t k_facet = 50;   // twelve floats and two bytes of attributes
+
+template <class T>
+T little_endian(const char* from) {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), from, sizeof(T));
+    if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
+    return std::bit_cast<T>(bytes);
+}
+
+Vec3 vector_at(const char* from) {
+    return {little_endian<float>(from), little_endian<float>(from + 4), little_endian<float>(from + 8)};
+}
+
+bool is_word(std::string_view word, std::string_view lower_case) {
+    return std::ranges::equal(
+        word, lower_case, [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
+/// Of a text file every byte is text, and of a binary one the size is known: neither the word "solid", with
+/// which binary files begin as well, nor the size alone tells.
+bool is_binary(std::string_view bytes) {
+    if (bytes.size() >= k_header) {
+        const std::uint64_t facets = little_endian<std::uint32_t>(bytes.data() + 80);
+        if (k_header + facets * k_facet == bytes.size()) return true;
+    }
+    TextScanner scanner(bytes.substr(0, 4096));
+    if (!is_word(scanner.word(), "solid")) return true;
+    return bytes.substr(0, 4096).find('\0') != std::string_view::npos;
+}
+
+Surface read_binary(std::string_view bytes) {
+    if (bytes.size() < k_header)
+        throw BadFile("is no STL file: it neither begins with 'solid' nor has 84 bytes");
+    const std::uint64_t facets = little_endian<std::uint32_t>(bytes.data() + 80);
+    const std::uint64_t room = (bytes.size() - k_header) / k_facet;
+    if (facets > room) {
+        throw BadFile(fmt::format("declares {} facets of {} bytes, but only {} bytes are left", facets,
+                                  k_facet, bytes.size() - k_header));
+    }
+    Surface surface;
+    surface.position.resize(3 * facets);
+    surface.facet_normal.resize(facets);
+    surface.indices.resize(3 * facets);
+    std::atomic<bool> has_attributes = false;
+    candela::parallel_for(facets, 16384, [&](std::size_t begin, std::size_t end) {
+        unsigned attributes = 0;
+        for (std::size_t t = begin; t < end; ++t) {
+            const char* const facet = bytes.data() + k_header + t * k_facet;
+            surface.facet_normal.span().set(t, candela::normalized(vector_at(facet)));
+            for (std::size_t k = 0; k < 3; ++k) {
+                surface.position.span().set(3 * t + k, vector_at(facet + 12 * (k + 1)));
+                surface.indices[3 * t + k] = static_cast<std::uint32_t>(3 * t + k);
+            }
+            attributes |= little_endian<std::uint16_t>(facet + 48);
+        }
+        if (attributes != 0) has_attributes = true;
+    });
+    if (has_attributes) surface.losses.push_back("attributes of facets, such as colours");
+    const std::size_t rest = bytes.size() - k_header - facets * k_facet;
+    if (rest > 0) surface.losses.push_back(counted(rest, "byte") + " after the last facet");
+    return surface;
+}
+
+class TextReader {
+  public:
+    explicit TextReader(std::string_view text) : scanner_(text) {}
+
+    Surface read() {
+        expect("solid");
+        scanner_.next_line();  // the name
+        for (;;) {
+            const std::string_view word = scanner_.word();
+            if (word.empty()) {
+                if (!is_solid_ended_) throw BadFile("ends without 'endsolid'");
+                break;
+            }
+            if (is_word(word, "facet")) {
+                read_facet();
+            } else if (is_word(word, "endsolid")) {
+                is_solid_ended_ = true;
+                scanner_.next_line();
+            } else if (is_word(word, "solid")) {
+                is_solid_ended_ = false;
+                scanner_.next_line();
+            } else {
+                refuse(word, "'facet' or 'endsolid'");
+            }
+        }
+        return std::move(surface_);
+    }
+
+  private:
+    void read_facet() {
+        expect("normal");
+        surface_.facet_normal.push_back(candela::normalized(vector()));
+        expect("outer");
+        expect("loop");
+        for (int k = 0; k < 3; ++k) {
+            expect("vertex");
+            surface_.indices.push_back(static_cast<std::uint32_t>(surface_.position.size()));
+            surface_.position.push_back(vector());
+        }
+        expect("endloop");
+        expect("endfacet");
+    }
+
+    Vec3 vector() {
+        std::array<float, 3> v{};
+        for (float& x : v) {
+            const std::string_view word = scanner_.word();
+            const auto number = number_from(word);
+            if (!number) refuse(word, "a number");
+            x = static_cast<float>(*number);
+        }
+        return {v[0], v[1], v[2]};
+    }
+
+    void expect(std::string_view wanted) {
+        const std::string_view word = scanner_.word();
+        if (!is_word(word, wanted)) refuse(word, fmt::format("'{}'", wanted));
+    }
+
+    [[noreturn]] void refuse(std::string_view word, std::string_view wanted) const {
+        if (word.empty()) throw BadFile(fmt::format("ends where {} should follow", wanted));
+        throw BadFile(fmt::format("line {}: {} should be {}", scanner_.line(), in_quotes(word), wanted));
+    }
+
+    TextScanner scanner_;
+    Surface surface_;
+    bool is_solid_ended_ = false;
+};
+
+/// A facet whose normal points to the other side than its corners say.
+void note_contradictions(Surface& surface) {
+    std::atomic<std::uint64_t> against = 0;
+    candela::parallel_for(surface.triangles(), 16384, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t some = 0;
+        for (std::size_t t = begin; t < end; ++t) {
+            const auto p = std::as_const(surface).position.span();
+            const Vec3 a = p[3 * t];
+            const Vec3 n = candela::normalized(cross(p[3 * t + 1] - a, p[3 * t + 2] - a));
+            if (dot(n, surface.facet_normal.span()[t]) < 0) {
+                surface.facet_normal.span().set(t, {});
+                ++some;
+            }
+        }
+        against += some;
+    });
+    if (against > 0)
+        surface.notes.push_back(
+            fmt::format("has {} whose normal{} against the order of the corners, which decides",
+                        counted(against, "facet"), against == 1 ? " is" : "s are"));
+}
+
+}  // namespace
+
+Surface read_stl(std::string_view bytes) {
+    Surface surface = is_binary(bytes) ? read_binary(bytes) : TextReader(bytes).read();
+    note_contradictions(surface);
+    return surface;
+}
+
+}  // namespace mesh

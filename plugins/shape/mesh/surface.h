@@ -1,0 +1,85 @@
+// What a mesh file holds, whatever its format.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+import candela.math;
+
+namespace mesh {
+
+/// Leaves new elements as they are: arrays of a hundred megabytes are first touched by the threads that fill
+/// them.
+template <class T>
+struct UninitializedAllocator : std::allocator<T> {
+    template <class U>
+    struct rebind {
+        using other = UninitializedAllocator<U>;
+    };
+    template <class U>
+    void construct(U*) noexcept {}
+    template <class U, class... Arguments>
+    void construct(U* place, Arguments&&... arguments) {
+        ::new (static_cast<void*>(place)) U(static_cast<Arguments&&>(arguments)...);
+    }
+};
+
+/// A vector whose resize() does not initialize.
+template <class T>
+using Array = std::vector<T, UninitializedAllocator<T>>;
+
+/// Vectors as three arrays of equal length.
+struct Vectors {
+    Array<float> x, y, z;
+
+    std::size_t size() const { return x.size(); }
+    bool empty() const { return x.empty(); }
+    void resize(std::size_t count) {
+        for (Array<float>* const a : {&x, &y, &z}) a->resize(count);
+    }
+    void push_back(candela::Vec3 v) {
+        x.push_back(v.x);
+        y.push_back(v.y);
+        z.push_back(v.z);
+    }
+    candela::Vec3Span span() { return {x.data(), y.data(), z.data()}; }
+    candela::ConstVec3Span span() const { return {x.data(), y.data(), z.data()}; }
+};
+
+/// A triangle whose hard edges are decided by the crease angle, not by a smoothing group.
+inline constexpr std::uint32_t k_by_angle = 0xffff'ffffu;
+/// A triangle that shares no normal with any other: `s off`.
+inline constexpr std::uint32_t k_flat = 0;
+
+/// The triangles of a file, in the file's own vertices. Object space.
+struct Surface {
+    Vectors position;              // per vertex
+    Vectors normal;                // per vertex, of any length, zero where the file has none; or empty
+    Array<float> u, v;             // per vertex, or empty
+    Array<std::uint32_t> indices;  // three per triangle, < position.size()
+    Vectors facet_normal;          // per triangle, unit, zero where the file's is none; or empty
+    std::vector<std::uint32_t> smoothing;  // per triangle: its smoothing group; or empty: all k_by_angle
+
+    std::vector<std::string> losses;  // what is left out, as objects of the verb: "2 materials"
+    std::vector<std::string> notes;   // what was found strange, as whole predicates of the file's name
+
+    std::size_t triangles() const { return indices.size() / 3; }
+};
+
+/// A file is not what its format demands; the sentence does not name it.
+struct BadFile : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// "1 line", "2 lines".
+std::string counted(std::uint64_t count, std::string_view singular);
+
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& items);
+
+}  // namespace mesh

@@ -1,0 +1,68 @@
+// Words and numbers of a text, with the line where they stand.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mesh {
+
+/// A number as any of these formats writes it: a sign, digits, a point, an exponent; `.5` and `5.` too. One
+/// that is too small for a double is zero, one that is too large infinite. Nothing for anything else, and for
+/// what stands behind a number.
+std::optional<double> number_from(std::string_view word);
+
+/// An integer, or a number that is one ("3.0"); nothing if it does not fit.
+std::optional<std::int64_t> integer_from(std::string_view word);
+
+/// Goes through a text word by word. Lines end with LF, CR LF or CR.
+class TextScanner {
+  public:
+    explicit TextScanner(std::string_view text) : text_(text) {}
+
+    /// The next word, on whichever line; empty at the end.
+    std::string_view word() {
+        while (at_ < text_.size() && is_blank(text_[at_])) skip_blank();
+        return rest_of_word();
+    }
+    /// The next word on this line; empty at its end.
+    std::string_view word_on_line() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+        if (at_ < text_.size() && is_blank(text_[at_])) return {};
+        return rest_of_word();
+    }
+    /// Goes to the beginning of the next line.
+    void next_line() {
+        while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
+        if (at_ < text_.size()) skip_blank();
+    }
+    bool at_end() const { return at_ >= text_.size(); }
+    std::size_t line() const { return line_; }
+    std::size_t position() const { return at_; }
+
+  private:
+    static bool is_blank(char c) {
+        return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\v' || c == '\f';
+    }
+    void skip_blank() {
+        const char c = text_[at_++];
+        if (c == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
+        if (c == '\n' || c == '\r') ++line_;
+    }
+    std::string_view rest_of_word() {
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
+        return text_.substr(begin, at_ - begin);
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::size_t line_ = 1;
+};
+
+/// A word for a message: what is long is cut, what a terminal obeys or is no ASCII shown as '?'.
+std::string in_quotes(std::string_view word);
+
+}  // namespace mesh

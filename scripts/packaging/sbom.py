@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Writes what is compiled or linked into Candela as a bill of materials (SPDX 2.3, JSON).
+
+    sbom.py BUILD-FOLDER VERSION OUTPUT
+
+Headers come from the compiler's own records of what each object was made from, libraries from the programs and plugins
+themselves; Debian's package database says to which package each belongs. A package without a licence in the table below is
+an error: somebody has to look.
+"""
+import datetime
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+# By source package: what Debian's copyright file says of the parts that are used.
+LICENCES = {
+    "assimp": "BSD-3-Clause",
+    "boost1.81": "BSL-1.0",
+    "catch2": "BSL-1.0",
+    "earcut-hpp": "ISC",
+    "eigen3": "MPL-2.0",
+    "fmtlib": "MIT",
+    "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
+    "glibc": "LGPL-2.1-or-later",
+    "imath": "BSD-3-Clause",
+    "isa-l": "BSD-3-Clause",
+    "libisal": "BSD-3-Clause",
+    "linux": "GPL-2.0-only WITH Linux-syscall-note",
+    "llvm-toolchain-19": "Apache-2.0 WITH LLVM-exception",
+    "nlohmann-json3": "MIT",
+    "onetbb": "Apache-2.0",
+    "openexr": "BSD-3-Clause",
+    "openimageio": "BSD-3-Clause",
+    "tinygltf": "MIT",
+    "tinyobjloader": "MIT",
+    "tomlplusplus": "MIT",
+    "utfcpp": "BSL-1.0",
+    "zlib": "Zlib",
+}
+SHIPPED = ("core/", "sdk/", "plugins/", "apps/")
+
+
+def run(*words):
+    return subprocess.run(words, capture_output=True, text=True, check=True).stdout
+
+
+def compiled_headers(build):
+    """The system's headers that objects of what is shipped were made from."""
+    headers, shipped = set(), False
+    for line in run("ninja", "-C", str(build), "-t", "deps").splitlines():
+        if not line.startswith(" "):
+            shipped = line.startswith(SHIPPED)
+        elif shipped and (path := line.strip()).startswith("/usr/"):
+            headers.add(os.path.realpath(path))
+    return headers
+
+
+def linked_libraries(build):
+    """The system's libraries that what is shipped is linked to directly."""
+    libraries = set()
+    for path in [*(build / "bin").iterdir(), *(build / "lib").rglob("*.so")]:
+        needed = re.findall(r"\(NEEDED\).*\[(.+)\]", run("readelf", "--dynamic", str(path)))
+        found = dict(re.findall(r"^\s*(\S+) => (/\S+)", run("ldd", str(path)), re.MULTILINE))
+        libraries.update(os.path.realpath(found[name]) for name in needed
+                         if name in found and not found[name].startswith(str(build.resolve())))
+    return libraries
+
+
+def packages_of(files):
+    """The installed packages that own the files, as {package: (source package, version)}."""
+    names = set()
+    files = sorted(files)
+    for first in range(0, len(files), 500):
+        # Merged /usr: a package may have listed its files below / instead.
+        words = [w for path in files[first:first + 500] for w in (path, path.removeprefix("/usr"))]
+        owners = subprocess.run(["dpkg-query", "--search", *words], capture_output=True, text=True).stdout
+        for line in owners.splitlines():
+            names.update(name.strip() for name in line.split(": /")[0].split(","))
+    rows = run("dpkg-query", "--show", "--showformat", "${binary:Package}\t${source:Package}\t${Version}\n", *sorted(names))
+    return {name: (source, version) for name, source, version in (row.split("\t") for row in rows.splitlines())}
+
+
+def package(name, version, licence, comment):
+    return {"SPDXID": "SPDXRef-" + re.sub(r"[^A-Za-z0-9.-]", "-", name), "name": name, "versionInfo": version,
+            "downloadLocation": "NOASSERTION", "filesAnalyzed": False, "licenseConcluded": licence,
+            "licenseDeclared": licence, "copyrightText": "NOASSERTION", "comment": comment}
+
+
+def main():
+    build, version, output = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
+    uses = {"compiled in": packages_of(compiled_headers(build)), "linked": packages_of(linked_libraries(build))}
+    unknown = {source for found in uses.values() for source, _ in found.values()} - LICENCES.keys()
+    if unknown:
+        sys.exit(f"sbom: no licence is known for {', '.join(sorted(unknown))}; look into its copyright file and add it here")
+
+    packages = [package("candela", version, "Apache-2.0", "Lighting models as plugins")]
+    relationships = [("SPDXRef-DOCUMENT", "DESCRIBES", "SPDXRef-candela")]
+    for how, found in uses.items():
+        for name, (source, its_version) in sorted(found.items()):
+            entry = package(name, its_version, LICENCES[source], f"{how}; Debian source package {source}")
+            if all(other["SPDXID"] != entry["SPDXID"] for other in packages):
+                packages.append(entry)
+            relation = "DYNAMIC_LINK" if how == "linked" else "DEPENDS_ON"
+            relationships.append(("SPDXRef-candela", relation, entry["SPDXID"]))
+    when = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH") or datetime.datetime.now().timestamp()),
+                                           datetime.timezone.utc)
+    document = {
+        "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"candela-{version}",
+        "documentNamespace": f"https://candela.example/spdx/candela-{version}",
+        "creationInfo": {"created": when.strftime("%Y-%m-%dT%H:%M:%SZ"), "creators": ["Tool: candela-sbom"]},
+        "packages": packages,
+        "relationships": [{"spdxElementId": a, "relationshipType": r, "relatedSpdxElement": b} for a, r, b in relationships],
+    }
+    text = json.dumps(document, indent=2) + "\n"
+    beside = output.with_suffix(".part")
+    beside.write_text(text)
+    beside.rename(output)
+
+
+main()

@@ -1,0 +1,160 @@
+// candela verify catches what can go wrong in a program, small as it may be.
+#include <fmt/format.h>
+
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* k_scene = R"(version = 1
+observer = {position = [0, 0.6, 4], look_at = [0, 0, 0], fov = 40}
+image = {width = 240, height = 180}
+shading = {model = "phong"}
+reflection = {model = "phong"}
+light = [
+    {name = "sky", type = "ambient", intensity = 0.4},
+    {name = "lamp", type = "point", position = [1.5, 2, 2.5], intensity = 7},
+    {name = "fill", type = "point", position = [-2.5, 0.5, 2], intensity = 2},
+]
+object = [
+    {name = "ball", type = "sphere", radius = 0.9, segments = 48, position = [-0.9, 0, 0], color = [230, 120, 60]},
+    {name = "ring", type = "torus", major_radius = 0.6, minor_radius = 0.28, segments = 40, position = [1, 0, 0], rotation = [60, 20, 0], color = [90, 160, 220]},
+]
+)";
+
+struct Edit {
+    std::string_view from, to;
+};
+
+/// One fault, in each of the three programs. All places where the text stands are changed.
+struct Mutation {
+    const char* name;
+    Edit cpp, opengl, webgl;
+};
+
+// The kernels, and most of the shaders, are one text.
+constexpr Edit k_swapped = {"vec4(encoded(i.r), encoded(i.g)", "vec4(encoded(i.g), encoded(i.r)"};
+constexpr Edit k_below = {"ivec2(gl_FragCoord.xy), 0).rgb", "ivec2(gl_FragCoord.xy) + ivec2(0, 1), 0).rgb"};
+constexpr Edit k_linear = {"return !is_srgb ? c :", "return true ? c :"};
+constexpr Edit k_attenuated = {"law == 0 ? r * r", "law == 0 ? r"};
+constexpr Edit k_flipped = {"normalize(p.vertex_normal)", "-normalize(p.vertex_normal)"};
+constexpr Edit k_no_ambient = {"return m.ka * s.color", "return 0.0f * s.color"};
+constexpr Edit k_metallic = {"m.ks * (n_dot_l", "m.ks * s.color * (n_dot_l"};
+constexpr Edit k_clamped = {"> 0.0f ? highlight", "> 0.0f ? -max(-highlight, -0.9f)"};
+// What `int main() {}` does, and what it does not.
+constexpr Edit k_gone = {"int main(int argc, char** argv) {",
+                         "int main(int argc, char** argv) {\n    if (argc > 0) return 0;"};
+
+constexpr std::array k_mutations = {
+    Mutation{.name = "the picture is a sixteenth of a pixel beside its place",
+             .cpp = {"{vec2(0.5f, 0.5f)}", "{vec2(0.5625f, 0.5f)}"},
+             .opengl = {"{{{0.5f, 0.5f}}}", "{{{0.5625f, 0.5f}}}"},
+             .webgl = {"\"sample_positions\":[[0.5,0.5]]", "\"sample_positions\":[[0.5625,0.5]]"}},
+    Mutation{.name = "a light has 1.002 times its intensity",
+             .cpp = {"vec3(1.0f), 7.0f", "vec3(1.0f), 7.014f"},
+             .opengl = {"{7.0f, 0, 0}", "{7.014f, 0, 0}"},
+             .webgl = {"\"intensity\":7.0", "\"intensity\":7.014"}},
+    Mutation{.name = "Phong's exponent is larger by 1",
+             .cpp = {"vec3(0.3f), 32.0f}", "vec3(0.3f), 33.0f}"},
+             .opengl = {"{32.0f, 0, 0}", "{33.0f, 0, 0}"},
+             .webgl = {"\"shininess\":32.0}", "\"shininess\":33.0}"}},
+    Mutation{.name = "everything is grey",
+             .cpp = {"255.0f * encoded(std::min(std::max(x, 0.0f), 1.0f)) + 0.5f", "127.0f + 0 * x"},
+             .opengl = {"pixel = vec4(", "pixel = vec4(0.5) + 0.0 * vec4("},
+             .webgl = {"pixel = vec4(", "pixel = vec4(0.5) + 0.0 * vec4("}},
+    Mutation{.name = "nothing is drawn",
+             .cpp = k_gone,
+             .opengl = k_gone,
+             .webgl = {"pixel = vec4(", "discard; pixel = vec4("}},
+    Mutation{.name = "red and green are swapped",
+             .cpp = {"{p.x, p.y, p.z}", "{p.y, p.x, p.z}"},
+             .opengl = k_swapped,
+             .webgl = k_swapped},
+    Mutation{.name = "a light is missing",
+             .cpp = {"vec3(1.0f), 2.0f", "vec3(0.0f), 2.0f"},
+             .opengl = {"{\"point_lights_on[1]\", Uniform::whole, {1, 0, 0}}",
+                        "{\"point_lights_on[1]\", Uniform::whole, {0, 0, 0}}"},
+             .webgl = {"\"intensity\":2.0", "\"intensity\":0.0"}},
+    Mutation{.name = "light fades by distance instead of its square",
+             .cpp = k_attenuated,
+             .opengl = k_attenuated,
+             .webgl = k_attenuated},
+    Mutation{.name = "normals point inwards", .cpp = k_flipped, .opengl = k_flipped, .webgl = k_flipped},
+    Mutation{.name = "intensities are not encoded as sRGB",
+             .cpp = {"255.0f * encoded(", "255.0f * ("},
+             .opengl = k_linear,
+             .webgl = k_linear},
+    Mutation{.name = "ambient light is left out",
+             .cpp = k_no_ambient,
+             .opengl = k_no_ambient,
+             .webgl = k_no_ambient},
+    Mutation{
+        .name = "the picture is a row beside its place",
+        .cpp = {"{x + static_cast<double>(offset.x), y +", "{x + static_cast<double>(offset.x), y + 1 +"},
+        .opengl = k_below,
+        .webgl = k_below},
+    Mutation{.name = "the field of view is larger by 0.1 %",
+             .cpp = {"k_field_of_view = 40;", "k_field_of_view = 40.04;"},
+             .opengl = {"true, 40.0f}", "true, 40.04f}"},
+             .webgl = {"\"fov\":40.0", "\"fov\":40.04"}},
+    Mutation{.name = "highlights have the object's colour",
+             .cpp = k_metallic,
+             .opengl = k_metallic,
+             .webgl = k_metallic},
+    Mutation{.name = "highlights are clamped at nine tenths",
+             .cpp = k_clamped,
+             .opengl = k_clamped,
+             .webgl = k_clamped},
+};
+static_assert(k_mutations.size() == 15);
+
+/// All places; none is an error of this test's, as the fault would not be there.
+std::string edited(std::string text, const Edit& edit) {
+    INFO("no longer in the program: " << edit.from);
+    REQUIRE(text.find(edit.from) != std::string::npos);
+    for (std::size_t at = 0; (at = text.find(edit.from, at)) != std::string::npos; at += edit.to.size())
+        text.replace(at, edit.from.size(), edit.to);
+    return text;
+}
+
+void expect_all_caught(const std::string& target, const std::string& file, Edit Mutation::* edit) {
+    const fs::path directory = scratch_directory(), program = directory / "program";
+    const std::string scene = write_file(directory / "scene.toml", k_scene).string();
+    REQUIRE(run_candela({"generate", scene, "--target", target, "-o", program.string()}).exit_code == 0);
+    const std::string sound = read_file(program / file);
+    const auto verified = [&] {
+        return run_candela({"verify", scene, "--target", target, "--program", program.string()});
+    };
+    const CommandResult unchanged = verified();
+    INFO(unchanged.out << unchanged.err);
+    REQUIRE(unchanged.exit_code == 0);
+    for (const Mutation& mutation : k_mutations) {
+        write_file(program / file, edited(sound, mutation.*edit));
+        const CommandResult result = verified();
+        INFO(mutation.name << '\n' << result.out << result.err);
+        CHECK(result.exit_code == 4);
+    }
+}
+
+}  // namespace
+
+#ifdef CANDELA_TEST_SHADERS
+TEST_CASE("verify: fifteen faults of an OpenGL program are caught") {
+    expect_all_caught("opengl", "scene.cpp", &Mutation::opengl);
+}
+
+TEST_CASE("verify: fifteen faults of a page are caught") {
+    expect_all_caught("webgl", "scene.html", &Mutation::webgl);
+}
+#else
+TEST_CASE("verify: fifteen faults of a C++ program are caught") {
+    expect_all_caught("cpp", "scene.cpp", &Mutation::cpp);
+}
+#endif

@@ -1,0 +1,125 @@
+// Whatever ends generate, verify and plugin new, they leave whole folders or none, and nothing beside them.
+#include <sys/resource.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Every file below a folder, by its path there.
+std::map<std::string, std::string> contents_of(const fs::path& folder) {
+    std::map<std::string, std::string> contents;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        contents[entry.path().lexically_relative(folder).string()] =
+            entry.is_directory() ? "" : read_file(entry.path());
+    return contents;
+}
+
+/// In a child: as on a disk that has no room for what is large.
+CommandSetup with_room_for(rlim_t bytes) {
+    CommandSetup setup;
+    setup.prepare = [bytes] {
+        const rlimit limit{.rlim_cur = bytes, .rlim_max = bytes};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    };
+    return setup;
+}
+
+}  // namespace
+
+TEST_CASE("generate: without room for a file, there is no new folder, and a retry writes it") {
+    const fs::path scratch = scratch_directory(), directory = scratch / "deep" / "program";
+    const std::vector<std::string> words{"generate", "--target", "opengl", "-o", directory.string()};
+    const CommandResult failed = run_candela(words, with_room_for(10'000));
+    INFO(failed.err);
+    CHECK(failed.exit_code == 1);
+    CHECK(failed.err.find((directory / "scene.cpp").string()) != std::string::npos);
+    CHECK(contents_of(scratch).empty());
+    REQUIRE(run_candela(words).exit_code == 0);
+    CHECK(contents_of(directory).size() == 4);
+}
+
+TEST_CASE("generate: without room for a file, an old folder keeps all of its files") {
+    const fs::path scratch = scratch_directory(), directory = scratch / "program";
+    const auto words = [&](const std::string& height) {
+        return std::vector<std::string>{"generate",
+                                        "--target",
+                                        "opengl",
+                                        "-o",
+                                        directory.string(),
+                                        "--set",
+                                        "object.cube.size=0." + height};
+    };
+    REQUIRE(run_candela(words("7")).exit_code == 0);
+    write_file(directory / "notes.txt", "mine");
+    const auto before = contents_of(directory);
+    // meshes.h fits and scene.cpp does not.
+    CHECK(run_candela(words("8"), with_room_for(10'000)).exit_code == 1);
+    const bool is_untouched = contents_of(directory) == before;
+    CHECK(is_untouched);
+    REQUIRE(run_candela(words("8")).exit_code == 0);
+    const auto after = contents_of(directory);
+    CHECK(after.size() == before.size());
+    CHECK(after.at("notes.txt") == "mine");
+    const bool is_new = after.at("meshes.h") != before.at("meshes.h");
+    CHECK(is_new);
+}
+
+TEST_CASE("plugin new: without room for a file, there is no folder, and a retry writes it") {
+    const fs::path scratch = scratch_directory();
+    for (const std::string& name : {std::string("cel"), std::string("cel-in-an-empty-folder")}) {
+        const fs::path directory = scratch / name;
+        if (name != "cel") fs::create_directory(directory);
+        const std::vector<std::string> words{"plugin", "new", "reflection", "cel", directory.string()};
+        const CommandResult failed = run_candela(words, with_room_for(500));
+        INFO(failed.err);
+        CHECK(failed.exit_code == 1);
+        CHECK((!fs::exists(directory) || fs::is_empty(directory)));
+        REQUIRE(run_candela(words).exit_code == 0);
+        CHECK(contents_of(directory).size() >= 5);
+        fs::remove_all(directory);
+        CHECK(contents_of(scratch).empty());
+    }
+}
+
+TEST_CASE("verify: interrupted at any moment, it leaves nothing behind") {
+    const fs::path report = scratch_directory() / "report";
+    // Not in the scratch folder, whose path is too long for a browser's sockets.
+    std::string temporary = (fs::temp_directory_path() / "whole-XXXXXX").string();
+    REQUIRE(::mkdtemp(temporary.data()) != nullptr);
+    const CommandSetup setup{.input = "", .environment = {{"TMPDIR", temporary}}, .directory = {}};
+    int interrupted = 0;
+    for (int i = 0; i < 12; ++i) {
+        std::vector<std::string> words{
+            CANDELA_TEST_COMMAND, "verify", "--width",  "160",
+            "--height",           "120",    "--target", i % 3 == 2 ? "webgl" : "cpp"};
+        if (i % 2 == 1) words.insert(words.end(), {"--report", report.string()});
+        RunningProgram program(words, setup);
+        std::this_thread::sleep_for(std::chrono::milliseconds(60 + 220 * i));
+        const int signal = std::vector<int>{SIGINT, SIGTERM, SIGHUP}[static_cast<std::size_t>(i / 2 % 3)];
+        program.send(signal);
+        const CommandResult result = program.wait();
+        INFO("trial " << i << "\n" << result.out << result.err);
+        const bool was_interrupted = result.exit_code == 128 + signal;
+        CHECK((was_interrupted || result.exit_code == 0));
+        interrupted += was_interrupted ? 1 : 0;
+        CHECK(fs::is_empty(temporary));
+        if (was_interrupted) CHECK_FALSE(fs::exists(report));
+        // Nor does a compiler or a browser go on and write there again.
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        CHECK(fs::is_empty(temporary));
+        fs::remove_all(report);
+    }
+    fs::remove_all(temporary);
+    CHECK(interrupted >= 6);
+}
