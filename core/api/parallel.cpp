@@ -1,6 +1,7 @@
 #include "candela/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -71,6 +72,14 @@ std::atomic<bool> has_started = false;
 /// Arenas are kept, one per number of threads. Creating one takes time, and the memory that oneTBB aligns for
 /// it is seldom reused (glibc bug 14581), so a program that keeps rendering would grow.
 tbb::task_arena& arena_of(int threads) {
+    // More threads than cores: unless that is allowed first, oneTBB says on stderr that it ignores the
+    // request.
+    constexpr std::size_t k_most = 1024;
+    if (threads > available_threads()) {
+        static const auto* const allowed =
+            new tbb::global_control(tbb::global_control::max_allowed_parallelism, k_most);
+        static_cast<void>(allowed);
+    }
     static std::mutex mutex;
     // Never destroyed, because other threads may still be working while the process exits.
     static auto& arenas = *new std::map<int, tbb::task_arena>;

@@ -174,3 +174,21 @@ TEST_CASE("Ctrl-C at a question leaves the prompt of the shell a line of its own
     CHECK(result.exit_code == 128 + SIGINT);
     CHECK(result.out.ends_with("\n"));
 }
+
+TEST_CASE("more threads than there are cores are used without a word from the library that runs them") {
+    const fs::path d = scratch_directory();
+    const CommandResult result = in(d, {"render", "-", "-o", "a.ppm", "--threads", "33", "-q"}, k_scene);
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.empty());
+}
+
+TEST_CASE("an object too far away is an error of the scene") {
+    const fs::path d = scratch_directory();
+    const CommandResult result =
+        in(d, {"check", "-"},
+           k_scene + "[[object]]\nname = \"far\"\ntype = \"cube\"\nposition = [0, 2e9, 0]\n" +
+               "[room]\nwidth = 1e10\nheight = 1e10\ndepth = 1e10\n");
+    INFO(result.err);
+    CHECK(result.exit_code == 3);
+    CHECK(holds(result.err, "standard input:15:1: error: object 'far': vertex 0 at "));
+}
