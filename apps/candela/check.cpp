@@ -67,8 +67,8 @@ void print_summary(const Scene& scene, const CompiledScene& compiled) {
     constexpr std::size_t k_most_lines = 50;
     for (std::size_t i = 0; i < std::min(scene.objects.size(), k_most_lines); ++i) {
         const candela::Object& object = scene.objects[i];
-        std::cout << fmt::format("    {:<12} {}, {}, {} shading, {} reflection\n", object.label,
-                                 object.shape.name,
+        std::cout << fmt::format("    {:<12} {}, {}, {} shading, {} reflection\n",
+                                 candela::printable(object.label), object.shape.name,
                                  count(compiled.objects[i].mesh.triangle_count(), "triangle"),
                                  object.shading.name, object.reflection.name);
     }
@@ -105,7 +105,7 @@ void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene
                            {"lights", std::move(lights)},
                            {"objects", std::move(objects)}};
     }
-    std::cout << result.dump(2) << '\n';
+    std::cout << candela::printable_json(result.dump(2)) << '\n';
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ int run_check(const std::vector<std::string>& arguments) {
         report(diagnostics);
         if (compiled && line.has("print")) {
             std::cout << candela::scene_text(draft->scene);
-        } else if (compiled) {
+        } else if (compiled && !is_quiet()) {
             print_summary(draft->scene, *compiled);
         }
     }

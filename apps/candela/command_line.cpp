@@ -1,20 +1,32 @@
 #include "command_line.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
+#include <string_view>
 
+#include "reporting.h"
 #include "terminal.h"
+#include "wrapping.h"
 
 namespace po = boost::program_options;
 using candela::Error;
 using candela::ErrorCategory;
 
 CommandLine::CommandLine(std::string usage, std::string explanation)
-    : usage_(std::move(usage)), explanation_(std::move(explanation)) {
-    options()("help,h", "this help");
+    : usage_(std::move(usage)),
+      explanation_(std::move(explanation)),
+      visible_("Options", static_cast<unsigned>(output_width() - 1),
+               static_cast<unsigned>(output_width() / 2)) {
+    options()("help,h", "this help")("quiet,q", "print nothing on stderr but errors");
 }
 
 void CommandLine::positional(const std::string& name, int how_many) {
@@ -34,17 +46,23 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
     } catch (const po::unknown_option& problem) {
         std::vector<std::string> known;
         for (const auto& option : visible_.options()) known.push_back("--" + option->long_name());
-        const std::string meant = candela::suggestion(problem.get_option_name(), known);
+        // --widht=100 is given with its value.
+        const std::string given = problem.get_option_name();
+        const std::string name = given.substr(0, given.find('='));
+        const std::string meant = candela::suggestion(name, known);
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("unknown option '{}'; {}", problem.get_option_name(),
-                                meant.empty() ? "--help shows all" : meant));
+                    fmt::format("unknown option '{}'; {}", name, meant.empty() ? "--help shows all" : meant));
     } catch (const po::too_many_positional_options_error&) {
         throw Error(ErrorCategory::bad_request, fmt::format("too many arguments; usage: {}", usage_));
     } catch (const po::error& problem) {
         throw Error(ErrorCategory::bad_request, problem.what());
     }
+    if (has("quiet")) be_quiet();
     if (!has("help")) return true;
-    std::cout << "Usage: " << usage_ << "\n\n" << explanation_ << "\n\n" << visible_;
+    constexpr std::string_view k_usage = "Usage: ";
+    std::cout << k_usage << wrapped(usage_, k_usage.size(), k_usage.size()) << "\n\n"
+              << wrapped_paragraphs(explanation_) << '\n'
+              << visible_;
     return false;
 }
 
@@ -65,12 +83,49 @@ candela::Registry registry_from(const CommandLine& line) {
             throw Error(ErrorCategory::failure,
                         fmt::format("--plugin-dir '{}' is not a directory", directory));
         }
+        if (::access(directory.c_str(), R_OK | X_OK) != 0) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("--plugin-dir '{}' cannot be read: {}", directory, std::strerror(errno)));
+        }
         first.emplace_back(directory);
     }
-    return candela::Registry(candela::plugin_search_path(first), line.has("allow-untrusted-plugins")
-                                                                     ? candela::PluginTrust::any
-                                                                     : candela::PluginTrust::own_and_system);
+    const auto trust = line.has("allow-untrusted-plugins") ? candela::PluginTrust::any
+                                                           : candela::PluginTrust::own_and_system;
+    return candela::Registry(candela::plugin_search_path(first), trust, first.size(), report_replaced);
 }
+
+namespace {
+
+/// Standard input, or a descriptor that a shell has opened (<(program)): it can be read once.
+bool is_stream(const std::string& file) {
+    return file == "-" || file == "/dev/stdin" || file.starts_with("/dev/fd/") ||
+           file.starts_with("/proc/self/fd/");
+}
+
+/// What a stream holds; read when asked for first. A little more than a scene may have, if there is more.
+const std::string& contents_of(const std::string& stream) {
+    static std::map<std::string, std::string> known;
+    const auto [text, is_new] = known.try_emplace(stream);
+    if (!is_new) return text->second;
+    const auto fail = [&] {
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' cannot be read: {}", stream, std::strerror(errno)));
+    };
+    const int descriptor = stream == "-" ? STDIN_FILENO : ::open(stream.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) fail();
+    std::array<char, 65536> part;
+    while (text->second.size() <= candela::ReadingLimits::k_most_bytes) {
+        const ssize_t count = ::read(descriptor, part.data(), part.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail();
+        if (count == 0) break;
+        text->second.append(part.data(), static_cast<std::size_t>(count));
+    }
+    if (descriptor != STDIN_FILENO) ::close(descriptor);
+    return text->second;
+}
+
+}  // namespace
 
 void add_scene_options(CommandLine& line) {
     line.positional("scene", -1);
@@ -89,7 +144,10 @@ void add_scene_options(CommandLine& line) {
 
 candela::SceneRequest scene_request_from(const CommandLine& line) {
     candela::SceneRequest request;
-    for (const std::string& file : line.all("scene")) request.files.emplace_back(file);
+    for (const std::string& file : line.all("scene")) {
+        request.files.emplace_back(file);
+        if (is_stream(file)) request.streams.emplace(file, contents_of(file));
+    }
     for (const char* const flag : {"width", "height", "samples"}) {
         if (!line.has(flag)) continue;
         request.settings.push_back(
@@ -107,6 +165,7 @@ candela::SceneRequest scene_request_from(const CommandLine& line) {
     if (line.has("shading")) request.shading = {line.get<std::string>("shading"), "--shading"};
     if (line.has("reflection")) request.reflection = {line.get<std::string>("reflection"), "--reflection"};
     request.use_defaults = line.has("defaults");
-    if (can_ask()) request.ask = ask;
+    // Who answers types on standard input, which a scene may have used up.
+    if (can_ask() && request.streams.empty()) request.ask = ask;
     return request;
 }

@@ -33,7 +33,7 @@ class CommandLine {
   private:
     std::string usage_;
     std::string explanation_;
-    boost::program_options::options_description visible_{"Options"};
+    boost::program_options::options_description visible_;
     boost::program_options::options_description hidden_;
     boost::program_options::positional_options_description positional_;
     boost::program_options::variables_map values_;
@@ -41,6 +41,8 @@ class CommandLine {
 
 /// Adds --plugin-dir.
 void add_plugin_options(CommandLine& line);
+/// The installed plugins. What is refused in a folder that --plugin-dir names is not replaced; elsewhere a
+/// warning says what is used instead.
 candela::Registry registry_from(const CommandLine& line);
 
 /// Adds what says how a scene is read: SCENE..., --shading, --set and so on.

@@ -4,10 +4,12 @@
 
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "command_line.h"
 #include "verbs.h"
+#include "wrapping.h"
 
 using candela::Error;
 using candela::ErrorCategory;
@@ -39,35 +41,51 @@ const candela::PluginFile& plugin_called(const std::string& id, candela::Registr
                                                         meant.empty() ? "candela list shows all" : meant));
 }
 
+/// Lines stay lines: a formula is laid out.
 std::string indented(const std::string& text) {
-    std::string result = "  ";
-    for (const char c : text) {
-        result += c;
-        if (c == '\n') result += "  ";
-    }
+    std::string result;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        result += "  " + wrapped(candela::printable(line), 2, 4) + '\n';
     return result;
 }
 
+/// "0.5 m"; "[255, 255, 255]"
+std::string with_unit(const std::string& value, const std::string& unit) {
+    return unit.empty() ? value : value + ' ' + unit;
+}
+
+/// "a number, at least 0; default 1 m", "three numbers, a position in metres; required".
+std::string what_is_allowed(const candela::Parameter& p) {
+    const std::string allowed = candela::constraint_text(p);
+    if (p.default_value)
+        return fmt::format("{}; default {}", allowed, with_unit(candela::text_of(*p.default_value), p.unit));
+    const bool says_unit = p.unit.empty() || p.type == candela::ParamType::point;
+    return fmt::format("{}{}; required", allowed, says_unit ? "" : ", in " + p.unit);
+}
+
 void print(const candela::PluginFile& file) {
+    constexpr std::size_t k_names = 20;
     const candela::Manifest& m = file.manifest;
-    std::cout << fmt::format("{} ({}), version {}\n{}\n", m.title, m.id(), m.version, m.summary);
-    if (!m.formula.empty()) std::cout << "\nFormula\n" << indented(m.formula) << '\n';
-    if (!m.reference.empty()) std::cout << "\nReference\n" << indented(m.reference) << '\n';
+    const auto line = [](const std::string& text) { return candela::printable(text); };
+    std::cout << wrapped(line(fmt::format("{} ({}), version {}", m.title, m.id(), m.version)), 0, 0) << '\n'
+              << wrapped(line(m.summary), 0, 0) << '\n';
+    if (!m.formula.empty()) std::cout << "\nFormula\n" << indented(m.formula);
+    if (!m.reference.empty()) std::cout << "\nReference\n" << indented(m.reference);
     if (!m.parameters.empty()) std::cout << "\nParameters\n";
     for (const candela::Parameter& p : m.parameters) {
-        const std::string default_value =
-            p.default_value ? "default " + candela::text_of(*p.default_value) : std::string("required");
-        std::cout << fmt::format("  {:<20} {}; {}{}{}\n", p.name, candela::constraint_text(p), default_value,
-                                 p.unit.empty() ? "" : " " + p.unit, "");
-        std::cout << fmt::format("  {:<20} {}\n", "", p.meaning);
+        std::cout << row(line(p.name), line(what_is_allowed(p)), k_names)
+                  << row("", line(p.meaning), k_names);
     }
-    for (const candela::Relation& r : m.relations) std::cout << fmt::format("  {}\n", candela::text_of(r));
+    for (const candela::Relation& r : m.relations)
+        std::cout << "  " << wrapped(line(candela::text_of(r)), 2, 4) << '\n';
     if (!m.formats.empty()) std::cout << "\nFormats\n";
     for (const candela::ManifestFormat& f : m.formats)
-        std::cout << fmt::format("  .{:<6} {}\n", f.extension, f.title);
+        std::cout << row('.' + line(f.extension), line(f.title), 7);
     if (!m.properties.empty()) std::cout << "\nProperties\n";
     for (const auto& [name, value] : m.properties) {
-        std::cout << (value == "true" ? fmt::format("  {}\n", name) : fmt::format("  {}: {}\n", name, value));
+        std::cout << "  " << wrapped(line(value == "true" ? name : fmt::format("{}: {}", name, value)), 2, 4)
+                  << '\n';
     }
     std::cout << "\nLibrary\n  " << file.library.string() << '\n';
 }
@@ -86,7 +104,7 @@ int run_describe(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     const candela::PluginFile& file = plugin_called(line.all("plugin").front(), registry);
     if (line.has("json")) {
-        std::cout << candela::to_json(file.manifest);
+        std::cout << candela::printable_json(candela::to_json(file.manifest));
     } else {
         print(file);
     }

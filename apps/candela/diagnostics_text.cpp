@@ -26,24 +26,19 @@ std::string location(const SourcePlace& place) {
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
-/// Whether a terminal would obey it, or cannot show it. Tabs stay.
-bool is_unprintable(std::string_view character) {
-    if (candela::first_invalid_byte(character)) return true;
-    const auto first = static_cast<unsigned char>(character[0]);
-    const bool is_c1 = first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
-    return (first < 0x20 && first != '\t') || first == 0x7f || is_c1;
-}
-
-/// Characters of a line; a question mark for those that are not printed.
+/// The characters of a line as they are printed; some take several columns, such as \u{1b}.
 std::vector<std::string> characters_of(std::string_view line) {
     std::vector<std::string> result;
     while (!line.empty()) {
         const std::string_view character = candela::first_character(line);
-        result.emplace_back(is_unprintable(character) ? "?" : character);
+        result.push_back(candela::printable(character));
         line.remove_prefix(character.size());
     }
     return result;
 }
+
+/// How wide a mark below a printed character is.
+std::size_t width_of(const std::string& printed) { return candela::character_count(printed); }
 
 /// A sentence that may quote user input: on one line, without terminal control sequences, and no longer than
 /// anybody reads.
@@ -52,7 +47,8 @@ std::string sentence(std::string_view text) {
     std::string result;
     std::size_t count = 0;
     for (const std::string& character : characters_of(text.substr(0, 4 * k_longest))) {
-        if (++count > k_longest) return result + "...";
+        count += width_of(character);
+        if (count > k_longest) return result + "...";
         result += character;
     }
     return result;
@@ -73,13 +69,21 @@ std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& pla
     const bool goes_on = all - left_out > last;
     std::string shown = left_out > 0 ? "..." : "";
     std::string marks = left_out > 0 ? "   " : "";
+    const std::size_t marked_end = marked + static_cast<std::size_t>(std::max(place.length, 1));
+    std::size_t underlined = 0;
     for (std::size_t i = 0; i < last; ++i) {
         shown += characters[i];
-        if (i < marked) marks += characters[i] == "\t" ? '\t' : ' ';
+        const std::size_t width = width_of(characters[i]);
+        if (i >= marked) {
+            underlined += i < marked_end ? width : 0;
+        } else if (characters[i] == "\t") {
+            marks += '\t';
+        } else {
+            marks.append(width, ' ');
+        }
     }
     if (goes_on) shown += "...";
-    const std::size_t room = last > marked ? last - marked : 1;
-    marks.append(std::clamp<std::size_t>(static_cast<std::size_t>(std::max(place.length, 1)), 1, room), '^');
+    marks.append(std::max<std::size_t>(underlined, 1), '^');
     return {shown, marks};
 }
 
@@ -120,13 +124,16 @@ std::string hint_of(const Diagnostic& d) {
 
 }  // namespace
 
-std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_color, std::size_t most) {
+std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_color, std::size_t most,
+                             Shown shown) {
     const auto styled = [&](const fmt::text_style& style, std::string_view text) {
         return fmt::format(in_color ? style : fmt::text_style(), "{}", text);
     };
     const fmt::text_style bold = fmt::emphasis::bold;
     std::string result;
-    const std::vector<Diagnostic> all = diagnostics.sorted();
+    std::vector<Diagnostic> all = diagnostics.sorted();
+    if (shown == Shown::errors)
+        std::erase_if(all, [](const Diagnostic& d) { return d.severity == Severity::warning; });
     for (std::size_t i = 0; i < std::min(most, all.size()); ++i) {
         const Diagnostic& d = all[i];
         const auto color =
@@ -137,8 +144,8 @@ std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_co
                               styled(bold, sentence(full_message(d.message, d.help))));
         const std::string hint = sentence(hint_of(d));
         if (const auto line = diagnostics.source_line(d.place)) {
-            const auto [shown, marks] = excerpt(*line, d.place);
-            result += fmt::format("{:5} | {}\n{:5} | {}", d.place.line, shown, "",
+            const auto [text, marks] = excerpt(*line, d.place);
+            result += fmt::format("{:5} | {}\n{:5} | {}", d.place.line, text, "",
                                   styled(bold | fmt::fg(fmt::terminal_color::green), marks));
             result += hint.empty() ? "\n" : fmt::format(" {}\n", hint);
         } else if (!hint.empty()) {
@@ -165,7 +172,7 @@ std::string diagnostics_json(const candela::Diagnostics& diagnostics) {
                        {"message", full_message(d.message, d.help)},
                        {"hint", hint_of(d)}});
     }
-    return all.dump(2, ' ', false, Json::error_handler_t::replace);
+    return candela::printable_json(all.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string full_message(std::string message, const Help& help) { return std::move(message) + remedy(help); }

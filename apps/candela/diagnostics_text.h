@@ -8,10 +8,13 @@ import candela.core;
 
 constexpr std::size_t k_most_diagnostics_shown = 50;
 
-/// The first `most` diagnostics as text, each with its line and a mark below the position, and the number of
-/// those omitted.
+enum class Shown : bool { errors, errors_and_warnings };
+
+/// The first `most` diagnostics as printable text, each with its line and a mark below the position, and the
+/// number of those omitted.
 std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_color,
-                             std::size_t most = k_most_diagnostics_shown);
+                             std::size_t most = k_most_diagnostics_shown,
+                             Shown shown = Shown::errors_and_warnings);
 
 /// All diagnostics for programs: an array of objects with severity, file, line, column, length, message,
 /// hint.

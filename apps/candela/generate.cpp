@@ -49,9 +49,13 @@ int run_generate(const std::vector<std::string>& arguments) {
     const auto exported = export_for(target, *scene, line, registry);
     const auto files = target.files_of(exported.scene());
     write_program(files, directory);
-    for (const candela::ExportedFile& file : files)
-        std::cerr << fmt::format("{}: {}\n", (directory / file.name).string(),
-                                 candela::size_text(file.content.size()));
+    say_afterwards([&] {
+        std::string text;
+        for (const candela::ExportedFile& file : files)
+            text += fmt::format("{}: {}\n", (directory / file.name).string(),
+                                candela::size_text(file.content.size()));
+        return text;
+    });
     if (line.has("build") || line.has("run")) target.build(directory);
     return line.has("run") ? target.show(directory) : 0;
 }

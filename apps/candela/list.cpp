@@ -9,6 +9,7 @@
 #include "reporting.h"
 #include "terminal.h"
 #include "verbs.h"
+#include "wrapping.h"
 
 using candela::Error;
 using candela::ErrorCategory;
@@ -49,7 +50,7 @@ int run_list(const std::vector<std::string>& arguments) {
     }
     report_refusals(registry);
     if (line.has("json")) {
-        std::cout << candela::to_json(manifests);
+        std::cout << candela::printable_json(candela::to_json(manifests));
         return 0;
     }
     std::optional<candela::PluginKind> heading;
@@ -57,7 +58,7 @@ int run_list(const std::vector<std::string>& arguments) {
         if (heading != manifest.kind)
             std::cout << fmt::format("{}{}\n", heading ? "\n" : "", candela::name_of(manifest.kind));
         heading = manifest.kind;
-        std::cout << fmt::format("  {:<14} {}\n", manifest.name, manifest.summary);
+        std::cout << row(candela::printable(manifest.name), candela::printable(manifest.summary), 14);
     }
     if (manifests.empty()) std::cerr << "candela: no plugins found\n";
     return 0;

@@ -11,6 +11,7 @@
 #include "reporting.h"
 #include "signals.h"
 #include "verbs.h"
+#include "wrapping.h"
 
 import candela.core;
 
@@ -35,9 +36,10 @@ constexpr std::array k_verbs = {
 
 std::string help() {
     std::string text =
-        "Candela renders scenes whose lights, shapes, shading and reflection models are plugins.\n\n"
-        "Usage: candela VERB [arguments]\n\nVerbs\n";
-    for (const Verb& verb : k_verbs) text += fmt::format("  {:<10} {}\n", verb.name, verb.summary);
+        wrapped("Candela renders scenes whose lights, shapes, shading and reflection models are plugins.", 0,
+                0) +
+        "\n\nUsage: candela VERB [arguments]\n\nVerbs\n";
+    for (const Verb& verb : k_verbs) text += row(verb.name, verb.summary, 10);
     text +=
         "\n  candela VERB --help   the arguments of a verb\n"
         "  candela --version     the version\n\n"

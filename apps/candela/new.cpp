@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "command_line.h"
+#include "reporting.h"
 #include "starter.h"
 #include "verbs.h"
 
@@ -56,7 +57,10 @@ int run_new(const std::vector<std::string>& arguments) {
     if (!line.has("force") && std::filesystem::exists(std::filesystem::symlink_status(file, problem))) {
         throw Error(ErrorCategory::failure, fmt::format("'{}' is there already; --force replaces it", file));
     }
-    candela::write_text_file(file, starter_scene());
-    std::cerr << fmt::format("Wrote {}. Next, edit it and run: candela render {}\n", file, quoted(file));
+    candela::write_text_file(file, starter_scene(),
+                             line.has("force") ? candela::Existing::replaced : candela::Existing::kept);
+    say_afterwards([&] {
+        return fmt::format("Wrote {}. Next, edit it and run: candela render {}\n", file, quoted(file));
+    });
     return 0;
 }

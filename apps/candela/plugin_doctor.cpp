@@ -8,9 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "command_line.h"
@@ -71,25 +69,29 @@ int run_plugin_doctor(const std::vector<std::string>& arguments) {
                      "hidden by another of the same name, and which are refused and why.");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
-    std::map<std::string, fs::path> used;
     bool all_well = true;
-    const candela::Registry registry = registry_from(line);
+    candela::Registry registry = registry_from(line);
     for (const fs::path& folder : registry.search_path()) {
         const bool exists = fs::is_directory(folder);
         std::cout << folder.string() << (exists ? "\n" : "  (not there)\n");
         const auto say = [](const fs::path& library, const std::string& what) {
-            std::cout << fmt::format("  {:<30} {}\n", library.filename().string(), what);
+            std::cout << fmt::format("  {:<30} {}\n", candela::printable(library.filename().string()),
+                                     candela::printable(what));
         };
         candela::Registry here({folder}, registry.trust());
         for (const candela::PluginFile* file : here.list()) {
-            const std::string id = file->manifest.id();
+            const candela::Manifest& manifest = file->manifest;
+            // What a render would use.
+            const candela::PluginFile* const used = registry.find(manifest.kind, manifest.name);
             if (const std::string problem = loading_problem(*file); !problem.empty()) {
                 say(file->library, "refused: " + short_reason(problem, file->library));
                 all_well = false;
-            } else if (const auto [first, is_new] = used.try_emplace(id, file->library); !is_new) {
-                say(file->library, "hidden by " + first->second.string());
+            } else if (used == nullptr) {
+                say(file->library, "not used: the one that --plugin-dir names is refused");
+            } else if (used->library != file->library) {
+                say(file->library, "hidden by " + used->library.string());
             } else {
-                say(file->library, fmt::format("in use: {} {}", id, file->manifest.version));
+                say(file->library, fmt::format("in use: {} {}", manifest.id(), manifest.version));
             }
         }
         for (const candela::Refusal& refusal : here.refusals()) {

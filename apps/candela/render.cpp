@@ -2,9 +2,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <iostream>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "command_line.h"
 #include "exit_code.h"
@@ -16,6 +17,7 @@
 import candela.parallel;
 
 namespace po = boost::program_options;
+namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
 
@@ -25,6 +27,26 @@ namespace {
 std::string duration_text(double milliseconds) {
     return milliseconds < 1000 ? fmt::format("{:.3g} ms", milliseconds)
                                : fmt::format("{:.3g} s", milliseconds / 1000);
+}
+
+/// For --no-clobber: better to know before rendering.
+void require_no_file(const std::string& output) {
+    std::error_code problem;
+    if (output != "-" && fs::is_regular_file(output, problem))
+        throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and --no-clobber was given", output));
+}
+
+void require_no_input(const std::string& output, const candela::SceneDraft& draft) {
+    if (output == "-") return;
+    for (const fs::path& input : candela::input_files(draft)) {
+        std::error_code problem;
+        if (fs::equivalent(input, output, problem)) {
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("'{}' is one of the files that the scene is made from; give the picture "
+                                    "another name",
+                                    output));
+        }
+    }
 }
 
 int threads_from(const CommandLine& line) {
@@ -49,7 +71,7 @@ int run_render(const std::vector<std::string>& arguments) {
     add_scene_options(line);
     line.options()("threads", po::value<int>()->value_name("N"),
                    "threads to use; default: all cores, or one for a small picture")(
-        "verbose", "print how long each stage took");
+        "no-clobber", "do not replace a picture that exists")("verbose", "print how long each stage took");
     if (!line.parse(arguments)) return 0;
 
     const Stopwatch total;
@@ -58,12 +80,15 @@ int run_render(const std::vector<std::string>& arguments) {
         throw Error(ErrorCategory::bad_request,
                     "-o - would print a PNG on this terminal; send it to a file or a pipe");
     }
+    const auto existing = line.has("no-clobber") ? candela::Existing::kept : candela::Existing::replaced;
+    if (existing == candela::Existing::kept) require_no_file(output);
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
     const candela::PictureFormat format = candela::format_of(output, registry);
 
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
+    if (draft) require_no_input(output, *draft);
     const double read_ms = total.milliseconds();
     const Stopwatch compiling;
     const auto compiled = draft ? candela::compile(*draft, registry, diagnostics, threads) : std::nullopt;
@@ -72,36 +97,47 @@ int run_render(const std::vector<std::string>& arguments) {
     if (!compiled) return static_cast<int>(exit_code_of(diagnostics));
 
     const candela::ImageSettings& image = compiled->image;
-    candela::Film film(image.width, image.height, format.pixels, image.color_management);
+    std::optional<candela::Film> made;
+    try {
+        made.emplace(image.width, image.height, format.pixels, image.color_management);
+    } catch (const Error& problem) {
+        candela::Diagnostics too_large;
+        too_large.failure(draft->picture_place, problem.what());
+        report(too_large);
+        return static_cast<int>(ExitCode::failure);
+    }
+    candela::Film& film = *made;
     candela::RenderStatistics statistics;
     {
-        ProgressBar bar("rendering");
+        ProgressBar bar("rendering", !is_quiet());
         const candela::RenderOptions options{
             .threads = threads,
             .progress = [&](std::size_t done, std::size_t all) { bar.update(done, all); }};
         statistics = candela::render(*compiled, film, options);
     }
     const std::string darkness = candela::why_black(*compiled, film, statistics);
-    if (!darkness.empty())
-        std::cerr << fmt::format("candela: warning: nothing in the picture is lit: {}\n", darkness);
+    if (!darkness.empty()) warn("nothing in the picture is lit: " + darkness);
+    const bool is_verbose = line.has("verbose");
     const Stopwatch writing;
     // A pixel takes its encoder some three nanoseconds.
     candela::with_threads(
-        threads, [&] { candela::write_picture(film, format, output, registry); },
+        threads, [&] { candela::write_picture(film, format, output, registry, existing); },
         3e-6 * film.width() * film.height());
     const double write_ms = writing.milliseconds();
 
-    if (line.has("verbose")) {
-        std::cerr << fmt::format(
-            "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      {:8.2f} "
-            "ms  ({} points lit, {})\n"
-            "  writing    {:8.2f} ms\n",
-            read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles,
-            statistics.points_lit, candela::name_of(candela::instruction_set()), write_ms);
-    }
-    std::cerr << fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {}\n",
-                             output == "-" ? "picture" : output, film.width(), film.height(),
-                             statistics.triangles, statistics.triangles == 1 ? "" : "s",
-                             statistics.pixels_shaded, duration_text(total.milliseconds()));
+    say_afterwards([&] {
+        std::string stages;
+        if (is_verbose) {
+            stages = fmt::format(
+                "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      {:8.2f} ms  ({} "
+                "points lit, {})\n  writing    {:8.2f} ms\n",
+                read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles,
+                statistics.points_lit, candela::name_of(candela::instruction_set()), write_ms);
+        }
+        return stages + fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {}\n",
+                                    output == "-" ? "picture" : output, film.width(), film.height(),
+                                    statistics.triangles, statistics.triangles == 1 ? "" : "s",
+                                    statistics.pixels_shaded, duration_text(total.milliseconds()));
+    });
     return 0;
 }

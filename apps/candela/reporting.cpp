@@ -2,32 +2,89 @@
 
 #include <fmt/color.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "diagnostics_text.h"
+#include "printable_streams.h"
 #include "terminal.h"
+
+namespace {
+
+bool quiet = false;
+
+/// Past the filter, which would escape colours. The text must be printable.
+void print_styled(std::string_view text) {
+    std::cerr.flush();
+    std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+}  // namespace
+
+void be_quiet() { quiet = true; }
+bool is_quiet() { return quiet; }
+
+void say(const std::string& text) {
+    if (!quiet) std::cerr << text;
+}
 
 int fail(ExitCode code, const std::string& message) {
     const fmt::text_style bold_red = fmt::emphasis::bold | fmt::fg(fmt::terminal_color::red);
-    std::cerr << fmt::format(stderr_takes_color() ? bold_red : fmt::text_style(), "candela: error:") << ' '
-              << message << '\n';
+    print_styled(fmt::format(
+        "{} {}\n", fmt::format(stderr_takes_color() ? bold_red : fmt::text_style(), "candela: error:"),
+        candela::printable(message, candela::LineBreaks::kept)));
     return static_cast<int>(code);
 }
 
+void warn(const std::string& message) { say(fmt::format("candela: warning: {}\n", message)); }
+
 void report(const candela::Diagnostics& diagnostics) {
-    std::cerr << diagnostics_text(diagnostics, stderr_takes_color());
+    print_styled(diagnostics_text(diagnostics, stderr_takes_color(), k_most_diagnostics_shown,
+                                  quiet ? Shown::errors : Shown::errors_and_warnings));
 }
 
 void report_refusals(const candela::Registry& registry) {
-    for (const candela::Refusal& refusal : registry.refusals())
-        std::cerr << "candela: warning: " << full_message(refusal.reason, refusal.help) << '\n';
+    for (const candela::Refusal& refusal : registry.refusals()) {
+        if (refusal.used_instead.empty()) warn(full_message(refusal.reason, refusal.help));
+    }
 }
 
+void report_replaced(const candela::Refusal& refused) {
+    warn(fmt::format("{}; '{}' is used instead", full_message(refused.reason, refused.help),
+                     refused.used_instead.string()));
+}
+
+namespace {
+
+/// A lack of memory can strike where no exception may pass: in a thread, in a destructor, while another is
+/// reported.
+[[noreturn]] void end_without_memory() {
+    try {
+        if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
+    } catch (const std::bad_alloc&) {
+        candela::remove_unfinished_files();
+        leave_line();
+        constexpr std::string_view k_message = "candela: error: not enough memory\n";
+        static_cast<void>(::write(STDERR_FILENO, k_message.data(), k_message.size()));
+        ::_exit(static_cast<int>(ExitCode::failure));
+    } catch (...) {
+    }
+    std::abort();
+}
+
+}  // namespace
+
 int run_and_report(const std::function<int()>& work) {
+    std::set_terminate(end_without_memory);
+    const PrintableStreams streams;
     try {
         const int code = work();
         std::cout.flush();

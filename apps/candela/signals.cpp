@@ -7,6 +7,7 @@
 
 #include "descendants.h"
 #include "temporary_folder.h"
+#include "terminal.h"
 
 import candela.core;
 
@@ -26,6 +27,7 @@ void leave_nothing_behind(int signal) {
         remove_temporary_folders();
     }
     candela::remove_unfinished_files();
+    leave_line();
     struct sigaction action{};
     action.sa_handler = SIG_DFL;
     ::sigaction(signal, &action, nullptr);

@@ -10,6 +10,11 @@ namespace fs = std::filesystem;
 
 LoadedTarget::LoadedTarget(const std::string& name, candela::Registry& registry) : name_(name) {
     if (registry.find(PluginKind::target, name) == nullptr) {
+        const std::string stem = "target-" + name;
+        for (const candela::Refusal& refused : registry.refusals()) {
+            if (refused.file.stem() == stem)
+                throw Error(ErrorCategory::failure, refused.reason, refused.help);
+        }
         const std::string meant = candela::suggestion(name, registry.names(PluginKind::target));
         throw Error(ErrorCategory::bad_request,
                     fmt::format("there is no target '{}'{} (possible: {})", name,

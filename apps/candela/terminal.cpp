@@ -10,12 +10,17 @@
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <string_view>
 
 namespace {
 
 using namespace std::chrono_literals;
 
 bool is_terminal(int descriptor) { return ::isatty(descriptor) == 1; }
+
+enum class OpenLine : int { none, question, bar };
+constinit std::atomic<OpenLine> open_line{OpenLine::none};
+static_assert(std::atomic<OpenLine>::is_always_lock_free, "a signal handler may not wait");
 
 }  // namespace
 
@@ -32,7 +37,10 @@ bool ask(const std::string& question) {
     for (const char* before = "";; before = "Please answer y or n. ") {
         std::cerr << before << question << " [Y/n] " << std::flush;
         std::string answer;
-        if (!std::getline(std::cin, answer)) {
+        open_line = OpenLine::question;
+        const bool is_answered = static_cast<bool>(std::getline(std::cin, answer));
+        open_line = OpenLine::none;
+        if (!is_answered) {
             std::cerr << '\n';
             return false;
         }
@@ -44,8 +52,16 @@ bool ask(const std::string& question) {
     }
 }
 
-ProgressBar::ProgressBar(std::string label) : label_(std::move(label)) {
-    if (!is_terminal(STDERR_FILENO)) return;
+void leave_line() noexcept {
+    constexpr std::string_view k_wipe = "\r\x1b[K";
+    const OpenLine open = open_line.exchange(OpenLine::none);
+    if (open == OpenLine::none) return;
+    const std::string_view text = open == OpenLine::bar ? k_wipe : "\n";
+    static_cast<void>(::write(STDERR_FILENO, text.data(), text.size()));
+}
+
+ProgressBar::ProgressBar(std::string label, bool is_wanted) : label_(std::move(label)) {
+    if (!is_wanted || !is_terminal(STDERR_FILENO)) return;
     thread_ = std::thread([this] {
         std::unique_lock lock(mutex_);
         if (end_.wait_for(lock, 500ms, [this] { return ended_; })) return;
@@ -53,7 +69,7 @@ ProgressBar::ProgressBar(std::string label) : label_(std::move(label)) {
             draw();
             end_.wait_for(lock, 100ms, [this] { return ended_; });
         }
-        if (drawn_) std::fputs("\r\x1b[K", stderr);
+        leave_line();
     });
 }
 
@@ -83,5 +99,5 @@ void ProgressBar::draw() {
     const std::string bar = std::string(filled, '#') + std::string(k_width - filled, '.');
     std::fputs(fmt::format("\r{} [{}] {:3} %", label_, bar, 100 * done_ / all).c_str(), stderr);
     std::fflush(stderr);
-    drawn_ = true;
+    open_line = OpenLine::bar;
 }

@@ -17,10 +17,14 @@ bool can_ask();
 /// Asks on stderr until there is an answer; an empty line is yes, the end of input is no.
 bool ask(const std::string& question);
 
-/// A bar on stderr for work that takes longer than half a second, if stderr is a terminal.
+/// Ends the line of an open question, and wipes an open progress bar away. For signal handlers
+/// (async-signal-safe).
+void leave_line() noexcept;
+
+/// A bar on stderr for work that takes longer than half a second, if stderr is a terminal and `is_wanted`.
 class ProgressBar {
   public:
-    explicit ProgressBar(std::string label);
+    explicit ProgressBar(std::string label, bool is_wanted = true);
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
     ~ProgressBar();
@@ -36,6 +40,5 @@ class ProgressBar {
     std::mutex mutex_;
     std::condition_variable end_;
     bool ended_ = false;
-    bool drawn_ = false;
     std::thread thread_;
 };

@@ -232,13 +232,14 @@ int run_verify(const std::vector<std::string>& arguments) {
             step();
         }
     }
-    std::cout << (line.has("json") ? verify::json_of(verdicts, limits) : verify::table_of(verdicts, limits));
+    std::cout << (line.has("json") ? candela::printable_json(verify::json_of(verdicts, limits))
+                                   : verify::table_of(verdicts, limits));
     bool all_match = true;
     for (const verify::Verdict& v : verdicts)
         all_match = all_match && v.outcome(limits) == verify::Outcome::match;
     if (line.has("report")) {
         candela::write_text_file(folder / "index.html", verify::report_page(scene->title, verdicts, limits));
-        std::cerr << fmt::format("report: {}\n", (folder / "index.html").string());
+        say(fmt::format("report: {}\n", (folder / "index.html").string()));
     }
     return static_cast<int>(all_match ? ExitCode::ok : ExitCode::verification_failed);
 }

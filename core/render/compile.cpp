@@ -67,7 +67,9 @@ class Compiler {
         try {
             work();
         } catch (const Error& problem) {
-            diagnostics_.failure(place, fmt::format("{}: {}", whose, problem.what()));
+            const std::string message = fmt::format("{}: {}", whose, problem.what());
+            problem.category() == ErrorCategory::invalid_scene ? diagnostics_.error(place, message)
+                                                               : diagnostics_.failure(place, message);
         }
     }
 

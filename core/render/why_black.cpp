@@ -5,6 +5,7 @@ module;
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -111,14 +112,17 @@ class Receivers {
     std::size_t count_ = 0;
 };
 
-std::string unlit(const CompiledScene& scene, const Camera& camera) {
+Received received_in(const CompiledScene& scene, const Camera& camera) {
     Receivers receivers;
     for (const SolidObject& object : scene.objects) {
         for (std::size_t t = 0; t < object.mesh.triangle_count(); ++t)
             receivers.add(object.mesh, t, camera, scene);
     }
     receivers.flush(scene);
-    const Received& r = receivers.received;
+    return receivers.received;
+}
+
+std::string unlit(const Received& r) {
     if (r.ambient == 0 && r.sent == 0) {
         return "no light reaches an object; look at the intensity and the colour of the lights, and at where "
                "spots "
@@ -127,6 +131,14 @@ std::string unlit(const CompiledScene& scene, const Camera& camera) {
     if (r.ambient == 0 && r.faced == 0)
         return "every light is behind every face that the observer sees; move a light to the observer's side";
     return "what light there is, the objects do not reflect; look at their colours and at ka, kd and ks";
+}
+
+/// One digit, rounded up: "2000"; "4e+07".
+std::string factor_text(float factor) {
+    constexpr float k_longest = 1e6f;
+    const float unit = std::pow(10.0f, std::floor(std::log10(factor)));
+    const float rounded = unit * std::ceil(factor / unit);
+    return rounded < k_longest ? fmt::format("{:.0f}", rounded) : fmt::format("{:.0e}", rounded);
 }
 
 /// The smallest intensity that is visible in 8 bits.
@@ -144,11 +156,22 @@ std::string why_black(const CompiledScene& scene, const Film& film, const Render
     if (statistics.pixels_shaded > 0 && statistics.brightest > visible) return {};
     const Camera camera = camera_of(scene.observer, film.width(), film.height());
     if (statistics.pixels_shaded == 0) return unseen(scene, camera);
-    if (statistics.brightest <= 0) return unlit(scene, camera);
+    const Received received = received_in(scene, camera);
+    if (statistics.brightest <= 0) return unlit(received);
+    const float arriving = std::max(received.ambient, received.faced);
+    // A tail of a highlight on what is black otherwise: brighter lights would not help.
+    constexpr float k_next_to_nothing = 1e-3f;
+    if (statistics.brightest < k_next_to_nothing * arriving) {
+        return fmt::format(
+            "of light with intensity {:.2g}, the objects reflect next to nothing ({:.2g}); look at their "
+            "colours "
+            "and at ka, kd and ks",
+            arriving, statistics.brightest);
+    }
     return fmt::format(
         "the brightest point has intensity {:.2g}, and below {:.2g} a pixel is black; multiply the "
-        "lights' intensity by {:.1g} or more, or move them nearer",
-        statistics.brightest, visible, 1 / statistics.brightest);
+        "lights' intensity by {} or more, or move them nearer",
+        statistics.brightest, visible, factor_text(1 / statistics.brightest));
 }
 
 }  // namespace candela

@@ -204,7 +204,7 @@ TEST_CASE("mistakes of the image") {
         {{"background = [10, 20, 30]", "background = @[10, 20, 30, 255]"}, {"a list of 4 values"}},
         {{"background = [10, 20, 30]", "background = @\"black\""},
          {"a string, \"black\"; expected three integers 0-255"}},
-        {{"background = [10, 20, 30]", "background = @0x102030"}, {"the integer 1056816"}},
+        {{"background = [10, 20, 30]", "background = @0x102030"}, {"the integer 0x102030"}},
         {{"color_management = \"srgb\"", "color_management = @\"SRGB\""},
          {"\"SRGB\" is not one of 'srgb', 'none'", "did you mean 'srgb'?"}},
         {{"color_management = \"srgb\"", "color_management = @false"}, {"'color_management' is false"}},
@@ -333,7 +333,7 @@ TEST_CASE("mistakes of objects") {
     check_mistakes({
         {{"type     = \"cube\"", "type     = @\"qube\""}, {"did you mean 'cube'?"}},
         {{"type     = \"cube\"", "type     = @\"point\""}, {"'point'"}},
-        {{"size     = 1.5", "size     = @0.0"}, {"'size': 0 is outside its range: greater than 0"}},
+        {{"size     = 1.5", "size     = @0.0"}, {"'size': 0.0 is outside its range: greater than 0"}},
         {{"size     = 1.5", "size     = @-1.5"}, {"-1.5 is outside its range"}},
         {{"size     = 1.5", "size     = @[1, 1, 1]"},
          {"'size' is a list of 3 values; expected a number, greater than 0"}},

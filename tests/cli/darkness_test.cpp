@@ -69,3 +69,12 @@ TEST_CASE("light too weak for 8 bits is the reason, and a float picture of it is
     CHECK(holds(warning(scene), "the brightest point has intensity"));
     CHECK_FALSE(holds(warning(scene, "[0, 0, 0]", "a.exr"), "lit"));
 }
+
+TEST_CASE("a black object is not told to have more light") {
+    const std::string black = "[object.material]\nka = 0\nkd = 0\nks = 1e-15\n";
+    const std::string said = warning(light(k_in_front) + k_ball + black);
+    CHECK(holds(said, "the objects reflect next to nothing"));
+    CHECK_FALSE(holds(said, "multiply"));
+    CHECK(holds(warning(light(k_in_front + "intensity = 0.0005\n") + k_ball), "intensity by "));
+    CHECK_FALSE(holds(warning(light(k_in_front + "intensity = 0.0005\n") + k_ball), "e+0"));
+}

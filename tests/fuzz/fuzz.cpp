@@ -56,10 +56,9 @@ fs::path written(const std::string& name, std::string_view content) {
 
 namespace {
 
-/// Whether a terminal would only show it.
+/// Whether a terminal would only show it, and as what it is.
 bool is_harmless(std::string_view text) {
-    return std::ranges::none_of(
-        text, [](unsigned char c) { return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f; });
+    return candela::printable(text, candela::LineBreaks::kept) == text;
 }
 
 void check_place(const candela::Diagnostics& diagnostics, const candela::SourcePlace& place) {

@@ -244,7 +244,8 @@ TEST_CASE(
     wavy.name = "wavy";
     wavy.parameters = {{.name = "waves", .type = candela::ParamType::real, .default_value = 2.0}};
     write_file(directory / "shading-wavy.json", candela::to_json(wavy));
-    write_file(directory / "shading-wavy.so", "");  // never loaded
+    // Never loaded, but it is a library.
+    fs::copy_file(fs::path(CANDELA_TEST_PLUGINS) / "shading-phong.so", directory / "shading-wavy.so");
     candela::Registry registry({directory, CANDELA_TEST_PLUGINS});
     const Scene scene = read(write_file(directory / "scene.toml", R"(version = 1
 [observer]

@@ -15,6 +15,21 @@ module candela.diagnostics;
 
 namespace candela {
 
+namespace {
+
+constexpr int k_lines_per_milestone = 64;
+
+std::vector<std::size_t> milestones_of(std::string_view text) {
+    std::vector<std::size_t> milestones{0};
+    int lines = 0;
+    for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1)) {
+        if (++lines % k_lines_per_milestone == 0) milestones.push_back(at + 1);
+    }
+    return milestones;
+}
+
+}  // namespace
+
 Error::Error(ErrorCategory category, const std::string& message, Help help)
     : std::runtime_error(message), category_(category), help_(std::move(help)) {}
 Error::~Error() = default;
@@ -38,7 +53,8 @@ void Diagnostics::warning(SourcePlace place, std::string message, std::string hi
 
 void Diagnostics::remember_source(const std::string& file, std::string text) {
     files_.push_back(file);
-    sources_.insert_or_assign(file, std::move(text));
+    std::vector<std::size_t> milestones = milestones_of(text);
+    sources_.insert_or_assign(file, Source{std::move(text), std::move(milestones)});
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {
@@ -63,9 +79,11 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
 std::optional<std::string> Diagnostics::source_line(const SourcePlace& place) const {
     const auto found = sources_.find(place.file);
     if (found == sources_.end() || place.line < 1) return std::nullopt;
-    const std::string_view text = found->second;
-    std::size_t begin = 0;
-    for (int line = 1; line < place.line; ++line) {
+    const std::string_view text = found->second.text;
+    const auto milestone = static_cast<std::size_t>((place.line - 1) / k_lines_per_milestone);
+    if (milestone >= found->second.milestones.size()) return std::nullopt;
+    std::size_t begin = found->second.milestones[milestone];
+    for (int line = 0; line < (place.line - 1) % k_lines_per_milestone; ++line) {
         begin = text.find('\n', begin);
         if (begin == std::string_view::npos) return std::nullopt;
         ++begin;

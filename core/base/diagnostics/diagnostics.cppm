@@ -95,9 +95,16 @@ class CANDELA_API Diagnostics {
     std::optional<std::string> source_line(const SourcePlace& place) const;
 
   private:
+    /// A file's text, and where every so many of its lines begin, so that none has to be searched for from
+    /// the beginning.
+    struct Source {
+        std::string text;
+        std::vector<std::size_t> milestones;
+    };
+
     std::vector<Diagnostic> all_;
     std::vector<std::string> files_;  // in reading order
-    std::map<std::string, std::string, std::less<>> sources_;
+    std::map<std::string, Source, std::less<>> sources_;
     std::optional<ErrorCategory> worst_;
     std::size_t errors_ = 0;
 };

@@ -15,14 +15,19 @@ export module candela.files;
 
 export namespace candela {
 
-/// A file being written atomically: nobody ever sees a partial file, and a failure or a kill leaves the
-/// previous contents. It has no name until it is complete, if the file system supports that; otherwise it is
-/// a temporary file in the same folder whose name begins with ".candela-". Symbolic links are followed; the
-/// new file has the permissions of the old one. "-", standard output, and anything that is not a regular file
-/// (a pipe, a device) is written to directly. All members throw Error (failure). One thread at a time.
+/// What becomes of a file that is there already.
+enum class Existing : bool { replaced, kept };
+
+/// A file being written atomically: nobody ever sees a partial file, and a failure, a kill or a crash of the
+/// machine leaves the previous contents. It has no name until it is complete, synced and closed, if the file
+/// system supports that; otherwise it is a temporary file in the same folder whose name begins with
+/// ".candela-". Symbolic links are followed; the new file has the permissions of the old one. "-", standard
+/// output, and anything that is not a regular file (a pipe, a device) is written to directly. With
+/// `Existing::kept`, there is an error if the file exists, also if it was made meanwhile. All members throw
+/// Error (failure). One thread at a time.
 class CANDELA_API OutputFile {
   public:
-    explicit OutputFile(const std::filesystem::path& path);
+    explicit OutputFile(const std::filesystem::path& path, Existing existing = Existing::replaced);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
     /// Without a preceding finish(), nothing has happened.
@@ -36,13 +41,17 @@ class CANDELA_API OutputFile {
   private:
     class NameBeside;
 
+    void sync();
     void close();
     void put_in_place();
+    void replace(bool is_there);
+    [[noreturn]] void fail_as_existing() const;
 
     std::string shown_;             // the path as given, for messages
     std::filesystem::path target_;  // what is replaced; empty if bytes are written directly
     std::unique_ptr<NameBeside> beside_;
     int descriptor_ = -1;
+    Existing existing_;
 };
 
 /// The bytes of a regular file, or nothing if it cannot be read. Of a file larger than `most`, a little more
@@ -51,7 +60,8 @@ CANDELA_API std::optional<std::string> read_text_file(const std::filesystem::pat
                                                       std::size_t most = std::string::npos);
 
 /// Writes a text through an OutputFile.
-CANDELA_API void write_text_file(const std::filesystem::path& path, std::string_view text);
+CANDELA_API void write_text_file(const std::filesystem::path& path, std::string_view text,
+                                 Existing existing = Existing::replaced);
 
 /// Removes the temporary files that exist at this moment; they will not be finished. For signal handlers
 /// (async-signal-safe). A program that never calls it leaves them behind only if a signal ends the process.

@@ -62,12 +62,47 @@ bool name_file(int descriptor, const char* name) {
 
 }  // namespace
 
+namespace {
+
+/// Some file systems have nothing to sync.
+bool is_synced(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP; }
+
+/// A name lasts only once its folder has been synced. A folder that may be written to but not read cannot be.
+bool is_folder_synced(const fs::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return errno == EACCES;
+    const bool synced = is_synced(descriptor);
+    const int problem = errno;
+    ::close(descriptor);
+    errno = problem;
+    return synced;
+}
+
+/// Keeps a nameless file while it is closed: what closing it reports must be known before it gets its name.
+class Handle {
+  public:
+    explicit Handle(int of)
+        : descriptor_(::open(fmt::format("/proc/self/fd/{}", of).c_str(), O_PATH | O_CLOEXEC)) {}
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    ~Handle() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    bool is_open() const { return descriptor_ >= 0; }
+    bool name(const char* name) const { return name_file(descriptor_, name); }
+
+  private:
+    int descriptor_;
+};
+
+}  // namespace
+
 class OutputFile::NameBeside : public UnfinishedName {
   public:
     using UnfinishedName::UnfinishedName;
 };
 
-OutputFile::OutputFile(const fs::path& path) : shown_(path.string()) {
+OutputFile::OutputFile(const fs::path& path, Existing existing) : shown_(path.string()), existing_(existing) {
     if (path == "-") {
         descriptor_ = STDOUT_FILENO;
         return;
@@ -84,6 +119,7 @@ OutputFile::OutputFile(const fs::path& path) : shown_(path.string()) {
         if (descriptor_ < 0) fail(shown_, "cannot be opened");
         return;
     }
+    if (is_there && existing_ == Existing::kept) fail_as_existing();
     target_ = behind_links(path);
     // Nobody may read the new version of a private file while it is being written; see put_in_place().
     const mode_t mode = is_there ? 0600 : 0666;
@@ -114,32 +150,57 @@ void OutputFile::finish() {
     if (descriptor_ != STDOUT_FILENO) close();
 }
 
+void OutputFile::sync() {
+    if (!is_synced(descriptor_)) fail(shown_, "cannot be written to the disk");
+}
+
 void OutputFile::close() {
     if (::close(std::exchange(descriptor_, -1)) != 0) fail(shown_, "cannot be written");
+}
+
+void OutputFile::fail_as_existing() const {
+    throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and is not to be replaced", shown_));
 }
 
 void OutputFile::put_in_place() {
     struct stat before{};
     const bool is_there = ::stat(target_.c_str(), &before) == 0;
+    if (is_there && existing_ == Existing::kept) fail_as_existing();
     if (is_there && ::fchmod(descriptor_, before.st_mode & 07777) != 0) {
         fail(shown_, "cannot be given its rights");
     }
+    sync();
+    replace(is_there);
+    if (!is_folder_synced(directory_of(target_))) fail(shown_, "is written, but its folder cannot be synced");
+}
+
+void OutputFile::replace(bool is_there) {
     if (beside_ == nullptr) {
-        if (!is_there) {
-            if (name_file(descriptor_, target_.c_str())) return close();
+        const Handle handle(descriptor_);
+        if (!handle.is_open()) fail(shown_, "cannot be put in its place");
+        close();
+        if (!is_there || existing_ == Existing::kept) {
+            if (handle.name(target_.c_str())) return;
             if (errno != EEXIST) fail(shown_, "cannot be put in its place");
+            if (existing_ == Existing::kept) fail_as_existing();
         }
         // Only an unused name can be given: between this and the renaming, a kill leaves a (complete) file
         // beside the old one.
         beside_ = std::make_unique<NameBeside>(directory_of(target_));
-        if (!name_file(descriptor_, beside_->c_str())) fail(shown_, "cannot be put in its place");
+        if (!handle.name(beside_->c_str())) fail(shown_, "cannot be put in its place");
+    } else {
+        close();
     }
-    close();
+    if (existing_ == Existing::kept) {
+        if (::link(beside_->c_str(), target_.c_str()) == 0) return;
+        if (errno == EEXIST) fail_as_existing();
+        fail(shown_, "cannot be put in its place");
+    }
     if (::rename(beside_->c_str(), target_.c_str()) != 0) fail(shown_, "cannot be replaced");
 }
 
-void write_text_file(const fs::path& path, std::string_view text) {
-    OutputFile file(path);
+void write_text_file(const fs::path& path, std::string_view text, Existing existing) {
+    OutputFile file(path, existing);
     file.write(text);
     file.finish();
 }

@@ -25,9 +25,6 @@ std::string shortened(std::string_view text) {
         size = next;
     }
     std::string result(text.substr(0, size));
-    for (char& c : result) {
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    }
     return result.size() < text.size() ? result + "..." : result;
 }
 

@@ -14,8 +14,22 @@ export module candela.text;
 
 export namespace candela {
 
-/// As much of a user's text as fits a message, on one line.
+/// As much of a user's text as fits a message; not yet printable().
 CANDELA_API std::string shortened(std::string_view text);
+
+enum class LineBreaks : bool { escaped, kept };
+
+/// Any bytes as text that is safe to print: valid UTF-8 without characters that control a terminal, change
+/// the direction of writing, or cannot be seen. Those are shown as \u{202e}, bytes that are not UTF-8 as
+/// \x{9b}. Tabs are kept.
+CANDELA_API std::string printable(std::string_view text, LineBreaks line_breaks = LineBreaks::escaped);
+
+/// The same JSON, but with such characters as JSON's own escapes: they can only be in its strings.
+CANDELA_API std::string printable_json(std::string_view json);
+
+/// The code point of a character that printable() escapes, tabs and line breaks included; nothing for any
+/// other, and for a byte that is not UTF-8.
+CANDELA_API std::optional<char32_t> hidden_code_point(std::string_view character);
 
 /// The byte at which `text` stops being UTF-8, or nothing.
 CANDELA_API std::optional<std::size_t> first_invalid_byte(std::string_view text);

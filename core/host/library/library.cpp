@@ -98,7 +98,11 @@ const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manife
                            manifest->abi, host_abi()));
     }
     Loaded& entry = loaded_libraries()[library];
-    if (!entry.library.is_loaded()) entry.library = open_library(library);
+    if (!entry.library.is_loaded()) {
+        if (const std::string damage = library_damage(library); !damage.empty())
+            refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it", damage));
+        entry.library = open_library(library);
+    }
     if (entry.descriptor == nullptr) {
         for (const char* symbol : {"candela_plugin_abi", "candela_plugin_descriptor"}) {
             if (!entry.library.has(symbol)) {

@@ -195,29 +195,35 @@ std::string constraint_text(const Parameter& p) {
     return "a value";
 }
 
-std::optional<std::string> validation_error(const Parameter& p, const Value& value) {
+std::optional<std::string> validation_error(const Parameter& p, const Value& value,
+                                            std::string_view written) {
+    const auto text = [&] { return written.empty() ? text_of(value) : std::string(written); };
+    const auto number = [&](double x) {
+        return written.empty() ? fmt::format("{}", x) : std::string(written);
+    };
     if (p.type == ParamType::choice) {
         const auto* word = std::get_if<std::string>(&value);
         if (word == nullptr || std::ranges::find(p.choices, *word) == p.choices.end()) {
-            return fmt::format("{} is not {}", text_of(value), constraint_text(p));
+            return fmt::format("{} is not {}", text(), constraint_text(p));
         }
         return std::nullopt;
     }
     if (p.type == ParamType::integer && !p.choices.empty() &&
         std::ranges::find(p.choices, text_of(value)) == p.choices.end()) {
-        return fmt::format("{} is not one of {}", text_of(value), fmt::join(p.choices, ", "));
+        return fmt::format("{} is not one of {}", text(), fmt::join(p.choices, ", "));
     }
     for (const double x : numbers_of(value)) {
-        if (!std::isfinite(x)) return fmt::format("{} is not a number that can be used", x);
+        if (!std::isfinite(x)) return fmt::format("{} is not a number that can be used", number(x));
         if (std::abs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
-            return fmt::format("{} is too large (at most {:.3g})", x, std::numeric_limits<float>::max());
+            return fmt::format("{} is too large (at most {:.3g})", number(x),
+                               std::numeric_limits<float>::max());
         }
         if (p.type == ParamType::color ? (x < 0 || x > 256) : (below(x, p) || above(x, p))) {
             const std::string allowed = p.type == ParamType::color ? "0 to 255" : range_text(p);
-            return fmt::format("{} is outside its range: {}", text_of(value), allowed);
+            return fmt::format("{} is outside its range: {}", text(), allowed);
         }
         if (p.type == ParamType::integer && std::abs(x) > std::numeric_limits<std::int32_t>::max()) {
-            return fmt::format("{} is too large (at most {})", text_of(value),
+            return fmt::format("{} is too large (at most {})", text(),
                                std::numeric_limits<std::int32_t>::max());
         }
     }

@@ -70,8 +70,10 @@ CANDELA_API std::string text_of(const Value& value);
 /// What a relation requires: "inner_angle does not exceed outer_angle: the cone of full light …".
 CANDELA_API std::string text_of(const Relation& relation);
 
-/// Why `value`, which already has the parameter's type, is invalid, or nothing.
-CANDELA_API std::optional<std::string> validation_error(const Parameter& parameter, const Value& value);
+/// Why `value`, which already has the parameter's type, is invalid, or nothing. `written`: how its author
+/// wrote it, for the message; may be empty.
+CANDELA_API std::optional<std::string> validation_error(const Parameter& parameter, const Value& value,
+                                                        std::string_view written = {});
 
 /// A schema shared by many sets. Never null.
 using SharedSchema = std::shared_ptr<const std::vector<Parameter>>;

@@ -7,7 +7,10 @@ module;
 
 #include <algorithm>
 #include <boost/dll/runtime_symbol_info.hpp>
+#include <cerrno>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -52,6 +55,19 @@ void add_path_list(std::vector<fs::path>& directories, std::string_view list) {
     }
 }
 
+fs::path library_of(const fs::path& directory, PluginKind kind, std::string_view name) {
+    return directory / fmt::format("{}-{}.so", candela::name_of(kind), name);
+}
+
+/// Why a file that is there cannot be read; empty if it can be, or is not there. That a whole folder is
+/// closed to this user says nothing about a file in it.
+std::string reading_problem(const fs::path& file) {
+    struct stat status{};
+    if (::access(file.parent_path().c_str(), X_OK) != 0 || ::lstat(file.c_str(), &status) != 0) return {};
+    if (::access(file.c_str(), R_OK) == 0) return {};
+    return errno == ENOENT ? "it is a link to nowhere" : std::strerror(errno);
+}
+
 std::string_view environment(const char* name) {
     const char* const value = std::getenv(name);
     return value != nullptr ? value : "";
@@ -92,8 +108,12 @@ std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
     return directories;
 }
 
-Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust)
-    : search_path_(std::move(search_path)), trust_(trust) {}
+Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust, std::size_t named_folders,
+                   ReplacementHandler on_replaced)
+    : search_path_(std::move(search_path)),
+      trust_(trust),
+      named_folders_(named_folders),
+      on_replaced_(std::move(on_replaced)) {}
 
 const PluginFile* Registry::look_at(const fs::path& directory, const std::string& id, PluginKind kind,
                                     std::string_view name) {
@@ -105,8 +125,17 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
                              std::move(help)};
         return nullptr;
     };
+    for (const fs::path& part : {library, manifest_path}) {
+        if (const std::string problem = reading_problem(part); !problem.empty())
+            return refuse(
+                fmt::format("{} cannot be read: {}", part == library ? "it" : "its manifest", problem));
+    }
     const bool has_library = is_regular(library);
     const auto text = read_text_file(manifest_path, k_largest_manifest);
+    if (!text && is_regular(manifest_path)) {
+        // That nothing can be read at the moment says nothing of the plugin.
+        throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", manifest_path.string()));
+    }
     if (!text) {
         return has_library
                    ? refuse(fmt::format(
@@ -144,6 +173,8 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
         return refuse(fmt::format("its manifest is that of {}; a plugin's file is called <kind>-<name>.so",
                                   file->manifest.id()));
     }
+    if (const std::string damage = library_damage(library); !damage.empty())
+        return refuse(fmt::format("it cannot be loaded ({}); build it again, or remove it", damage));
     file->library = library;
     file->schema = std::make_shared<const std::vector<Parameter>>(file->manifest.parameters);
     return (found_[id] = std::move(file)).get();
@@ -154,20 +185,42 @@ const PluginFile* Registry::find(PluginKind kind, std::string_view name) {
     const std::string id = id_of(kind, name);
     if (const auto known = found_.find(id); known != found_.end()) return known->second.get();
     if (name.find('/') != std::string_view::npos) return nullptr;
-    for (const fs::path& directory : search_path_) {
-        if (const PluginFile* const file = look_at(directory, id, kind, name)) return file;
+    for (std::size_t i = 0; i < search_path_.size(); ++i) {
+        if (const PluginFile* const file = look_at(search_path_[i], id, kind, name)) {
+            report_replaced(*file, kind, name);
+            return file;
+        }
+        if (i < named_folders_ && refused_.contains(library_of(search_path_[i], kind, name))) break;
     }
     found_[id] = nullptr;
     return nullptr;
 }
 
+std::vector<Refusal*> Registry::refused_before(const PluginFile* instead, PluginKind kind,
+                                               std::string_view name) {
+    std::vector<Refusal*> result;
+    for (const fs::path& directory : search_path_) {
+        const fs::path library = library_of(directory, kind, name);
+        if (instead != nullptr && instead->library == library) break;
+        if (const auto refused = refused_.find(library); refused != refused_.end())
+            result.push_back(&refused->second);
+    }
+    return result;
+}
+
+void Registry::report_replaced(const PluginFile& instead, PluginKind kind, std::string_view name) {
+    for (Refusal* const refused : refused_before(&instead, kind, name)) {
+        if (!refused->used_instead.empty()) continue;
+        refused->used_instead = instead.library;
+        if (on_replaced_) on_replaced_(*refused);
+    }
+}
+
 const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
     if (const PluginFile* const file = find(kind, name)) return *file;
     const std::lock_guard lock(mutex_);
-    const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
-    for (const auto& [library, refusal] : refused_) {
-        if (library.stem() == stem) throw Error(ErrorCategory::failure, refusal.reason, refusal.help);
-    }
+    if (const auto refused = refused_before(nullptr, kind, name); !refused.empty())
+        throw Error(ErrorCategory::failure, refused.front()->reason, refused.front()->help);
     const std::vector<std::string> known = names(kind);
     const std::string meant = suggestion(name, known);
     throw Error(ErrorCategory::failure,
@@ -181,9 +234,14 @@ void Registry::scan(PluginKind kind) {
     if (!scanned_.insert(kind).second) return;
     const std::string prefix = fmt::format("{}-", candela::name_of(kind));
     for (const fs::path& directory : search_path_) {
-        std::error_code ignored;
+        std::error_code problem;
         std::set<std::string> names;
-        for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
+        const fs::directory_iterator entries(directory, problem);
+        if (problem && fs::exists(directory, problem) && ::access(directory.c_str(), R_OK) == 0) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("the folder '{}' cannot be read", directory.string()));
+        }
+        for (const fs::directory_entry& entry : entries) {
             const std::string extension = entry.path().extension().string();
             const std::string stem = entry.path().stem().string();
             if ((extension == ".so" || extension == ".json") && stem.starts_with(prefix))
@@ -239,10 +297,17 @@ const PluginFile* Registry::find_format(std::string_view extension, FormatUse us
     };
     if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && is_able(file))
         return file;
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < named_folders_; ++i) {
+        const auto refused = refused_.find(library_of(search_path_[i], PluginKind::image, extension));
+        if (refused != refused_.end())
+            throw Error(ErrorCategory::failure, refused->second.reason, refused->second.help);
+    }
     const PluginFile* best = nullptr;
     for (const PluginFile* file : list(PluginKind::image)) {
         if (is_able(file) && (best == nullptr || (is_fallback(best) && !is_fallback(file)))) best = file;
     }
+    if (best != nullptr) report_replaced(*best, PluginKind::image, extension);
     return best;
 }
 

@@ -2,7 +2,9 @@ module;
 
 #include "candela/api.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -40,6 +42,7 @@ struct Refusal {
     std::filesystem::path file;
     std::string reason;
     Help help{};
+    std::filesystem::path used_instead{};  // the next of its name on the search path, if that has been used
 };
 
 /// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins beside the core.
@@ -73,17 +76,27 @@ enum class PluginTrust : int {
 /// What to do with a picture file.
 enum class FormatUse : bool { write, read };
 
+/// Told when a plugin is used instead of one that was refused, which comes before it on the search path. Must
+/// not call the registry.
+using ReplacementHandler = std::function<void(const Refusal&)>;
+
 /// The plugins of a search path. Reads a manifest when asked for it and loads a library when an instance is
 /// created. Any thread; returned pointers are valid as long as the registry exists.
+///
+/// Which plugin of a name is used: the first on the search path whose manifest and library are sound, without
+/// loading it. If one before it was refused, `on_replaced` is told. A refused one in the first
+/// `named_folders` folders, which somebody has named for this purpose, is not replaced: then there is none. A
+/// library that then cannot be loaded is an error.
 class CANDELA_API Registry {
   public:
     explicit Registry(std::vector<std::filesystem::path> search_path,
-                      PluginTrust trust = PluginTrust::own_and_system);
+                      PluginTrust trust = PluginTrust::own_and_system, std::size_t named_folders = 0,
+                      ReplacementHandler on_replaced = {});
 
     const std::vector<std::filesystem::path>& search_path() const noexcept { return search_path_; }
     PluginTrust trust() const noexcept { return trust_; }
 
-    /// The first usable plugin of that name on the search path, or null.
+    /// The plugin of that name to use, or null.
     const PluginFile* find(PluginKind kind, std::string_view name);
     /// Same, but throws Error if there is none: what is unknown, why a candidate was refused, and a
     /// suggestion.
@@ -98,7 +111,8 @@ class CANDELA_API Registry {
     std::vector<Refusal> refusals() const;
 
     /// The image plugin that writes, or reads, `.extension`, or null. One with the property "fallback" yields
-    /// to one without.
+    /// to one without. Throws Error if the one named after the extension is refused where it may not be
+    /// replaced.
     const PluginFile* find_format(std::string_view extension, FormatUse use = FormatUse::write);
     /// All extensions that an image plugin writes, or reads, sorted.
     std::vector<std::string> extensions(FormatUse use = FormatUse::write);
@@ -123,11 +137,16 @@ class CANDELA_API Registry {
     [[noreturn]] static void throw_wrong_interface(PluginKind kind, std::string_view name);
     const PluginFile* look_at(const std::filesystem::path& directory, const std::string& id, PluginKind kind,
                               std::string_view name);
+    /// The refused candidates of that name that come before `instead` (null: all), in search order.
+    std::vector<Refusal*> refused_before(const PluginFile* instead, PluginKind kind, std::string_view name);
+    void report_replaced(const PluginFile& instead, PluginKind kind, std::string_view name);
     void scan(PluginKind kind);
     const PluginDescriptor& load(const PluginFile& file);
 
     std::vector<std::filesystem::path> search_path_;
     PluginTrust trust_;
+    std::size_t named_folders_;
+    ReplacementHandler on_replaced_;
     mutable std::recursive_mutex mutex_;
     std::set<PluginKind> scanned_;
     std::map<std::string, std::unique_ptr<PluginFile>, std::less<>> found_;  // by id; null: not found

@@ -12,6 +12,7 @@ export module candela.film;
 
 import candela.arrays;
 import candela.color;
+import candela.files;
 import candela.image;
 import candela.math;
 import candela.params;
@@ -60,9 +61,10 @@ struct PictureFormat {
 /// no plugin writes.
 CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
-/// Writes the picture atomically, through an OutputFile. Plugins that encode on several threads use those of
-/// with_threads(). Throws Error.
+/// Writes the picture atomically, through an OutputFile; `existing`: what becomes of a file of that name.
+/// Plugins that encode on several threads use those of with_threads(). Throws Error.
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
-                               const std::filesystem::path& path, Registry& registry);
+                               const std::filesystem::path& path, Registry& registry,
+                               Existing existing = Existing::replaced);
 
 }  // namespace candela

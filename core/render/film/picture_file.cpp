@@ -57,10 +57,11 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
     return {.plugin = plugin->manifest.name, .extension = extension, .pixels = format->pixels};
 }
 
-void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry) {
+void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry,
+                   Existing existing) {
     const auto writer = registry.create<ImageFormat>(
         format.plugin, registry.parameters(PluginKind::image, format.plugin), film.view().encoding);
-    OutputFile file(path);
+    OutputFile file(path, existing);
     FileSink sink(file);
     try {
         writer->write(film.view(), format.extension.c_str(), sink);

@@ -20,6 +20,7 @@ module;
 
 module candela.mesh;
 
+import candela.diagnostics;
 import candela.memory;
 import candela.parallel;
 import candela.shape;
@@ -142,8 +143,9 @@ void check_finite(const Mesh& mesh) {
             throw std::invalid_argument(fmt::format("the position of vertex {} is not a finite number", i));
         }
         if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > k_farthest) {
-            throw std::invalid_argument(fmt::format(
-                "vertex {} at [{:g}, {:g}, {:g}] is farther away than {:g} m", i, p.x, p.y, p.z, k_farthest));
+            throw Error(ErrorCategory::invalid_scene,
+                        fmt::format("vertex {} at [{:g}, {:g}, {:g}] is farther away than {:g} m", i, p.x,
+                                    p.y, p.z, k_farthest));
         }
     }
 }

@@ -9,6 +9,7 @@ module;
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -19,6 +20,7 @@ module;
 module candela.scene;
 
 import :merge;
+import :schema;
 import candela.diagnostics;
 import candela.text;
 import candela.toml;
@@ -49,9 +51,24 @@ void report_too_many(const TableNode& root, Diagnostics& diagnostics) {
     }
 }
 
+/// Whether `file` is in `folder` or in a folder below it. Both are canonical.
+bool is_within(const fs::path& file, const fs::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+/// Whether a table has anything that a scene has; otherwise a file has been included by mistake.
+bool is_part_of_a_scene(const TableNode& table) {
+    return std::ranges::any_of(table.entries, [](const TableNode::Entry& entry) {
+        const auto has_name = [&](const auto& named) { return named.name == entry.key; };
+        return std::ranges::any_of(scene_schema(), has_name) ||
+               std::ranges::any_of(top_schema().parameters, has_name);
+    });
+}
+
 class Gatherer {
   public:
-    explicit Gatherer(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+    /// What is quoted from a file that lies outside of `home`, see add_foreign().
+    Gatherer(fs::path home, Diagnostics& diagnostics) : home_(std::move(home)), diagnostics_(diagnostics) {}
 
     void add_file(const fs::path& file, const SourcePlace* included_at) {
         const std::string shown = file.string();
@@ -71,6 +88,8 @@ class Gatherer {
         if (included_at != nullptr && !fs::exists(file, problem)) {
             diagnostics_.error(*included_at, fmt::format("there is no file '{}' to include", shown),
                                file_suggestion(file));
+        } else if (included_at != nullptr && !is_within(canonical, home_)) {
+            add_foreign(file, shown, *included_at);
         } else if (auto table = read_document(file, shown, left_, diagnostics_)) {
             add(std::move(*table), file.parent_path());
         }
@@ -82,9 +101,48 @@ class Gatherer {
         if (auto table = parse_document(text, shown, diagnostics_)) add(std::move(*table), {});
     }
 
+    void add_stream(const std::string& bytes, const std::string& shown) {
+        if (!streams_.insert(shown).second) {
+            return diagnostics_.error({shown, 0, 0, 0}, fmt::format("'{}' is read twice", shown));
+        }
+        if (auto table = read_document(bytes, shown, left_, diagnostics_)) add(std::move(*table), {});
+    }
+
     TableNode take() { return std::move(root_); }
+    std::vector<fs::path> files() const {
+        std::vector<fs::path> all;
+        for (const auto& [file, is_open] : files_) all.push_back(file);
+        return all;
+    }
 
   private:
+    /// A scene from elsewhere may include any file that its reader can read, and messages may be shown to
+    /// others. So nothing is said of what is in a file outside the scene's folder until it has turned out to
+    /// be part of a scene.
+    void add_foreign(const fs::path& file, const std::string& shown, const SourcePlace& place) {
+        Diagnostics found;
+        auto table = read_document(file, shown, left_, found);
+        if (table && is_part_of_a_scene(*table)) {
+            // Its lines may be shown from here on.
+            ReadingLimits ignored;
+            static_cast<void>(read_document(file, shown, ignored, diagnostics_));
+            return add(std::move(*table), file.parent_path());
+        }
+        const std::vector<Diagnostic> problems = found.sorted();
+        if (found.worst() == ErrorCategory::failure) {
+            return diagnostics_.failure(
+                place, fmt::format("'{}' cannot be included: {}", shown, problems.front().message));
+        }
+        const SourcePlace in_file = problems.empty() ? SourcePlace{} : problems.front().place;
+        diagnostics_.error(
+            place,
+            fmt::format("'{}' is no part of a scene{}", shown,
+                        in_file.line > 0 ? fmt::format(": it is not TOML at line {}, column {}", in_file.line,
+                                                       in_file.column)
+                                         : ""),
+            "it is outside the scene's folder, so nothing of it is shown");
+    }
+
     bool may_include(const SourcePlace& place) {
         if (depth_ > k_deepest_include) {
             diagnostics_.error(place,
@@ -144,10 +202,12 @@ class Gatherer {
         }
     }
 
+    fs::path home_;
     Diagnostics& diagnostics_;
     TableNode root_;
     std::unordered_map<std::string, std::size_t> index_;  // of the root's keys
     std::map<fs::path, bool> files_;                      // whether it is currently being read
+    std::set<std::string> streams_;
     ReadingLimits left_;
     int depth_ = 0;
     bool too_many_files_ = false;
@@ -250,19 +310,46 @@ class Setter {
 
 }  // namespace
 
+namespace {
+
+/// A stream has no folder: paths in it are relative to the working directory.
+std::string shown_name(const SceneRequest& request, const fs::path& file) {
+    if (!request.streams.contains(file)) return file.string();
+    return file == "-" || file.filename() == "stdin" ? "standard input"
+                                                     : fmt::format("stream {}", file.filename().string());
+}
+
+/// The folder of the scene's first file.
+fs::path home_of(const SceneRequest& request) {
+    std::error_code problem;
+    const bool has_file = !request.files.empty() && !request.streams.contains(request.files.front());
+    const fs::path folder = has_file ? request.files.front().parent_path() : fs::path();
+    return fs::weakly_canonical(folder.empty() ? fs::current_path(problem) : folder, problem);
+}
+
+}  // namespace
+
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics) {
-    Gatherer gatherer(diagnostics);
+    Gatherer gatherer(home_of(request), diagnostics);
     MergedDocument merged;
     if (request.files.empty()) {
         merged.place.file = "default scene";
         gatherer.add_text(default_scene_text(), merged.place.file);
     } else {
-        merged.place.file = request.files.front().string();
-        for (const fs::path& file : request.files) gatherer.add_file(file, nullptr);
+        merged.place.file = shown_name(request, request.files.front());
+        for (const fs::path& file : request.files) {
+            const auto stream = request.streams.find(file);
+            if (stream != request.streams.end()) {
+                gatherer.add_stream(stream->second, shown_name(request, file));
+            } else {
+                gatherer.add_file(file, nullptr);
+            }
+        }
     }
     // A file that cannot be read would only cause errors about what seems to be missing.
     if (diagnostics.has_errors()) return std::nullopt;
     merged.root = gatherer.take();
+    merged.files = gatherer.files();
     report_too_many(merged.root, diagnostics);
     if (diagnostics.has_errors()) return std::nullopt;
     for (const Setting& setting : request.settings) Setter(setting, merged.root, diagnostics).apply();

@@ -3,9 +3,11 @@ module;
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,15 +39,20 @@ class Reader {
   public:
     Reader(const SceneRequest& request, const MergedDocument& document, Registry& registry,
            Diagnostics& diagnostics)
-        : tables_(document, registry, diagnostics), request_(request), diagnostics_(diagnostics) {}
+        : tables_(document, registry, diagnostics),
+          request_(request),
+          diagnostics_(diagnostics),
+          files_(document.files) {}
 
     SceneDraft read() {
         read_version();
         std::vector<std::string> keys = names_in(top_schema().parameters);
         for (const TableSchema& schema : scene_schema()) keys.push_back(schema.name);
         report_unknown_keys(tables_.root(), keys, {"the scene", {}, tables_.whole()}, diagnostics_);
-        draft_.has_room = is_clean([&] { read_room(); });
-        draft_.has_observer = is_clean([&] { read_observer(); });
+        draft_.files = files_;
+        read_room();
+        draft_.has_room = tables_.has_valid("room", {"height", "width", "depth"});
+        read_observer();
         read_image();
         read_constraints();
         each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
@@ -61,14 +68,6 @@ class Reader {
     }
 
   private:
-    /// Whether `read` encounters no error.
-    template <class Read>
-    bool is_clean(Read read) const {
-        const std::size_t before = diagnostics_.error_count();
-        read();
-        return diagnostics_.error_count() == before;
-    }
-
     static const SourcePlace& place_of(const TableNode& table, std::string_view key,
                                        const SourcePlace& otherwise) {
         const TableNode::Entry* const entry = table.find(key);
@@ -100,6 +99,7 @@ class Reader {
     }
 
     void read_observer() {
+        draft_.has_observer = false;
         if (tables_.root().find("observer") == nullptr) {
             diagnostics_.error(tables_.whole(), "the scene has no [observer]",
                                "write: [observer] with position and look_at");
@@ -116,11 +116,15 @@ class Reader {
         observer.fov = real(values, "fov");
         observer.height = real(values, "height");
         const TableNode* const table = tables_.single("observer");
-        if (table == nullptr || !has(values, "position") || !has(values, "look_at")) return;
-        observer.position = vector(values, "position");
-        observer.look_at = vector(values, "look_at");
-        observer.position_place = table->find("position")->node.place;
-        check_view(*table);
+        if (table == nullptr) return;
+        if (tables_.has_valid("observer", {"position"})) {
+            draft_.has_observer = true;
+            observer.position = vector(values, "position");
+            observer.position_place = table->find("position")->node.place;
+        }
+        if (tables_.has_valid("observer", {"look_at"})) observer.look_at = vector(values, "look_at");
+        if (tables_.has_valid("observer", {"position", "look_at", "up"})) check_view(*table);
+        if (tables_.has_valid("observer", {"projection"})) warn_of_unused(*table);
     }
 
     /// Whether the observer's view is well defined.
@@ -138,7 +142,10 @@ class Reader {
                 "'up' points the way the observer looks, so that no direction is up in the picture",
                 "choose another 'up', such as [0, 0, -1] when looking straight down");
         }
-        const bool perspective = observer.projection == Projection::perspective;
+    }
+
+    void warn_of_unused(const TableNode& table) {
+        const bool perspective = scene_.observer.projection == Projection::perspective;
         if (const TableNode::Entry* const unused = table.find(perspective ? "height" : "fov")) {
             diagnostics_.warning(unused->key_place,
                                  fmt::format("'{}' has no effect in a{} view", unused->key,
@@ -156,6 +163,11 @@ class Reader {
                         .color_management = text(values, "color_management") == "none" ? ColorEncoding::none
                                                                                        : ColorEncoding::srgb};
         const TableNode* const table = tables_.single("image");
+        draft_.picture_place = tables_.context_of("image").place;
+        for (const char* const key : {"width", "height"}) {
+            if (table != nullptr && table->find(key) != nullptr)
+                draft_.picture_place = table->find(key)->node.place;
+        }
         const TableNode::Entry* const environment = table != nullptr ? table->find("environment") : nullptr;
         if (environment == nullptr) return;
         scene_.image.environment_place = environment->node.place;
@@ -195,7 +207,14 @@ class Reader {
             diagnostics_.error(entry->node.place, fmt::format("another {} is called '{}', at {}:{}:{}", kind,
                                                               *name, first.file, first.line, first.column));
         }
-        return fmt::format("'{}'", shortened(*name));
+        return fmt::format("'{}'", *name);
+    }
+
+    /// As label_of(), for messages: as much of it as fits.
+    static std::string short_label(const std::string& label) {
+        const bool is_quoted = label.starts_with('\'');
+        return is_quoted ? fmt::format("'{}'", shortened(std::string_view(label).substr(1, label.size() - 2)))
+                         : label;
     }
 
     /// A plugin named by `type` with its parameters, which are beside the table's own keys.
@@ -216,13 +235,13 @@ class Reader {
     void read_light(const TableNode& table, const SourcePlace& place, std::size_t index) {
         const std::string label = label_of("light", table, index);
         const TableContext context{
-            fmt::format("[[light]] {}", label), {Help::Topic::plugins_of_kind, "light"}, place};
-        std::optional<Model> model;
-        const bool clean = is_clean([&] {
-            const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
-            model = read_typed("light", PluginKind::light, table, own, context, {});
-        });
-        if (clean)
+            fmt::format("[[light]] {}", short_label(label)), {Help::Topic::plugins_of_kind, "light"}, place};
+        const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
+        std::optional<Model> model = read_typed("light", PluginKind::light, table, own, context, {});
+        // Where it stands can be checked whatever else is wrong with it.
+        const Parameter* const position =
+            model ? parameter_named(model->parameters.schema(), "position") : nullptr;
+        if (model && (position == nullptr || is_valid(table, *position)))
             scene_.lights.push_back({label, std::move(*model), place, place_of(table, "position", place)});
     }
 
@@ -231,22 +250,37 @@ class Reader {
         Object object;
         object.label = label_of("object", table, index);
         object.place = place;
-        const TableContext context{
-            fmt::format("[[object]] {}", object.label), {Help::Topic::plugins_of_kind, "shape"}, place};
+        const std::size_t errors = diagnostics_.error_count();
+        const TableContext context{fmt::format("[[object]] {}", short_label(object.label)),
+                                   {Help::Topic::plugins_of_kind, "shape"},
+                                   place};
         object.position_place = place_of(table, "position", place);
-        const bool clean = is_clean([&] {
-            const ParamSet own =
-                read_parameters(table, schema_of("object").parameters, context, diagnostics_);
-            object.transform = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
-            object.color = vector(own, "color");
-            object.encloses = boolean(own, "encloses");
-            if (auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"})) {
-                object.shape = std::move(*shape);
-            }
-        });
+        const ParamSet own = read_parameters(table, schema_of("object").parameters, context, diagnostics_);
+        object.transform = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
+        object.color = vector(own, "color");
+        object.encloses = boolean(own, "encloses");
+        auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"});
         object.shading = models.shading_for(table);
-        object.reflection = models.reflection_for(table, object.label, place);
-        if (clean) scene_.objects.push_back(std::move(object));
+        object.reflection = models.reflection_for(table, short_label(object.label), place);
+        if (!shape) return;
+        // Its triangles can be checked whatever else is wrong with it.
+        if (diagnostics_.error_count() != errors && !has_known_triangles(table, *shape)) return;
+        object.shape = std::move(*shape);
+        scene_.objects.push_back(std::move(object));
+    }
+
+    /// Whether all that decides where an object's triangles are is valid.
+    bool has_known_triangles(const TableNode& table, const Model& shape) {
+        const auto is_known = [&](const Parameter& p) { return is_valid(table, p); };
+        const auto& schema = schema_of("object").parameters;
+        const auto& relations = tables_.registry().require(PluginKind::shape, shape.name).manifest.relations;
+        return std::ranges::all_of(
+                   std::array{"position", "rotation", "scale", "encloses"},
+                   [&](std::string_view name) { return is_known(*parameter_named(schema, name)); }) &&
+               std::ranges::all_of(shape.parameters.schema(), is_known) &&
+               std::ranges::none_of(relations, [&](const Relation& relation) {
+                   return !relation.only_warns && validation_error(relation, shape.parameters);
+               });
     }
 
     void warn_if_empty() {
@@ -262,12 +296,33 @@ class Reader {
     SceneTables tables_;
     const SceneRequest& request_;
     Diagnostics& diagnostics_;
+    const std::vector<std::filesystem::path>& files_;
     SceneDraft draft_;
     Scene& scene_ = draft_.scene;
     std::map<std::string, SourcePlace> names_;
 };
 
+void add_files(const Model& model, std::vector<std::filesystem::path>& files) {
+    for (std::size_t i = 0; i < model.parameters.schema().size(); ++i) {
+        const auto& value = model.parameters.get(i);
+        if (model.parameters.schema()[i].type != ParamType::file || !value) continue;
+        if (const std::string& file = std::get<std::string>(*value); !file.empty()) files.emplace_back(file);
+    }
+}
+
 }  // namespace
+
+std::vector<std::filesystem::path> input_files(const SceneDraft& draft) {
+    std::vector<std::filesystem::path> files = draft.files;
+    const Scene& scene = draft.scene;
+    if (!scene.image.environment.empty()) files.emplace_back(scene.image.environment);
+    for (const LightSource& light : scene.lights) add_files(light.model, files);
+    for (const Object& object : scene.objects) {
+        for (const Model* const model : {&object.shape, &object.shading, &object.reflection})
+            add_files(*model, files);
+    }
+    return files;
+}
 
 std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
                                       Diagnostics& diagnostics) {

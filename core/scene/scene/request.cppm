@@ -3,6 +3,7 @@ module;
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct ModelSetting {
 
 struct SceneRequest {
     std::vector<std::filesystem::path> files;  // merged; none: the default scene
+    /// The contents of those among `files` that can only be read once, such as pipes. Paths in them are
+    /// relative to the working directory.
+    std::map<std::filesystem::path, std::string> streams{};
     std::vector<Setting> settings;
     std::optional<ModelSetting> shading;                   // of every object
     std::optional<ModelSetting> reflection;                // likewise

@@ -3,10 +3,12 @@ module;
 
 #include "candela/api.h"
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 export module candela.scene;
 
@@ -20,11 +22,17 @@ export namespace candela {
 
 /// A scene as far as it was understood, so that the rest can be checked as well.
 struct SceneDraft {
-    Scene scene;  // without the lights and objects that have errors
+    Scene scene;  // without the lights and objects whose kind, shape or place is unknown
     bool has_room = true;
-    bool has_observer = true;
-    bool is_complete = true;  // there were no errors
+    bool has_observer = true;                    // its position is known
+    bool is_complete = true;                     // there were no errors
+    SourcePlace picture_place{};                 // of what says how large the picture is
+    std::vector<std::filesystem::path> files{};  // all that were read, as absolute paths
 };
+
+/// All files that a scene consists of or names: itself, its includes, its environment, and every parameter
+/// that is a file. Absolute paths.
+CANDELA_API std::vector<std::filesystem::path> input_files(const SceneDraft& draft);
 
 /// Reads, merges and validates. Reports all problems; returns nothing if a file cannot be read as TOML.
 CANDELA_API std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,

@@ -3,7 +3,10 @@ module;
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <initializer_list>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -30,6 +33,11 @@ const TableSchema& schema_of(std::string_view table) {
 std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys) {
     for (const Parameter& p : schema) keys.push_back(p.name);
     return keys;
+}
+
+const Parameter* parameter_named(std::span<const Parameter> schema, std::string_view name) {
+    const auto found = std::ranges::find(schema, name, &Parameter::name);
+    return found != schema.end() ? &*found : nullptr;
 }
 
 float real(const ParamSet& set, std::string_view name) {
@@ -78,6 +86,16 @@ ParamSet SceneTables::read_plain(const std::string& name) {
     return read_parameters(table != nullptr ? *table : k_empty, parameters, context, diagnostics_);
 }
 
+bool SceneTables::has_valid(const std::string& name, std::initializer_list<std::string_view> keys) {
+    static const TableNode k_empty;
+    const TableNode* const table = single(name);
+    if (table == nullptr && root_.find(name) != nullptr) return false;
+    return std::ranges::all_of(keys, [&](std::string_view key) {
+        return is_valid(table != nullptr ? *table : k_empty,
+                        *parameter_named(schema_of(name).parameters, key));
+    });
+}
+
 const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, const SourcePlace& place) {
     if (const PluginFile* const plugin = registry_.find(kind, name)) return plugin;
     try {
@@ -92,9 +110,20 @@ ParamSet SceneTables::read_plugin(const TableNode& table, const PluginFile& plug
                                   const TableContext& context) {
     const std::size_t before = diagnostics_.error_count();
     ParamSet values = read_parameters(table, plugin.schema, context, diagnostics_);
-    // A rejected value leaves its default, which was not chosen to go with the others.
-    if (diagnostics_.error_count() == before)
+    if (diagnostics_.error_count() == before) {
         check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
+        return values;
+    }
+    // A rejected value leaves its default, which was not chosen to go with the others.
+    std::vector<Relation> between_valid;
+    std::ranges::copy_if(
+        plugin.manifest.relations, std::back_inserter(between_valid), [&](const Relation& r) {
+            return std::ranges::all_of(std::array{&r.left, &r.right}, [&](const std::string* name) {
+                const Parameter* const p = parameter_named(*plugin.schema, *name);
+                return p != nullptr && is_valid(table, *p);
+            });
+        });
+    check_relations(table, values, between_valid, context, diagnostics_);
     return values;
 }
 

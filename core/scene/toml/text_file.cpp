@@ -14,6 +14,7 @@ module;
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 module candela.toml;
 
@@ -72,22 +73,23 @@ SourcePlace place_at(std::string_view text, std::size_t offset, const std::strin
             1};
 }
 
+namespace {
+
+std::string too_large(const std::string& size, std::uintmax_t bytes_left) {
+    return fmt::format(
+        "the file is too large: {} bytes, where {}{}", size,
+        bytes_left < ReadingLimits::k_most_bytes ? "the files read before leave " : "a scene may have ",
+        bytes_left);
+}
+
+}  // namespace
+
 std::optional<std::string> text_of_file(const fs::path& file, const std::string& shown_name,
                                         std::uintmax_t& bytes_left, Diagnostics& diagnostics) {
     const SourcePlace place{shown_name, 0, 0, 0};
     const auto fail = [&](const std::string& message, const std::string& hint = {}) {
         diagnostics.failure(place, message, hint);
         return std::nullopt;
-    };
-    const auto no_scene = [&](const std::string& message, const std::string& hint = {}) {
-        diagnostics.error(place, message, hint);
-        return std::nullopt;
-    };
-    const auto too_large = [&](const std::string& size) {
-        return fail(fmt::format(
-            "the file is too large: {} bytes, where {}{}", size,
-            bytes_left < ReadingLimits::k_most_bytes ? "the files read before leave " : "a scene may have ",
-            bytes_left));
     };
     std::error_code problem;
     const fs::file_status status = fs::status(file, problem);
@@ -99,21 +101,36 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     if (status.type() != fs::file_type::regular)
         return fail("this is not a regular file (a pipe or a device?)");
     const std::uintmax_t size = fs::file_size(file, problem);
-    if (!problem && size > bytes_left) return too_large(fmt::to_string(size));
+    if (!problem && size > bytes_left) return fail(too_large(fmt::to_string(size), bytes_left));
     const Descriptor descriptor(file);
     if (!descriptor.is_open())
         return fail(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
     auto text = descriptor.read(bytes_left);
     if (!text) return fail(fmt::format("the file cannot be read: {}", std::strerror(errno)));
+    return text_of_bytes(std::move(*text), shown_name, bytes_left, diagnostics);
+}
+
+std::optional<std::string> text_of_bytes(std::string text, const std::string& shown_name,
+                                         std::uintmax_t& bytes_left, Diagnostics& diagnostics) {
+    const SourcePlace place{shown_name, 0, 0, 0};
+    const auto no_scene = [&](const std::string& message, const std::string& hint = {}) {
+        diagnostics.error(place, message, hint);
+        return std::nullopt;
+    };
     // Some files, such as those in /proc, report no size.
-    if (text->size() > bytes_left) return too_large(fmt::format("more than {}", bytes_left));
-    bytes_left -= text->size();
+    if (text.size() > bytes_left) {
+        diagnostics.failure(place, too_large(fmt::format("more than {}", bytes_left), bytes_left));
+        return std::nullopt;
+    }
+    bytes_left -= text.size();
     // Columns count what is visible, which a byte-order mark is not.
-    if (text->starts_with("\xef\xbb\xbf")) text->erase(0, 3);
-    if (text->find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");
-    if (is_utf16(*text)) return no_scene("the file's text is UTF-16; a scene is UTF-8", "save it as UTF-8");
-    if (text->find('\0') != std::string::npos)
-        return no_scene("this is a binary file; a scene is text (TOML)");
+    if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+    if (text.find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");
+    if (is_utf16(text)) return no_scene("the file's text is UTF-16; a scene is UTF-8", "save it as UTF-8");
+    if (const std::size_t at = text.find('\0'); at != std::string::npos) {
+        diagnostics.error(place_at(text, at, shown_name), "this is a binary file; a scene is text (TOML)");
+        return std::nullopt;
+    }
     return text;
 }
 

@@ -4,8 +4,11 @@ module;
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -82,9 +85,22 @@ std::string_view line_of(std::string_view text, int number) {
     return text;
 }
 
+/// toml++ reads numbers through a stream, which swallows bad_alloc; then it says of 2.6 that it is none.
+bool is_out_of_memory(std::string_view description) {
+    constexpr std::string_view k_complaint = "' could not be interpreted as a value";
+    const std::size_t end = description.find(k_complaint);
+    const std::size_t quote = end == std::string_view::npos ? end : description.rfind('\'', end - 1);
+    if (quote == std::string_view::npos) return false;
+    const std::string_view word = description.substr(quote + 1, end - quote - 1);
+    double number = 0;
+    const auto [last, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return problem == std::errc() && last == word.data() + word.size();
+}
+
 void report(const toml::parse_error& problem, std::string_view text, const std::string& shown_name,
             Diagnostics& diagnostics) {
     SourcePlace place = place_of(problem.source(), shown_name);
+    if (is_out_of_memory(problem.description())) throw std::bad_alloc();
     const std::string_view line = line_of(text, place.line);
     // At the end of the file toml++ counts the last line ending as a character.
     place.column = std::min(place.column, 1 + static_cast<int>(character_count(line)));
@@ -138,7 +154,9 @@ std::string description(const Node& node) {
     struct Describer {
         std::string operator()(bool b) const { return b ? "true" : "false"; }
         std::string operator()(std::int64_t i) const { return fmt::format("the integer {}", i); }
-        std::string operator()(double d) const { return fmt::format("the number {}", d); }
+        std::string operator()(double d) const {
+            return fmt::format("the number {}", std::isfinite(d) ? toml_text(d) : fmt::format("{}", d));
+        }
         std::string operator()(const std::string& s) const {
             return fmt::format("a string, \"{}\"", shortened(s));
         }
@@ -178,6 +196,29 @@ std::optional<TableNode> read_document(const fs::path& file, const std::string& 
     const auto text = text_of_file(file, shown_name, left.bytes, diagnostics);
     if (!text) return std::nullopt;
     return parse(*text, shown_name, left.values, diagnostics);
+}
+
+std::optional<TableNode> read_document(std::string bytes, const std::string& shown_name, ReadingLimits& left,
+                                       Diagnostics& diagnostics) {
+    const auto text = text_of_bytes(std::move(bytes), shown_name, left.bytes, diagnostics);
+    if (!text) return std::nullopt;
+    return parse(*text, shown_name, left.values, diagnostics);
+}
+
+std::string as_written(const Node& node, const Diagnostics& diagnostics) {
+    if (node.place.line < 1 || node.place.length < 1) return {};
+    const auto line = diagnostics.source_line(node.place);
+    if (!line) return {};
+    std::string_view rest = *line;
+    const auto skip = [&](int characters) {
+        std::size_t size = 0;
+        for (int i = 0; i < characters; ++i) size += first_character(rest.substr(size)).size();
+        const std::string_view skipped = rest.substr(0, size);
+        rest.remove_prefix(size);
+        return skipped;
+    };
+    skip(node.place.column - 1);
+    return std::string(skip(node.place.length));
 }
 
 std::optional<Node> parse_value(std::string_view text, const SourcePlace& place, Diagnostics& diagnostics) {

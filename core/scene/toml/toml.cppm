@@ -71,6 +71,13 @@ CANDELA_API std::optional<TableNode> read_document(const std::filesystem::path& 
                                                    const std::string& shown_name, ReadingLimits& left,
                                                    Diagnostics& diagnostics);
 
+/// Same, of what was read from something that is no file, such as a pipe.
+CANDELA_API std::optional<TableNode> read_document(std::string bytes, const std::string& shown_name,
+                                                   ReadingLimits& left, Diagnostics& diagnostics);
+
+/// A value that is on one line, as its author wrote it: "255.0", "1e3"; empty if its text is not at hand.
+CANDELA_API std::string as_written(const Node& node, const Diagnostics& diagnostics);
+
 /// "did you mean 'scene.toml'?", from the files where `missing` is not; or empty.
 CANDELA_API std::string file_suggestion(const std::filesystem::path& missing);
 

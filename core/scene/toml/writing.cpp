@@ -6,6 +6,7 @@ module;
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -18,8 +19,8 @@ namespace candela {
 
 namespace {
 
-std::string escaped(char c) {
-    switch (c) {
+std::string escaped(std::string_view character) {
+    switch (character[0]) {
         case '"':
             return "\\\"";
         case '\\':
@@ -35,8 +36,10 @@ std::string escaped(char c) {
         case '\r':
             return "\\r";
         default: {
-            const auto code = static_cast<unsigned char>(c);
-            return code < 0x20 || code == 0x7f ? fmt::format("\\u{:04X}", code) : std::string(1, c);
+            const auto hidden = hidden_code_point(character);
+            if (!hidden) return std::string(character);
+            const auto code = static_cast<std::uint32_t>(*hidden);
+            return code < 0x10000 ? fmt::format("\\u{:04X}", code) : fmt::format("\\U{:08X}", code);
         }
     }
 }
@@ -59,7 +62,11 @@ std::string toml_text(std::string_view text) {
                     fmt::format("'{}' is not UTF-8, as TOML is", text.substr(*invalid)));
     }
     std::string result = "\"";
-    for (const char c : text) result += escaped(c);
+    while (!text.empty()) {
+        const std::string_view character = first_character(text);
+        result += escaped(character);
+        text.remove_prefix(character.size());
+    }
     return result + '"';
 }
 

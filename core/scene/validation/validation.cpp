@@ -79,15 +79,33 @@ std::optional<Value> as_value(const Node& node, const Parameter& p) {
     }
 }
 
+/// A number as its author wrote it; empty for anything else.
+std::string number_as_written(const Node& node, const Diagnostics& diagnostics) {
+    constexpr std::size_t k_longest = 40;
+    const bool is_number =
+        std::holds_alternative<std::int64_t>(node.value) || std::holds_alternative<double>(node.value);
+    std::string text = is_number ? as_written(node, diagnostics) : "";
+    return text.size() <= k_longest ? text : "";
+}
+
+/// As description(), but a number as its author wrote it: 255.0, not 255.
+std::string described(const Node& node, const Diagnostics& diagnostics) {
+    const std::string written = number_as_written(node, diagnostics);
+    if (written.empty()) return description(node);
+    return fmt::format("the {} {}", std::holds_alternative<double>(node.value) ? "number" : "integer",
+                       written);
+}
+
 /// What is wrong in a list where three numbers were expected: "its second value is a string, …".
-std::string found(const Node& node, const Parameter& p) {
+std::string found(const Node& node, const Parameter& p, const Diagnostics& diagnostics) {
     const ArrayNode* const array = node.array();
     const bool takes_three = p.type >= ParamType::vector;
-    if (array == nullptr || array->size() != 3 || !takes_three) return description(node);
+    if (array == nullptr || array->size() != 3 || !takes_three) return described(node, diagnostics);
     constexpr std::array<std::string_view, 3> k_ordinals = {"first", "second", "third"};
     for (std::size_t i = 0; i < 3; ++i) {
         if (!number((*array)[i], p.type == ParamType::color)) {
-            return fmt::format("a list whose {} value is {}", k_ordinals[i], description((*array)[i]));
+            return fmt::format("a list whose {} value is {}", k_ordinals[i],
+                               described((*array)[i], diagnostics));
         }
     }
     return description(node);
@@ -122,10 +140,48 @@ std::optional<std::string> existing_file(const std::string& written, const Sourc
 std::optional<Value> typed_value(const Node& node, const Parameter& parameter, Diagnostics& diagnostics) {
     auto value = as_value(node, parameter);
     if (!value) {
-        diagnostics.error(node.place, fmt::format("'{}' is {}; expected {}", parameter.name,
-                                                  found(node, parameter), constraint_text(parameter)));
+        diagnostics.error(node.place,
+                          fmt::format("'{}' is {}; expected {}", parameter.name,
+                                      found(node, parameter, diagnostics), constraint_text(parameter)));
     }
     return value;
+}
+
+namespace {
+
+std::optional<Value> valid_value(const Node& node, const Parameter& p, Diagnostics& diagnostics) {
+    auto value = typed_value(node, p, diagnostics);
+    if (!value) return std::nullopt;
+    if (validation_error(p, *value)) {
+        const auto wrong = validation_error(p, *value, number_as_written(node, diagnostics));
+        std::string hint;
+        if (p.type == ParamType::choice) hint = suggestion(std::get<std::string>(*value), p.choices);
+        diagnostics.error(node.place, fmt::format("'{}': {}", p.name, *wrong), hint);
+        return std::nullopt;
+    }
+    if (p.type == ParamType::color) {
+        auto& color = std::get<Vec3>(*value);
+        if (color.x > 255 || color.y > 255 || color.z > 255) {
+            diagnostics.warning(node.place,
+                                fmt::format("'{}': 256 counts as 255, the largest 8-bit number", p.name));
+            color = {std::min(color.x, 255.0f), std::min(color.y, 255.0f), std::min(color.z, 255.0f)};
+        }
+    }
+    if (p.type == ParamType::file) {
+        const auto file = existing_file(std::get<std::string>(*value), node.place, diagnostics);
+        if (!file) return std::nullopt;
+        value = *file;
+    }
+    return value;
+}
+
+}  // namespace
+
+bool is_valid(const TableNode& table, const Parameter& parameter) {
+    const TableNode::Entry* const entry = table.find(parameter.name);
+    if (entry == nullptr) return parameter.default_value.has_value();
+    Diagnostics ignored;
+    return valid_value(entry->node, parameter, ignored).has_value();
 }
 
 ParamSet read_parameters(const TableNode& table, SharedSchema schema, const TableContext& context,
@@ -143,27 +199,8 @@ ParamSet read_parameters(const TableNode& table, SharedSchema schema, const Tabl
             }
             continue;
         }
-        auto value = typed_value(entry->node, p, diagnostics);
+        auto value = valid_value(entry->node, p, diagnostics);
         if (!value) continue;
-        if (const auto wrong = validation_error(p, *value)) {
-            std::string hint;
-            if (p.type == ParamType::choice) hint = suggestion(std::get<std::string>(*value), p.choices);
-            diagnostics.error(entry->node.place, fmt::format("'{}': {}", p.name, *wrong), hint);
-            continue;
-        }
-        if (p.type == ParamType::color) {
-            auto& color = std::get<Vec3>(*value);
-            if (color.x > 255 || color.y > 255 || color.z > 255) {
-                diagnostics.warning(entry->node.place,
-                                    fmt::format("'{}': 256 counts as 255, the largest 8-bit number", p.name));
-                color = {std::min(color.x, 255.0f), std::min(color.y, 255.0f), std::min(color.z, 255.0f)};
-            }
-        }
-        if (p.type == ParamType::file) {
-            const auto file = existing_file(std::get<std::string>(*value), entry->node.place, diagnostics);
-            if (!file) continue;
-            value = *file;
-        }
         values.set(i, std::move(*value));
     }
     return values;

@@ -33,6 +33,9 @@ CANDELA_API ParamSet read_parameters(const TableNode& table, SharedSchema schema
 CANDELA_API ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema,
                                      const TableContext& context, Diagnostics& diagnostics);
 
+/// Whether `table` gives the parameter a valid value, or leaves it at its default.
+CANDELA_API bool is_valid(const TableNode& table, const Parameter& parameter);
+
 /// Reports every key that is not among `known`, with a suggestion.
 CANDELA_API void report_unknown_keys(const TableNode& table, std::span<const std::string> known,
                                      const TableContext& context, Diagnostics& diagnostics);

@@ -1,6 +1,8 @@
 module;
 
+#include <filesystem>
 #include <optional>
+#include <vector>
 
 module candela.scene:merge;
 
@@ -12,8 +14,9 @@ namespace candela {
 
 /// The contents of the files, the includes and the settings combined.
 struct MergedDocument {
-    SourcePlace place;  // of the first file
-    TableNode root;     // as if everything were in one file, `include` followed
+    SourcePlace place;                         // of the first file
+    TableNode root;                            // as if everything were in one file, `include` followed
+    std::vector<std::filesystem::path> files;  // absolute
 };
 
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics);

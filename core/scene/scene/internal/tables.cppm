@@ -1,6 +1,7 @@
 // What is asked of all tables of a scene.
 module;
 
+#include <initializer_list>
 #include <map>
 #include <span>
 #include <string>
@@ -26,6 +27,9 @@ const TableSchema& schema_of(std::string_view table);
 /// `keys`, and the names of the parameters.
 std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys = {});
 
+/// The parameter of that name, or null.
+const Parameter* parameter_named(std::span<const Parameter> schema, std::string_view name);
+
 // Values of a set, by name; they must be set.
 float real(const ParamSet& set, std::string_view name);
 int integer(const ParamSet& set, std::string_view name);
@@ -50,6 +54,8 @@ class SceneTables {
     TableContext context_of(const std::string& name) const;
     /// All values of a table without a plugin.
     ParamSet read_plain(const std::string& name);
+    /// Whether the table is one, or missing, and all of these keys have valid values.
+    bool has_valid(const std::string& name, std::initializer_list<std::string_view> keys);
     /// The installed plugin of that name, or null, with a message at `place`.
     const PluginFile* known(PluginKind kind, const std::string& name, const SourcePlace& place);
     /// A plugin's parameters, including the relations between them.

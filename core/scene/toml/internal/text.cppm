@@ -19,6 +19,10 @@ namespace candela {
 std::optional<std::string> text_of_file(const std::filesystem::path& file, const std::string& shown_name,
                                         std::uintmax_t& bytes_left, Diagnostics& diagnostics);
 
+/// Same, of bytes that have been read already.
+std::optional<std::string> text_of_bytes(std::string bytes, const std::string& shown_name,
+                                         std::uintmax_t& bytes_left, Diagnostics& diagnostics);
+
 /// The place of a byte of a text.
 SourcePlace place_at(std::string_view text, std::size_t offset, const std::string& shown_name);
 

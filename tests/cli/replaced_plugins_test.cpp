@@ -1,0 +1,137 @@
+// Which plugin of a name is used when one of them cannot be: never another without a word.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A folder with a copy of a shipped plugin.
+struct Copy {
+    explicit Copy(const std::string& id) : folder(scratch_directory() / "plugins") {
+        fs::create_directory(folder);
+        for (const char* const extension : {".so", ".json"}) {
+            const std::string file = id + extension;
+            fs::copy_file(fs::path(CANDELA_TEST_PLUGINS) / file, folder / file);
+        }
+        library = folder / (id + ".so");
+        manifest = folder / (id + ".json");
+    }
+    /// Renders the default scene, which needs shape/cube, with the folder named by an option or by the
+    /// environment.
+    CommandResult render(bool is_named, const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words{"render", "-o", (folder.parent_path() / "a.png").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        CommandSetup setup;
+        if (is_named) {
+            words.insert(words.end(), {"--plugin-dir", folder.string()});
+        } else {
+            setup.environment.emplace_back("CANDELA_PLUGIN_PATH", folder.string());
+        }
+        return run_candela(words, setup);
+    }
+    std::string doctor(bool is_named) const {
+        CommandSetup setup;
+        std::vector<std::string> words{"plugin", "doctor"};
+        if (is_named) {
+            words.insert(words.end(), {"--plugin-dir", folder.string()});
+        } else {
+            setup.environment.emplace_back("CANDELA_PLUGIN_PATH", folder.string());
+        }
+        return run_candela(words, setup).out;
+    }
+
+    fs::path folder, library, manifest;
+};
+
+/// What a refused copy means: a warning where it was only on the search path, an error where it was named.
+void check_refused(const Copy& copy, const std::string& reason) {
+    const CommandResult found = copy.render(false);
+    INFO(reason << '\n' << found.err);
+    CHECK(found.exit_code == 0);
+    CHECK(holds(found.err, "candela: warning: plugin '" + copy.library.string() + "' is refused: "));
+    CHECK(holds(found.err, reason));
+    CHECK(holds(found.err, "shape-cube.so' is used instead"));
+    CHECK(fs::remove(copy.folder.parent_path() / "a.png"));
+    const CommandResult named = copy.render(true);
+    INFO(named.err);
+    CHECK(named.exit_code != 0);
+    CHECK(holds(named.err, "error: plugin '" + copy.library.string() + "' is refused: "));
+    CHECK(holds(named.err, reason));
+    CHECK_FALSE(fs::exists(copy.folder.parent_path() / "a.png"));
+    // The doctor says the same of both.
+    CHECK(holds(copy.doctor(false), "refused: "));
+    CHECK(holds(copy.doctor(false), "in use: shape/cube"));
+    CHECK(holds(copy.doctor(true), "not used: the one that --plugin-dir names is refused"));
+}
+
+}  // namespace
+
+TEST_CASE("a sound plugin comes before the shipped one, without a word") {
+    const Copy copy("shape-cube");
+    for (const bool is_named : {true, false}) {
+        const CommandResult result = copy.render(is_named);
+        CHECK(result.exit_code == 0);
+        CHECK_FALSE(holds(result.err, "warning"));
+        CHECK(holds(copy.doctor(is_named), "hidden by " + copy.library.string()));
+    }
+}
+
+TEST_CASE("a library of which the end is missing is a message, not a bus error") {
+    const Copy copy("shape-cube");
+    const auto size = fs::file_size(copy.library);
+    for (const auto left : {size - 1, size - 4096, size / 2, size / 10, std::uintmax_t{64}, std::uintmax_t{5},
+                            std::uintmax_t{0}}) {
+        fs::resize_file(copy.library, left);
+        check_refused(copy, "it cannot be loaded (it ");
+    }
+}
+
+TEST_CASE("a plugin without its manifest, with one of another, or with one that is none, is refused") {
+    const Copy copy("shape-cube");
+    const std::string manifest = read_file(copy.manifest);
+    write_file(copy.manifest, "{}");
+    check_refused(copy, "cannot be used");
+    write_file(copy.manifest, read_file(fs::path(CANDELA_TEST_PLUGINS) / "shape-torus.json"));
+    check_refused(copy, "its manifest is that of shape/torus");
+    fs::remove(copy.manifest);
+    check_refused(copy, "is not beside it");
+    fs::create_symlink("nowhere", copy.manifest);
+    check_refused(copy, "its manifest cannot be read: it is a link to nowhere");
+    fs::remove(copy.manifest);
+    write_file(copy.manifest, manifest);
+    fs::remove(copy.library);
+    fs::create_symlink("nowhere", copy.library);
+    check_refused(copy, "it cannot be read: it is a link to nowhere");
+}
+
+TEST_CASE("a library that others can modify is refused, unless that is said to be all right") {
+    const Copy copy("shape-cube");
+    fs::permissions(copy.library, fs::perms::others_write, fs::perm_options::add);
+    check_refused(copy, "can be written to by every user");
+    CHECK(copy.render(true, {"--allow-untrusted-plugins"}).exit_code == 0);
+}
+
+TEST_CASE("a picture format that --plugin-dir names is not replaced by another that can write it") {
+    const Copy copy("image-png");
+    fs::resize_file(copy.library, 1000);
+    const CommandResult named = copy.render(true);
+    CHECK(named.exit_code == 1);
+    CHECK(holds(named.err, "image-png.so' is refused"));
+    const CommandResult found = copy.render(false);
+    CHECK(found.exit_code == 0);
+    CHECK(holds(found.err, "image-png.so' is refused"));
+}
+
+TEST_CASE("--quiet keeps the warning back, not the error") {
+    const Copy copy("shape-cube");
+    fs::resize_file(copy.library, 1000);
+    CHECK(copy.render(false, {"-q"}).err.empty());
+    CHECK(holds(copy.render(true, {"-q"}).err, "is refused"));
+}

@@ -1,0 +1,176 @@
+// What a shell does with a command: pipes, files that are there already, terminals that are narrow, silence.
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <csignal>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+import candela.core;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string k_scene =
+    "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight = 16\n"
+    "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n"
+    "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n";
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+CommandResult in(const fs::path& directory, const std::vector<std::string>& words,
+                 const std::string& input = "", const std::string& columns = "") {
+    CommandSetup setup{.input = input, .environment = {}, .directory = directory};
+    if (!columns.empty()) setup.environment.emplace_back("COLUMNS", columns);
+    return run_candela(words, setup);
+}
+
+std::size_t widest_line(const std::string& text) {
+    std::istringstream lines(text);
+    std::size_t widest = 0;
+    for (std::string line; std::getline(lines, line);)
+        widest = std::max(widest, candela::character_count(line));
+    return widest;
+}
+
+}  // namespace
+
+TEST_CASE("a scene comes from standard input, and paths in it are relative to the current folder") {
+    const fs::path d = scratch_directory();
+    write_file(d / "cube.toml", "[[object]]\ntype = \"cube\"\n");
+    const std::string scene = "include = [\"cube.toml\"]\n" + k_scene;
+    for (const char* const name : {"-", "/dev/stdin", "/dev/fd/0"}) {
+        INFO(name);
+        const CommandResult checked = in(d, {"check", name}, scene);
+        INFO(checked.err);
+        CHECK(checked.exit_code == 0);
+        CHECK(holds(checked.out, "1, 12 triangles"));
+        CHECK(in(d, {"render", name, "-o", "a.ppm"}, scene).exit_code == 0);
+        CHECK(fs::remove(d / "a.ppm"));
+    }
+    const CommandResult piped = run_program({"sh", "-c", "cat | " CANDELA_TEST_COMMAND " check -"},
+                                            {.input = scene, .environment = {}, .directory = d});
+    CHECK(piped.exit_code == 0);
+    // A part of the scene in a file, another from the pipe.
+    CHECK(holds(in(d, {"check", "cube.toml", "-"}, k_scene).out, "1, 12 triangles"));
+}
+
+TEST_CASE("what is wrong in a scene from a pipe is said with its line") {
+    const fs::path d = scratch_directory();
+    const CommandResult wrong = in(d, {"check", "-"}, k_scene + "[[object]]\ntype = \"cub\"\n");
+    CHECK(wrong.exit_code == 3);
+    CHECK(holds(wrong.err, "standard input:16:8: error: no shape plugin is called 'cub'"));
+    CHECK(holds(wrong.err, "   16 | type = \"cub\""));
+    CHECK(holds(in(d, {"check", "-"}, "").err, "standard input: error: the file is empty"));
+    CHECK(holds(in(d, {"check", "-", "-"}, k_scene).err,
+                "standard input: error: 'standard input' is read twice"));
+    CHECK(holds(in(d, {"check", "-"}, std::string("a\0", 2)).err,
+                "standard input:1:2: error: this is a binary"));
+}
+
+TEST_CASE("with --no-clobber, a picture that is there stays, and that is an error") {
+    const fs::path d = scratch_directory();
+    CHECK(in(d, {"render", "-", "-o", "a.ppm", "--no-clobber"}, k_scene).exit_code == 0);
+    write_file(d / "a.ppm", "mine");
+    const CommandResult again = in(d, {"render", "-", "-o", "a.ppm", "--no-clobber"}, k_scene);
+    CHECK(again.exit_code == 1);
+    CHECK(holds(again.err, "'a.ppm' exists"));
+    CHECK(read_file(d / "a.ppm") == "mine");
+    CHECK(in(d, {"render", "-", "-o", "a.ppm"}, k_scene).exit_code == 0);
+}
+
+TEST_CASE("what a picture is made from is never replaced by it, by whatever name it goes") {
+    const fs::path d = scratch_directory();
+    const std::string sky = "P6\n1 1\n255\nabc";
+    write_file(d / "sky.ppm", sky);
+    write_file(d / "part.ppm", "[[light]]\ntype = \"ambient\"\n");
+    write_file(d / "mesh.ppm", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    fs::copy_file(d / "mesh.ppm", d / "mesh.obj");
+    fs::remove(d / "mesh.ppm");
+    fs::create_symlink("mesh.obj", d / "mesh.ppm");
+    fs::create_symlink("sky.ppm", d / "link.ppm");
+    const std::string scene =
+        "include = [\"part.ppm\"]\n" + k_scene + "[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n";
+    const fs::path file = write_file(d / "scene.ppm", scene + "[image2]\n");
+    write_file(
+        file,
+        "include = [\"part.ppm\"]\nversion = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+        "[image]\nwidth = 16\nheight = 16\nenvironment = \"sky.ppm\"\n[shading]\nmodel = \"phong\"\n"
+        "[reflection]\nmodel = \"phong\"\n[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n");
+    for (const char* const name : {"sky.ppm", "./sky.ppm", "link.ppm", "part.ppm", "mesh.ppm", "scene.ppm"}) {
+        const std::string before = read_file(d / name);
+        const CommandResult result = in(d, {"render", "scene.ppm", "-o", name});
+        INFO(name << ": " << result.err);
+        CHECK(result.exit_code == 2);
+        CHECK(holds(result.err, "is one of the files that the scene is made from"));
+        CHECK(read_file(d / name) == before);
+    }
+    CHECK(in(d, {"render", "scene.ppm", "-o", "other.ppm"}).exit_code == 0);
+}
+
+TEST_CASE("with --quiet, nothing is said but what is wrong") {
+    const fs::path d = scratch_directory();
+    const CommandResult silent = in(d, {"render", "-", "-o", "a.ppm", "--quiet", "--verbose"}, k_scene);
+    CHECK(silent.exit_code == 0);
+    CHECK(silent.out + silent.err == "");
+    CHECK(in(d, {"check", "-", "-q"}, k_scene).out.empty());
+    CHECK(in(d, {"new", "-q"}).err.empty());
+    const CommandResult wrong = in(d, {"check", "-", "-q"}, k_scene + "[[object]]\ntype = \"cub\"\n");
+    CHECK(wrong.exit_code == 3);
+    CHECK(holds(wrong.err, "no shape plugin is called 'cub'"));
+    // The scene has no objects, which is worth a warning otherwise.
+    CHECK(holds(in(d, {"check", "-"}, k_scene).err, "warning"));
+    CHECK_FALSE(holds(wrong.err, "warning"));
+}
+
+TEST_CASE("a misspelt option is recognised with its value, too") {
+    const CommandResult result = run_candela({"render", "--widht=100"});
+    CHECK(result.exit_code == 2);
+    CHECK(holds(result.err, "unknown option '--widht'; did you mean '--width'?"));
+}
+
+TEST_CASE("list, describe and help fit the width that COLUMNS says, else 80") {
+    const fs::path d = scratch_directory();
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"list"},
+                                               {"describe", "light/spot"},
+                                               {"--help"},
+                                               {"render", "--help"},
+                                               {"verify", "--help"},
+                                               {"generate", "--help"},
+                                               {"new", "--help"}}) {
+        std::string first = words[0];
+        INFO(first);
+        CHECK(widest_line(in(d, words).out) <= 80);
+        CHECK(widest_line(in(d, words, "", "132").out) <= 132);
+        if (words.back() != "--help") CHECK(widest_line(in(d, words, "", "60").out) <= 75);
+    }
+    const std::string wide = in(d, {"list"}, "", "200").out;
+    CHECK(std::ranges::count(wide, '\n') < std::ranges::count(in(d, {"list"}).out, '\n'));
+}
+
+TEST_CASE("describe says what is allowed, in which unit, and whether it is required") {
+    const std::string out = run_candela({"describe", "light/spot"},
+                                        {.input = "", .environment = {{"COLUMNS", "120"}}, .directory = {}})
+                                .out;
+    INFO(out);
+    CHECK(holds(out, "  position             three numbers, a position in metres; required\n"));
+    CHECK(holds(out, "  inner_angle          a number, at least 0 and less than 90; default 15 deg\n"));
+    CHECK_FALSE(holds(out, "required m"));
+}
+
+TEST_CASE("Ctrl-C at a question leaves the prompt of the shell a line of its own") {
+    const fs::path d = scratch_directory();
+    const std::string file = write_file(d / "scene.toml",
+                                        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
+                                        "0]\n[[object]]\ntype = \"cube\"\n")
+                                 .string();
+    const CommandResult result =
+        talk_to_candela({"render", file, "-o", (d / "a.png").string()}, {{"[Y/n] ", "\x03"}});
+    CHECK(result.exit_code == 128 + SIGINT);
+    CHECK(result.out.ends_with("\n"));
+}
