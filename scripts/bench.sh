@@ -5,6 +5,7 @@
 #   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
 #   scripts/bench.sh --programs                   against POV-Ray and VTK, whole processes; build/bench/programs.{md,json} (five minutes)
 #   scripts/bench.sh --third-party                plugins built against an installation, as by a third party, against the shipped ones
+#   scripts/bench.sh --third-party --loops --compiler g++    the loops of reflection models, built by another compiler
 #   scripts/bench.sh --instructions               records how many instructions the default scene takes, which a test compares
 # On a machine that does nothing else.
 set -euo pipefail
@@ -26,7 +27,7 @@ if [ "${1-}" = --sweep ]; then
     exec python3 -B "$root/tests/bench/sweep.py" "$root/build/release" "$root/build/bench" "${@:2}"
 fi
 if [ "${1-}" = --third-party ]; then
-    cmake --build --preset release >/dev/null
+    cmake --build --preset release --target all candela_kernel_loops >/dev/null
     exec python3 -B "$root/tests/bench/third_party.py" "$root/build/release" "$root/build/bench/third-party" "${@:2}"
 fi
 cmake --build --preset release --target candela_runtime candela_diff candela_dump_scene candela_empty_program \
