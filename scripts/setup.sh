@@ -64,10 +64,10 @@ linter() {
   if installed clang-tidy-22 || [ -n "$(candidate clang-tidy-22)" ]; then echo clang-22 clang-tidy-22; fi
 }
 
-# POV-Ray and VTK's library, whose package has VTK's version in its name.
+# POV-Ray, f3d with a display for it, and VTK's library, whose package has VTK's version in its name.
 programs() {
   [ "$programs" = yes ] || return 0
-  echo povray
+  echo povray f3d xvfb xauth
   { LC_ALL=C apt-cache depends libvtk9-dev 2>/dev/null || true; } | sed -nE 's/^ *Depends: (libvtk9\.[0-9]+(t64)?)$/\1/p'
 }
 
