@@ -4,6 +4,7 @@
 #   scripts/bench.sh --scenes A --sizes 512x512   less; --threads 1: both with that many, not with all
 #   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
 #   scripts/bench.sh --programs                   against POV-Ray and VTK, whole processes; build/bench/programs.{md,json} (five minutes)
+#   scripts/bench.sh --mesh-file                  against f3d on a PLY file of ten million triangles (two minutes)
 #   scripts/bench.sh --third-party                plugins built against an installation, as by a third party, against the shipped ones
 #   scripts/bench.sh --third-party --loops --compiler g++    the loops of reflection models, built by another compiler
 #   scripts/bench.sh --instructions               records how many instructions the default scene takes, which a test compares
@@ -12,7 +13,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 
-if [ "${1-}" = --programs ]; then
+if [ "${1-}" = --programs ] || [ "${1-}" = --mesh-file ]; then
     "$root/scripts/setup.sh" --programs
 else
     "$root/scripts/setup.sh"
@@ -25,6 +26,10 @@ fi
 if [ "${1-}" = --sweep ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
     exec python3 -B "$root/tests/bench/sweep.py" "$root/build/release" "$root/build/bench" "${@:2}"
+fi
+if [ "${1-}" = --mesh-file ]; then
+    cmake --build --preset release --target candela_runtime >/dev/null
+    exec python3 -B "$root/tests/bench/mesh_file.py" "$root/build/release" "$root/build/bench/mesh-file" "${@:2}"
 fi
 if [ "${1-}" = --third-party ]; then
     cmake --build --preset release --target all candela_kernel_loops >/dev/null

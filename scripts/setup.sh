@@ -66,10 +66,10 @@ oldest_clang() {
   if installed clang-14 || [ -n "$(candidate clang-14)" ]; then echo clang-14; fi
 }
 
-# POV-Ray and VTK's library, whose package has VTK's version in its name.
+# POV-Ray, f3d with a display for it, and VTK's library, whose package has VTK's version in its name.
 programs() {
   [ "$programs" = yes ] || return 0
-  echo povray
+  echo povray f3d xvfb xauth
   { LC_ALL=C apt-cache depends libvtk9-dev 2>/dev/null || true; } | sed -nE 's/^ *Depends: (libvtk9\.[0-9]+(t64)?)$/\1/p'
 }
 
