@@ -1,12 +1,11 @@
 #include "crease.h"
+#include "candela/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <span>
-
-import candela.parallel;
 
 using candela::Vec3;
 

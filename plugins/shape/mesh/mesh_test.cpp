@@ -8,11 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "candela/parallel.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
-
-import candela.parallel;
 
 using candela::Mesh;
 using candela::Shape;
