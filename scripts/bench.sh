@@ -4,14 +4,16 @@
 #   scripts/bench.sh --scenes A --sizes 512x512   less; --threads 1: both with that many, not with all
 #   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
 #   scripts/bench.sh --programs                   against POV-Ray and VTK, whole processes; build/bench/programs.{md,json} (five minutes)
+#   scripts/bench.sh --mesh-file                  against f3d on a PLY file of ten million triangles (two minutes)
 #   scripts/bench.sh --third-party                plugins built against an installation, as by a third party, against the shipped ones
+#   scripts/bench.sh --third-party --loops --compiler g++    the loops of reflection models, built by another compiler
 #   scripts/bench.sh --instructions               records how many instructions the default scene takes, which a test compares
 # On a machine that does nothing else.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 
-if [ "${1-}" = --programs ]; then
+if [ "${1-}" = --programs ] || [ "${1-}" = --mesh-file ]; then
     "$root/scripts/setup.sh" --programs
 else
     "$root/scripts/setup.sh"
@@ -25,8 +27,12 @@ if [ "${1-}" = --sweep ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
     exec python3 -B "$root/tests/bench/sweep.py" "$root/build/release" "$root/build/bench" "${@:2}"
 fi
+if [ "${1-}" = --mesh-file ]; then
+    cmake --build --preset release --target candela_runtime >/dev/null
+    exec python3 -B "$root/tests/bench/mesh_file.py" "$root/build/release" "$root/build/bench/mesh-file" "${@:2}"
+fi
 if [ "${1-}" = --third-party ]; then
-    cmake --build --preset release >/dev/null
+    cmake --build --preset release --target all candela_kernel_loops >/dev/null
     exec python3 -B "$root/tests/bench/third_party.py" "$root/build/release" "$root/build/bench/third-party" "${@:2}"
 fi
 cmake --build --preset release --target candela_runtime candela_diff candela_dump_scene candela_empty_program \

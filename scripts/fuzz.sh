@@ -36,6 +36,9 @@ for harness in "$@"; do
     unpacked=build/fuzz/tests/fuzz/corpus/$harness
     found=build/fuzz/found/$harness
     [ -x "$program" ] || { echo "fuzz: there is no harness '$harness'" >&2; exit 2; }
+    real=build/fuzz/tests/fuzz/corpus/${harness}_real  # of mesh_file
+    seeds=("$corpus" "$unpacked")
+    [ ! -d "$real" ] || seeds+=("$real")
     mkdir -p "$found/inputs" "$found/findings"
     options=(-rss_limit_mb=2048 -malloc_limit_mb=1024 -timeout=20 -artifact_prefix="$found/findings/" -print_final_stats=1)
     case $harness in
@@ -43,12 +46,12 @@ for harness in "$@"; do
         setting) options+=(-max_len=512 -dict=tests/fuzz/toml.dict) ;;
         manifest) options+=(-max_len=4096 -dict=tests/fuzz/json.dict) ;;
         mesh) options+=(-max_len=1024) ;;
-        mesh_file) options+=(-max_len=2048) ;;
+        mesh_file) options+=(-max_len=4096) ;;
     esac
     if [ "$seconds" = --merge ]; then
         # Inputs with a name of their own are regression tests: they stay. The others must add to them.
         cp -r "$corpus" "$scratch/merged"
-        "$program" "${options[@]}" -merge=1 "$scratch/merged" "$unpacked" "$found/inputs" 2>&1 | tail -n 1
+        "$program" "${options[@]}" -merge=1 "$scratch/merged" "${seeds[@]:1}" "$found/inputs" 2>&1 | tail -n 1
         # The same inputs are always the same archive.
         (cd "$scratch/merged" && find . -regextype egrep -regex '\./[0-9a-f]{40}' -printf '%P\0' | LC_ALL=C sort -z) |
             tar -C "$scratch/merged" --null --files-from=- --format=ustar --mtime=@0 --mode=0644 --owner=0 --group=0 --numeric-owner \
@@ -58,7 +61,7 @@ for harness in "$@"; do
         continue
     fi
     printf '== %s, %s seconds\n' "$harness" "$seconds"
-    if ! "$program" "${options[@]}" -max_total_time="$seconds" "$found/inputs" "$corpus" "$unpacked" 2>"$found/log"; then
+    if ! "$program" "${options[@]}" -max_total_time="$seconds" "$found/inputs" "${seeds[@]}" 2>"$found/log"; then
         status=1
         grep -aE 'finding:|SUMMARY|ERROR: |runtime error' "$found/log" || true
     fi

@@ -60,10 +60,16 @@ linter() {
   if installed clang-tidy-22 || [ -n "$(candidate clang-tidy-22)" ]; then echo clang-22 clang-tidy-22; fi
 }
 
-# POV-Ray and VTK's library, whose package has VTK's version in its name.
+# The oldest clang that builds plugins, for a test; not every release has it.
+oldest_clang() {
+  [ "$everything" = yes ] || return 0
+  if installed clang-14 || [ -n "$(candidate clang-14)" ]; then echo clang-14; fi
+}
+
+# POV-Ray, f3d with a display for it, and VTK's library, whose package has VTK's version in its name.
 programs() {
   [ "$programs" = yes ] || return 0
-  echo povray
+  echo povray f3d xvfb xauth
   { LC_ALL=C apt-cache depends libvtk9-dev 2>/dev/null || true; } | sed -nE 's/^ *Depends: (libvtk9\.[0-9]+(t64)?)$/\1/p'
 }
 
@@ -71,7 +77,7 @@ missing=()
 find_missing() {
   local package
   missing=()
-  for package in "${packages[@]}" "${boost[@]}" $(linter) $(programs); do
+  for package in "${packages[@]}" "${boost[@]}" $(linter) $(oldest_clang) $(programs); do
     installed "$package" || missing+=("$package")
   done
   at_least "$(installed_version cmake)" "$k_cmake_at_least" || missing+=(cmake cmake-data)

@@ -95,8 +95,8 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     }
     folder.finish();
     std::cout << fmt::format(
-        "Made {0}. Next:\n  cd {0}\n  cmake -G Ninja -B build -DCMAKE_BUILD_TYPE=Release "
-        "-DCMAKE_CXX_COMPILER=clang++-19\n  cmake --build build && ctest --test-dir build\n",
+        "Made {0}. Next:\n  cd {0}\n  cmake -B build -DCMAKE_BUILD_TYPE=Release\n"
+        "  cmake --build build && ctest --test-dir build\n",
         target.string());
     return 0;
 }

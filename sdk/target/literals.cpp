@@ -58,16 +58,6 @@ std::string identifier(std::string_view name, std::string_view suffix) {
     return result;
 }
 
-std::string tame(std::string_view name) {
-    std::string result;
-    for (const char c : name) {
-        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                              std::string_view(" -_.,:()").find(c) != std::string_view::npos;
-        result += is_plain ? c : '_';
-    }
-    return result.substr(0, 100);
-}
-
 std::string html_text(std::string_view text) {
     // Characters that are no UTF-8 become the replacement character, as in JSON.
     std::string result = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

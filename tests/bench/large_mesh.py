@@ -30,18 +30,17 @@ def face_rows(n: int):
         )
 
 
-def main() -> None:
-    n = int(sys.argv[2]) if len(sys.argv) > 2 else 2237
+def write(file, n: int = 2237) -> None:
     header = (
         "ply\nformat binary_little_endian 1.0\n"
         f"element vertex {n * n}\nproperty float x\nproperty float y\nproperty float z\n"
         f"element face {2 * n * n}\nproperty list uchar int vertex_indices\nend_header\n"
     )
-    with open(sys.argv[1], "wb") as out:
+    with open(file, "wb") as out:
         out.write(header.encode())
         for part in (*position_rows(n), *face_rows(n)):
             out.write(part)
 
 
 if __name__ == "__main__":
-    main()
+    write(sys.argv[1], *map(int, sys.argv[2:]))

@@ -14,7 +14,7 @@ quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
 for tool in dpkg dpkg-deb dpkg-query dpkg-shlibdeps file; do
     command -v "$tool" >/dev/null || skip "there is no $tool here"
 done
-for package in clang-19 clang-tools-19 cmake ninja-build catch2; do
+for package in g++ cmake make catch2; do
     dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
         skip "candela-dev needs $package, which is not installed as a package here"
 done

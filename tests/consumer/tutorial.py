@@ -88,7 +88,7 @@ def own_lines(template, text):
 
 def main():
     build, scratch, cmake, document = map(Path, sys.argv[1:])
-    for tool in ("bash", "clang++-19", "ninja"):
+    for tool in ("bash", "c++", "make"):
         if not shutil.which(tool):
             print(f"SKIPPED: there is no {tool} here")
             sys.exit(77)

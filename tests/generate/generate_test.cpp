@@ -156,6 +156,57 @@ TEST_CASE("generate: --models adds models, and the C++ program switches to them"
     CHECK(other_shading);
 }
 
+TEST_CASE("generate: programs have help, and refuse what they do not know") {
+    const fs::path directory = scratch_directory();
+    generate({"--target", "cpp", "-o", directory.string(), "--models", "half-lambert,shading/flat", "--width",
+              "32", "--height", "32"});
+    require_compiles({"g++"}, directory / "scene.cpp", directory / "scene");
+    generate({"--target", "cpp", "-o", (directory / "one").string(), "--width", "32", "--height", "32"});
+    require_compiles({"g++"}, directory / "one/scene.cpp", directory / "one/scene");
+    const auto run = [&](const std::string& program, std::vector<std::string> words) {
+        words.insert(words.begin(), (directory / program).string());
+        CommandSetup setup;
+        setup.directory = directory;
+        return run_program(words, setup);
+    };
+    const CommandResult help = run("scene", {"--help"});
+    CHECK(help.exit_code == 0);
+    CHECK(help.out.find("scene [PICTURE [SHADING [REFLECTION]]]") != std::string::npos);
+    CHECK(help.out.find("REFLECTION: of all objects: phong, half-lambert") != std::string::npos);
+    CHECK(run("one/scene", {"--help"}).out.find("scene [PICTURE]\n") != std::string::npos);
+    CHECK_FALSE(fs::exists(directory / "--help"));
+    struct Mistake {
+        std::string program;
+        std::vector<std::string> words;
+        std::string complaint;
+    };
+    const std::vector<Mistake> mistakes = {{"scene", {"--heigth"}, "'--heigth'"},
+                                           {"scene", {"a.ppm", "falt"}, "'falt'"},
+                                           {"scene", {"a.ppm", "flat", "half"}, "half-lambert"},
+                                           {"scene", {"a.ppm", "flat", "phong", "more"}, "'more'"},
+                                           {"one/scene", {"a.ppm", "flat"}, "'flat'"}};
+    for (const auto& [program, words, complaint] : mistakes) {
+        const CommandResult result = run(program, words);
+        INFO(result.err);
+        CHECK(result.exit_code == 1);
+        CHECK(result.err.find(complaint) != std::string::npos);
+        CHECK_FALSE(fs::exists(directory / "a.ppm"));
+    }
+    CHECK(run("scene", {"a.ppm", "flat", "half-lambert"}).exit_code == 0);
+}
+
+TEST_CASE("generate: programs say what the CA and RE are that their comments cite") {
+    const fs::path directory = scratch_directory();
+    for (const std::string& target : {std::string("cpp"), std::string("opengl")}) {
+        generate({"--target", target, "-o", (directory / target).string()});
+        for (const std::string& file : {std::string("scene.cpp"), std::string("README.md")}) {
+            const std::string text = read_file(directory / target / file);
+            CHECK(text.find("Commonality Analysis for Family of Lighting Models") != std::string::npos);
+            CHECK(text.find("Rendering equation") != std::string::npos);
+        }
+    }
+}
+
 TEST_CASE("generate: errors name what is wrong, and what to do") {
     const fs::path directory = scratch_directory();
     const auto expect = [&](const std::vector<std::string>& arguments, int code, const std::string& message) {

@@ -159,3 +159,32 @@ TEST_CASE("names: a page holds hostile names as data, whole, and nothing of them
         CHECK(label.find('\n') == std::string::npos);
     }
 }
+
+TEST_CASE("names: in programs, lamp is lamp, and letters of other alphabets are transliterated") {
+    const fs::path directory = scratch_directory();
+    const fs::path scene = write_file(directory / "scene.toml", R"(version = 1
+observer = {position = [0, 0, 4], look_at = [0, 0, 0]}
+shading = {model = "phong"}
+reflection = {model = "phong"}
+light = [
+    {name = "lamp", type = "point", position = [0, 2, 2]},
+    {name = "Wei\u00dfe Lampe", type = "ambient"},
+]
+object = [
+    {name = "Gr\u00f6\u00dfe", type = "cube", size = 0.4},
+    {name = "\u0392\u03ac\u03c3\u03b7", type = "cube", size = 0.4, position = [1, 0, 0]},
+    {name = "\u0448\u0430\u0440", type = "sphere", radius = 0.3, position = [-1, 0, 0]},
+    {name = "\u7403 ball", type = "sphere", radius = 0.3, position = [0, 1, 0]},
+]
+)");
+    for (const std::string& target : {std::string("cpp"), std::string("opengl")}) {
+        generate(target, scene, directory / target);
+        const std::string source = read_file(directory / target / "scene.cpp");
+        for (const std::string& name :
+             {"// lamp\n", "// Weisse Lampe\n", "Groesse", "Basi", "shar", "_ ball"}) {
+            INFO(target << ": " << name);
+            CHECK(source.find(name) != std::string::npos);
+        }
+        CHECK(std::ranges::all_of(source, [](char c) { return static_cast<unsigned char>(c) < 0x80; }));
+    }
+}

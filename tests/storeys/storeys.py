@@ -13,8 +13,8 @@ STOREYS = ["api", "base", "host", "scene", "render", "core"]
 SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
 # What is compiled into plugins, as opposed to the SDK's programs.
 SDK_OF_PLUGINS = ("sdk/include/", "sdk/target/", "sdk/templates/")
-# Headers of api that declare nothing a module could export: macros, kernels, and templates of their own.
-HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "kernel.h", "multiversion.h"}
+# Headers of api without a module: macros, kernels, templates of their own, and what only tests of plugins include.
+HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "instances.h", "kernel.h", "multiversion.h"}
 # A declaration at the beginning of a line, as clang-format puts what is in a namespace: a type, a function, a constant.
 DECLARATION = re.compile(
     r"^(?:template <.*> )?(?:enum class |struct |class )(?:CANDELA_API )?(?P<type>\w+)[^;\n]*\{(?:.*\};)?$"

@@ -13,9 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "candela/parallel.h"
 #include "support/plugins.h"
-
-import candela.parallel;
 
 namespace {
 

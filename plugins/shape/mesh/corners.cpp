@@ -1,12 +1,11 @@
 #include "corners.h"
+#include "candela/parallel.h"
+#include "candela/shape.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numeric>
-
-import candela.parallel;
-import candela.shape;
 
 using candela::ConstVec3Span;
 using candela::Vec3;

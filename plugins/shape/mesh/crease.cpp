@@ -1,12 +1,11 @@
 #include "crease.h"
+#include "candela/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <span>
-
-import candela.parallel;
 
 using candela::Vec3;
 
@@ -146,14 +145,12 @@ class Grouping {
 
     /// A triangle without area has no normal, and needs no vertex of its own.
     void attach_degenerate() {
-        for (std::size_t i = 0; i < here_.size(); ++i) {
-            if (normal(i) != Vec3{} || has_own_normal(i) || root(i) != i) continue;
-            for (std::size_t j = 0; j < here_.size(); ++j) {
-                if (normal(j) == Vec3{} || has_own_normal(j)) continue;
-                join(i, j);
-                break;
-            }
-        }
+        std::size_t sound = here_.size();
+        for (std::size_t i = 0; i < here_.size() && sound == here_.size(); ++i)
+            if (normal(i) != Vec3{} && !has_own_normal(i)) sound = i;
+        if (sound == here_.size()) return;
+        for (std::size_t i = 0; i < here_.size(); ++i)
+            if (normal(i) == Vec3{} && !has_own_normal(i) && root(i) == i) join(i, sound);
     }
 
     const Surface& surface_;

@@ -1,4 +1,5 @@
 #include "file_bytes.h"
+#include "candela/parallel.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,8 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
-
-import candela.parallel;
 
 namespace mesh {
 

@@ -171,7 +171,7 @@ class Reader {
             if (one.primitive->indices >= 0) numbers += accessor(one.primitive->indices, 1).count();
             all_normals = all_normals && attributes.contains("NORMAL");
             any_uv = any_uv || attributes.contains("TEXCOORD_0");
-            constexpr std::uint64_t k_most_repeated = std::uint64_t{1} << 26;
+            constexpr std::uint64_t k_most_repeated = std::uint64_t{1} << 24;
             if (numbers > std::max<std::uint64_t>(k_most_repeated, document_.bytes)) {
                 throw BadFile(fmt::format("repeats its {} bytes to more than {} vertices and corners",
                                           document_.bytes, k_most_repeated));

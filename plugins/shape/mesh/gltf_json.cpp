@@ -162,10 +162,17 @@ std::vector<std::string> losses_of(const Json& json) {
     std::set<std::string> extensions;
     for (const Json& extension : array_of(json, "extensionsUsed"))
         if (extension.is_string()) extensions.insert(extension.get<std::string>());
-    for (const std::string& name : extensions) {
-        if (is_about_appearance(name) || name == "KHR_mesh_quantization") continue;
-        losses.push_back("the extension " + in_quotes(name));
+    std::vector<std::string> unknown;
+    for (const std::string& name : extensions)
+        if (!is_about_appearance(name) && name != "KHR_mesh_quantization") unknown.push_back(in_quotes(name));
+    constexpr std::size_t k_most_named = 5;
+    if (unknown.size() > k_most_named) {
+        const std::size_t more = unknown.size() - k_most_named;
+        unknown.resize(k_most_named);
+        unknown.push_back(fmt::format("{} more", more));
     }
+    if (!unknown.empty())
+        losses.push_back(fmt::format("the extension{} {}", unknown.size() == 1 ? "" : "s", listed(unknown)));
     return losses;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "candela/parallel.h"
 #include "candela/shape_plugin.h"
 #include "corners.h"
 #include "crease.h"
@@ -18,8 +19,6 @@
 #include "file_bytes.h"
 #include "readers.h"
 #include "surface.h"
-
-import candela.parallel;
 
 using namespace candela::sdk;
 

@@ -8,11 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "candela/parallel.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
-
-import candela.parallel;
 
 using candela::Mesh;
 using candela::Shape;
@@ -213,7 +212,8 @@ TEST_CASE("shape/mesh: derivatives on a cylinder run around it and along it, wit
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const Double3 p = exact(mesh.position.span()[i]), du = exact(mesh.dpdu.span()[i]);
         CHECK(dot(unit(du), Double3{p.z, 0, -p.x}) > std::cos(4 * std::acos(-1.0) / k_facets));
-        CHECK(agree(length(du), 2 * std::acos(-1.0), 2e-3));
+        // The mean over two facets is shorter by 1 - cos(3.75 degrees) = 0.0021, a chord by 0.0007.
+        CHECK(agree(length(du), 2 * std::acos(-1.0), 3e-3));
         CHECK(agree(mesh.dpdv.span()[i], Vec3{0, 3, 0}, 1e-4, 1e-4));
     }
 }

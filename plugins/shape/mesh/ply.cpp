@@ -4,12 +4,11 @@
 #include <atomic>
 #include <cmath>
 
+#include "candela/parallel.h"
 #include "ply_header.h"
 #include "ply_values.h"
 #include "polygons.h"
 #include "readers.h"
-
-import candela.parallel;
 
 namespace mesh {
 

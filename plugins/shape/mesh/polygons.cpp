@@ -65,17 +65,15 @@ class EarClipper {
         }
         for (std::size_t i = 0; i < n; ++i)
             if (turn(i) <= 0) reflex_.push_back(i);
-        constexpr std::size_t k_most_tests = 400'000'000;
-        if (reflex_.size() > k_most_tests / n) {
-            throw BadFile(fmt::format(
-                "has a concave face of {} corners, {} of them reflex, which is too many", n, reflex_.size()));
-        }
+        // Each ear takes out of these what lies in its way.
+        spend(p_.size() * reflex_.size());
     }
 
     template <class Emit>
     void run(Emit emit) {
         std::size_t left = p_.size(), at = 0, since_ear = 0;
         while (left > 3) {
+            spend(1);
             const bool stuck = since_ear > left;  // it crosses itself
             if (!stuck && !is_ear(at)) {
                 at = next_[at];
@@ -102,10 +100,12 @@ class EarClipper {
         std::erase_if(reflex_, [&](std::size_t r) { return r == i || turn(r) > 0; });
     }
 
-    bool is_ear(std::size_t i) const {
+    bool is_ear(std::size_t i) {
         if (turn(i) <= 0) return false;
         const Point a = p_[prev_[i]], b = p_[i], c = p_[next_[i]];
-        return std::ranges::none_of(reflex_, [&](std::size_t r) {
+        std::size_t tests = 0;
+        const bool is_free = std::ranges::none_of(reflex_, [&](std::size_t r) {
+            ++tests;
             if (r == prev_[i] || r == next_[i] || r == i) return false;
             const Point q = p_[r];
             // A second corner at the same place, as where a hole is joined to the outline by a bridge, is in
@@ -113,8 +113,19 @@ class EarClipper {
             if ((q.x == a.x && q.y == a.y) || (q.x == c.x && q.y == c.y)) return false;
             return area(a, b, q) >= 0 && area(b, c, q) >= 0 && area(c, a, q) >= 0;
         });
+        spend(tests);
+        return is_free;
     }
 
+    /// A few seconds' worth.
+    void spend(std::size_t tests) {
+        constexpr std::size_t k_most_tests = 500'000'000;
+        tests_ += tests;
+        if (tests_ > k_most_tests)
+            throw BadFile(fmt::format("has a concave face of {} corners, which is too complex", p_.size()));
+    }
+
+    std::size_t tests_ = 0;
     std::vector<Point> p_;
     std::vector<std::size_t> next_, prev_;
     std::vector<std::size_t> reflex_;

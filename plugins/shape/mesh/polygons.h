@@ -21,7 +21,7 @@ struct Polygons {
 
 /// Appends the triangles of a face to `indices`: n - 2 of n corners, in the face's orientation. A concave
 /// face is cut by clipping ears (Meisters 1975) in the plane of its Newell normal; one that crosses itself
-/// yields some n - 2 triangles. Throws BadFile if it has more reflex corners than can be handled.
+/// yields some n - 2 triangles. Throws BadFile if it has more reflex corners than can be handled in time.
 void triangulate(std::span<const std::uint32_t> corners, candela::ConstVec3Span position,
                  Array<std::uint32_t>& indices);
 

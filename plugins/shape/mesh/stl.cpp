@@ -9,10 +9,9 @@
 #include <cstring>
 #include <utility>
 
+#include "candela/parallel.h"
 #include "readers.h"
 #include "text_scanner.h"
-
-import candela.parallel;
 
 using candela::Vec3;
 

@@ -1,6 +1,8 @@
 // What a mesh file holds, whatever its format.
 #pragma once
 
+#include "candela/math.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -8,8 +10,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-import candela.math;
 
 namespace mesh {
 

@@ -90,6 +90,8 @@ class CppWriter {
              {"LIGHT_LOOPS", loops()},
              {"TANGENT", tangent()},
              {"PICTURE_FILE", std::string(picture_file_source())},
+             {"USAGE", usage()},
+             {"HELP", help()},
              {"MAIN", main_text()},
              {"DATA",
               objects_.data().empty()
@@ -99,8 +101,6 @@ class CppWriter {
     }
 
   private:
-    bool has_choice() const { return scene_.reflections.size() > 1 || scene_.shadings.size() > 1; }
-
     std::string model_kernels() const {
         std::string text;
         std::set<std::string> done;
@@ -297,31 +297,75 @@ class CppWriter {
                          : "";
     }
 
-    std::string main_text() const {
-        std::string text;
-        if (has_choice()) {
-            text =
-                "        const auto argument = [&](int i) { return argc > i ? std::string(argv[i]) : "
-                "std::string(); };\n";
+    /// A positional argument of the program that names a model for all objects.
+    template <class Model>
+    struct ModelArgument {
+        const char* member;
+        const char* type;
+        std::vector<std::string> enumerators;
+        std::span<const Model> models;
+
+        bool is_there() const { return models.size() > 1; }
+        std::string names() const {
+            std::vector<std::string> all;
+            for (const Model& model : models) all.emplace_back(model.plugin->name);
+            return fmt::format("{}", fmt::join(all, ", "));
         }
-        text +=
-            "        const std::string path = argc > 1 ? argv[1] : \"scene.png\";\n"
-            "        std::vector<scene::Object> objects = scene::make_objects();\n";
-        const auto add = [&](const char* type, const char* member, const std::vector<std::string>& names,
-                             int position, const auto& models) {
-            if (names.size() < 2) return;
-            text += fmt::format("        // The {} argument, if there is one, names the {} of all objects.\n",
-                                position == 2 ? "second" : "third", member);
-            for (std::size_t i = 0; i < names.size(); ++i) {
+        std::string help(const char* placeholder) const {
+            return is_there() ? fmt::format("\n    \"{}: of all objects: {}\\n\"", placeholder, names()) : "";
+        }
+        std::string statements(std::size_t position) const {
+            if (!is_there()) return "";
+            std::string text = fmt::format("        if (words.size() > {}) {{  // the {} of all objects\n",
+                                           position, member);
+            for (std::size_t i = 0; i < models.size(); ++i) {
                 text += fmt::format(
-                    "        if (argument({}) == \"{}\")\n            for (scene::Object& o : objects) o.{} "
-                    "= scene::{}::{};\n",
-                    position, models[i].plugin->name, member, type, names[i]);
+                    "            {}if (words[{}] == \"{}\")\n                for (scene::Object& o : "
+                    "objects) o.{} = "
+                    "scene::{}::{};\n",
+                    i == 0 ? "" : "else ", position, models[i].plugin->name, member, type, enumerators[i]);
             }
-        };
-        add("Shading", "shading", shading_names(), 2, scene_.shadings);
-        add("Reflection", "reflection", reflection_names(), 3, scene_.reflections);
-        return text +
+            return text +
+                   fmt::format(
+                       "            else\n                throw std::runtime_error(\"there is no {} model "
+                       "'\" + words[{}] + \"' here (possible: {})\");\n        }}\n",
+                       member, position, names());
+        }
+    };
+    ModelArgument<ExportedShading> shading_argument() const {
+        return {"shading", "Shading", shading_names(), scene_.shadings};
+    }
+    ModelArgument<ExportedReflection> reflection_argument() const {
+        return {"reflection", "Reflection", reflection_names(), scene_.reflections};
+    }
+
+    /// "[PICTURE [REFLECTION]]"
+    std::string usage() const {
+        std::string text = "[PICTURE", end = "]";
+        if (shading_argument().is_there()) text += " [SHADING", end += "]";
+        if (reflection_argument().is_there()) text += " [REFLECTION", end += "]";
+        return text + end;
+    }
+    std::string help() const {
+        return shading_argument().help("SHADING") + reflection_argument().help("REFLECTION");
+    }
+
+    std::string main_text() const {
+        const std::size_t first = 1, second = shading_argument().is_there() ? 2 : 1;
+        const std::size_t most = second + (reflection_argument().is_there() ? 1 : 0);
+        return fmt::format(
+                   "        const std::vector<std::string> words(argv + 1, argv + argc);\n"
+                   "        if (!words.empty() && (words[0] == \"--help\" || words[0] == \"-h\")) {{\n"
+                   "            std::cout << k_help;\n            return 0;\n        }}\n"
+                   "        for (std::size_t i = 0; i < words.size(); ++i) {{\n"
+                   "            if (i >= {} || words[i].rfind('-', 0) == 0)\n"
+                   "                throw std::runtime_error(\"unknown argument '\" + words[i] + \"'; --help "
+                   "lists "
+                   "them\");\n        }}\n"
+                   "        const std::string path = argc > 1 ? argv[1] : \"scene.png\";\n"
+                   "        std::vector<scene::Object> objects = scene::make_objects();\n",
+                   most) +
+               shading_argument().statements(first) + reflection_argument().statements(second) +
                "        for (scene::Object& o : objects) {\n            scene::place(o);\n            "
                "scene::find_normals(o);\n"
                "        }\n        scene::write_picture(path, scene::bytes_of(scene::render(objects)), "

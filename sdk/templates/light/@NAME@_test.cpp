@@ -1,16 +1,13 @@
+#include <candela/plugin_test.h>
+
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-
-import candela.core;
 
 using Catch::Matchers::WithinAbs;
 
 TEST_CASE("two metres away, a quarter of the light arrives, from where the light is") {
-    candela::Registry registry({CANDELA_PLUGIN_DIR});
-    candela::ParamSet values = registry.parameters(candela::PluginKind::light, "@NAME@");
-    values.set("position", candela::Vec3{0, 2, 0});
-    values.set("intensity", 3.0);
-    const auto light = registry.create<candela::Light>("@NAME@", values, candela::ColorEncoding::none);
+    const auto light = candela::sdk::make<candela::Light>(
+        CANDELA_PLUGIN_DIR, "@NAME@", {{"position", candela::Vec3{0, 2, 0}}, {"intensity", 3.0}});
 
     const float zero = 0, one = 1;
     float out[9] = {};

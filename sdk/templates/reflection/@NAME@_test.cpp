@@ -1,16 +1,13 @@
+#include <candela/plugin_test.h>
+
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
 
-import candela.core;
-
 using Catch::Matchers::WithinAbs;
 
 TEST_CASE("light from 60 degrees off the normal: half of kd is reflected") {
-    candela::Registry registry({CANDELA_PLUGIN_DIR});
-    candela::ParamSet values = registry.parameters(candela::PluginKind::reflection, "@NAME@");
-    values.set("kd", 0.8);
-    const auto model = registry.create<candela::ReflectionModel>("@NAME@", values, candela::ColorEncoding::none);
+    const auto model = candela::sdk::make<candela::ReflectionModel>(CANDELA_PLUGIN_DIR, "@NAME@", {{"kd", 0.8}});
 
     const float zero = 0, one = 1, half = 0.5f, sine = std::sqrt(0.75f);
     float out[9] = {};

@@ -1,15 +1,13 @@
+#include <candela/plugin_test.h>
+
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
 
-import candela.core;
-
 using Catch::Matchers::WithinAbs;
 
 TEST_CASE("between a face that looks up and a vertex normal that looks along x, the normal is the diagonal") {
-    candela::Registry registry({CANDELA_PLUGIN_DIR});
-    const auto model = registry.create<candela::ShadingModel>(
-        "@NAME@", registry.parameters(candela::PluginKind::shading, "@NAME@"), candela::ColorEncoding::none);
+    const auto model = candela::sdk::make<candela::ShadingModel>(CANDELA_PLUGIN_DIR, "@NAME@");
 
     const float zero = 0, one = 1;
     float out[3] = {};

@@ -4,6 +4,9 @@
 //
 // To be read from top to bottom: vectors, lighting models, the scene, shapes, what each pixel sees, light, the picture's
 // file. Lengths are in metres, space is right-handed, y is up; triangles run counter-clockwise seen from outside.
+//
+// Comments cite CA: Sasha Soraine, Commonality Analysis for Family of Lighting Models (2019), by its labels, and RE: Derek
+// O'Reilly, Rendering equation, lecture notes, Dundalk Institute of Technology.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -284,6 +287,10 @@ std::vector<std::uint8_t> bytes_of(const std::vector<vec3>& picture) {
 
 @PICTURE_FILE@
 }  // namespace scene
+
+const char* const k_help =
+    "scene @USAGE@\n"
+    "draws the scene to a file, .png or .ppm; scene.png where none is named.\n"@HELP@;
 
 int main(int argc, char** argv) {
     try {

@@ -5,6 +5,9 @@
 //     scene --headless --output out.png      a picture, without a display (--width N, --height N, --shading NAME, --reflection NAME)
 //
 // To be read from top to bottom: shaders, the scene, vectors, the observer, drawing, the picture's file, the window.
+//
+// Comments cite CA: Sasha Soraine, Commonality Analysis for Family of Lighting Models (2019), by its labels, and RE: Derek
+// O'Reilly, Rendering equation, lecture notes, Dundalk Institute of Technology.
 #include <epoxy/gl.h>
 // The order matters: epoxy before all that knows OpenGL.
 #include <GLFW/glfw3.h>
@@ -537,19 +540,34 @@ void show_window() {
     glfwTerminate();
 }
 
-int model_called(const std::string& name, const std::vector<Model>& models) {
+std::string names_of(const std::vector<Model>& models) {
     std::string all;
-    for (std::size_t i = 0; i < models.size(); ++i) {
+    for (const Model& model : models) all += std::string(all.empty() ? "" : ", ") + model.name;
+    return all;
+}
+
+int model_called(const std::string& name, const std::vector<Model>& models) {
+    for (std::size_t i = 0; i < models.size(); ++i)
         if (name == models[i].name) return static_cast<int>(i);
-        all += std::string(all.empty() ? "" : ", ") + models[i].name;
-    }
-    throw std::runtime_error("there is no model '" + name + "' here (possible: " + all + ")");
+    throw std::runtime_error("there is no model '" + name + "' here (possible: " + names_of(models) + ")");
 }
 
 int size_from(const std::string& text) {
     const int size = text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos ? std::atoi(text.c_str()) : 0;
     if (size < 1 || size > 16384) throw std::runtime_error("'" + text + "' is no size of a picture, 1 to 16384");
     return size;
+}
+
+void print_help() {
+    std::cout << "scene [options]\n"
+                 "shows the scene in a window: drag or arrow keys to look around, wheel or + - to go nearer,\n"
+                 "S: next shading model, R: next reflection model, 0: back to the beginning, Esc: end.\n\n"
+                 "  --headless              draw a picture instead, without a display\n"
+                 "  --output FILE           to this file, .png or .ppm; default: scene.png\n"
+                 "  --width N, --height N   of the picture, in pixels\n"
+                 "  --shading NAME          of all objects: " << names_of(k_shadings) << "\n"
+                 "  --reflection NAME       of all objects: " << names_of(k_reflections) << "\n"
+                 "  --help                  this text\n";
 }
 
 void run(const std::vector<std::string>& words) {
@@ -562,13 +580,14 @@ void run(const std::vector<std::string>& words) {
             if (i + 1 == words.size()) throw std::runtime_error(words[i] + " wants a value");
             return words[++i];
         };
+        if (words[i] == "--help" || words[i] == "-h") return print_help();
         if (words[i] == "--headless") is_headless = true;
         else if (words[i] == "--output") output = value();
         else if (words[i] == "--width") width = size_from(value());
         else if (words[i] == "--height") height = size_from(value());
         else if (words[i] == "--shading") choice.shading = model_called(value(), k_shadings);
         else if (words[i] == "--reflection") choice.reflection = model_called(value(), k_reflections);
-        else throw std::runtime_error("unknown argument '" + words[i] + "'; README.md lists them");
+        else throw std::runtime_error("unknown argument '" + words[i] + "'; --help lists them");
     }
     if (is_headless) write_headless(output, choice, width, height);
     else show_window();

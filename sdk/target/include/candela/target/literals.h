@@ -28,7 +28,8 @@ double shortest(float x);
 std::string identifier(std::string_view name, std::string_view suffix);
 
 /// A name that somebody chose, as one line that can stand in a comment of C++, CMake or Markdown: letters,
-/// digits and a few marks; '_' for all else.
+/// digits and a few marks; '_' for all else. Latin, Greek and Cyrillic letters become ASCII ("Größe" is
+/// "Groesse"), and quotes around a label go.
 std::string tame(std::string_view name);
 /// As text of an HTML page. Bytes that are not UTF-8 are replaced.
 std::string html_text(std::string_view text);

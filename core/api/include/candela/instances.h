@@ -1,0 +1,29 @@
+// Instances made as a host makes them, for tests of plugins, which any compiler builds. Programs use the
+// module candela.registry.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "candela/api.h"
+#include "candela/descriptor.h"
+#include "candela/math.h"
+
+namespace candela {
+
+/// The value of a parameter as a person writes it in a scene: degrees, colours 0-255.
+struct Setting {
+    std::string_view name;
+    std::variant<bool, std::int64_t, double, std::string, Vec3> value;
+};
+
+/// An instance of the plugin in `directory`, which has both its library and its manifest; parameters that are
+/// not among `settings` have their defaults. Throws std::exception, with the message that a user would see.
+CANDELA_API std::unique_ptr<Instance> make_instance(std::string_view directory, PluginKind kind,
+                                                    std::string_view name, std::span<const Setting> settings);
+
+}  // namespace candela

@@ -1,0 +1,76 @@
+"""mesh_file.py BUILD OUT [--size 1000x600] [--rounds 7] [--rows N]: Candela against f3d on a PLY file of ten million
+triangles.
+
+Whole processes from file to PNG, in turns; the ratio is Candela's time over f3d's of the same round, and the median over
+all rounds is printed, with processor time beside it. f3d needs a display: xvfb-run brings one where there is none."""
+import argparse
+import os
+import resource
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import large_mesh
+
+SCENE = """version = 1
+room = {{ width = 10, height = 10, depth = 10 }}
+[observer]
+position = [0, 1, 2]
+look_at = [0, 0, 0]
+[image]
+width = {width}
+height = {height}
+[shading]
+model = "phong"
+[reflection]
+model = "phong"
+[[light]]
+type = "directional"
+direction = [-1, -2, -3]
+[[object]]
+type = "mesh"
+file = "large.ply"
+"""
+
+
+def seconds(words, directory: Path):
+    before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+    subprocess.run(words, cwd=directory, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    after, elapsed = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic() - begin
+    return elapsed, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--size", default="1000x600")
+    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--rows", type=int, default=2237)
+    options = parser.parse_args()
+    if not shutil.which("f3d"):
+        sys.exit("mesh_file: f3d is missing; scripts/setup.sh --programs installs it")
+    if "DISPLAY" not in os.environ:  # once for all rounds, so that its start does not count
+        os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable, "-B", *sys.argv])
+    width, height = options.size.split("x")
+    out = options.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    large_mesh.write(out / "large.ply", options.rows)
+    (out / "large.toml").write_text(SCENE.format(width=width, height=height))
+    candela = [str(options.build.resolve() / "bin/candela"), "render", "large.toml", "-o", "candela.png"]
+    f3d = ["f3d", "large.ply", "--output", "f3d.png", f"--resolution={width},{height}"]
+    for words in (candela, f3d):  # the file comes from memory from now on
+        seconds(words, out)
+    rounds = [(seconds(candela, out), seconds(f3d, out)) for _ in range(options.rounds)]
+    for name, part in (("elapsed", 0), ("processor", 1)):
+        ratios = sorted(ours[part] / theirs[part] for ours, theirs in rounds)
+        print(f"{name:9}  Candela {statistics.median(ours[part] for ours, _ in rounds):6.2f} s   "
+              f"f3d {statistics.median(theirs[part] for _, theirs in rounds):6.2f} s   "
+              f"ratio {statistics.median(ratios):.2f} ({ratios[0]:.2f} to {ratios[-1]:.2f})")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+// candela/plugin_test.h: what tests of plugins are written with.
+#include "candela/plugin_test.h"
+
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <exception>
+
+using Catch::Matchers::ContainsSubstring;
+
+TEST_CASE("a plugin's test gets an instance as a host makes it: with defaults, and values as in a scene") {
+    const auto light = candela::sdk::make<candela::Light>(
+        CANDELA_TEST_PLUGINS, "point", {{"position", candela::Vec3{0, 2, 0}}, {"intensity", 3.0}});
+    const float zero = 0, one = 1;
+    float out[9] = {};
+    light->illuminate(0, {.count = 1, .position = {&zero, &zero, &zero}, .normal = {&zero, &one, &zero}},
+                      {.to_light = {out, out + 1, out + 2},
+                       .diffuse = {out + 3, out + 4, out + 5},
+                       .specular = {out + 6, out + 7, out + 8}});
+    CHECK(out[1] == 1);
+    CHECK(out[3] == 0.75f);  // a default colour, white, and the inverse square
+}
+
+TEST_CASE("a plugin's test is told what is wrong with its settings, as a user would be") {
+    const auto message = [](auto make) -> std::string {
+        try {
+            make();
+        } catch (const std::exception& problem) {
+            return problem.what();
+        }
+        return "";
+    };
+    CHECK_THAT(message([] { candela::sdk::make<candela::Light>(CANDELA_TEST_PLUGINS, "point"); }),
+               ContainsSubstring("position"));
+    CHECK_THAT(message([] {
+                   candela::sdk::make<candela::Light>(CANDELA_TEST_PLUGINS, "ambient", {{"intensity", -1.0}});
+               }),
+               ContainsSubstring("at least 0"));
+    CHECK_THAT(message([] { candela::sdk::make<candela::Shape>(CANDELA_TEST_PLUGINS, "point"); }),
+               ContainsSubstring("no shape plugin is called 'point'"));
+}
+
+TEST_CASE("a plugin's test sees the triangles of a shape") {
+    const auto cube = candela::sdk::make<candela::Shape>(CANDELA_TEST_PLUGINS, "cube");
+    const candela::sdk::Triangles triangles(*cube);
+    REQUIRE(triangles.size() == 12);
+    float six = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        six += dot(triangles.corner(t, 0), cross(triangles.corner(t, 1), triangles.corner(t, 2)));
+    CHECK(six == 6);  // a cube of one metre
+}
