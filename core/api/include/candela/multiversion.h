@@ -35,6 +35,15 @@
 #define CANDELA_VECTORIZE_SIXTEEN CANDELA_VECTORIZE
 #endif
 
+// For clang, tuned for processors with fast gathers: otherwise it reads table entries and indexed values one
+// by one. g++ inlines nothing into a function that is tuned for another processor but what must be inlined;
+// the copies of a kernel's structs are not marked, and their calls would keep every loop scalar.
+#if defined(__clang__)
+#define CANDELA_TARGET_AVX2 "arch=x86-64-v3,tune=skylake"
+#else
+#define CANDELA_TARGET_AVX2 "arch=x86-64-v3"
+#endif
+
 namespace candela {
 
 /// candela::instruction_set() as a number, for headers, which import nothing: 0 baseline, 1 AVX2, 2 AVX-512.
@@ -46,10 +55,7 @@ template <class Loop, class... Arguments>
 struct Multiversion {
     [[gnu::noinline]] static void baseline(const Arguments&... arguments) { Loop::run(arguments...); }
 #if defined(__x86_64__)
-    // Tuned for processors with fast gathers: otherwise clang reads table entries and indexed values one by
-    // one.
-    [[gnu::noinline, gnu::target("arch=x86-64-v3,tune=skylake")]] static void avx2(
-        const Arguments&... arguments) {
+    [[gnu::noinline, gnu::target(CANDELA_TARGET_AVX2)]] static void avx2(const Arguments&... arguments) {
         Loop::run(arguments...);
     }
     [[gnu::noinline, gnu::target("arch=x86-64-v4")]] static void avx512(const Arguments&... arguments) {
