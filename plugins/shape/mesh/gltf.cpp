@@ -255,8 +255,9 @@ class Reader {
         const auto vertex = [&](std::size_t corner) {
             const double index = corners[corner];
             if (!(index >= 0 && index < static_cast<double>(count)))
-                throw BadFile(fmt::format("has a triangle whose corner is vertex {:g} of {}, counted from 0",
-                                          index, count));
+                throw BadFile(fmt::format(
+                    "has a triangle whose corner is out of range: vertex {:g} of {}, counted from 0", index,
+                    count));
             return static_cast<std::uint32_t>(first + static_cast<std::size_t>(index));
         };
         const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {

@@ -60,7 +60,7 @@ mesh::Surface surface_of(const std::filesystem::path& file) {
             surface = mesh::read_gltf(mesh::text_of(bytes), file.parent_path());
             break;
     }
-    if (surface.triangles() == 0) throw mesh::BadFile("has no triangles");
+    if (surface.triangles() == 0) throw mesh::BadFile("has no faces, and so no triangles");
     if (surface.indices.size() > 0xffff'fff0u) throw mesh::BadFile("has more triangles than can be numbered");
     return surface;
 }

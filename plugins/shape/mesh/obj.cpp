@@ -122,7 +122,9 @@ class Reader {
         if (!index || *index == 0)
             refuse(in_quotes(word) + " is no index; they count from 1, or backwards from -1");
         const std::int64_t at = *index > 0 ? *index - 1 : static_cast<std::int64_t>(count) + *index;
-        if (at < 0) refuse(fmt::format("{} goes back beyond the first of {}", in_quotes(word), count));
+        if (at < 0)
+            refuse(fmt::format("{} is out of range; it goes back beyond the first of {}", in_quotes(word),
+                               count));
         if (at >= std::int64_t{k_none}) refuse(in_quotes(word) + " is too large");
         // It may be listed further down.
         const auto result = static_cast<std::uint32_t>(at);
@@ -198,8 +200,8 @@ class Reader {
     static void require_listed(const Highest& highest, std::size_t count, std::string_view what,
                                std::string_view plural) {
         if (highest.line == 0 || highest.index < count) return;
-        throw BadFile(fmt::format("line {}: a face has {} {}, but there are only {} {}", highest.line, what,
-                                  std::uint64_t{highest.index} + 1, count, plural));
+        throw BadFile(fmt::format("line {}: {} {} of a face is out of range; there are only {} {}",
+                                  highest.line, what, std::uint64_t{highest.index} + 1, count, plural));
     }
 
     /// A vertex for each combination that corners name.

@@ -195,7 +195,7 @@ class Reader {
     static std::uint32_t corner(Values& values, Type type) {
         const double index = values.number(type);
         if (!(index >= 0 && index <= 0xffff'ffffu) || index != std::floor(index)) {
-            throw BadFile(fmt::format("has a face whose corner is vertex {:g}", index));
+            throw BadFile(fmt::format("has a face whose corner is out of range: vertex {:g}", index));
         }
         return static_cast<std::uint32_t>(index);
     }
@@ -293,10 +293,10 @@ class Reader {
                     }
                     if (!(index < static_cast<double>(surface_.position.size())) ||
                         index != std::floor(index)) {
-                        throw BadFile(
-                            fmt::format("has a triangle strip whose corner is vertex {:g} of {}, "
-                                        "counted from 0",
-                                        index, surface_.position.size()));
+                        throw BadFile(fmt::format(
+                            "has a triangle strip whose corner is out of range: vertex {:g} of {}, "
+                            "counted from 0",
+                            index, surface_.position.size()));
                     }
                     const auto c = static_cast<std::uint32_t>(index);
                     // Strips are joined by triangles without area.

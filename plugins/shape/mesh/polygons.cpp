@@ -176,8 +176,9 @@ void triangulate(std::span<const std::uint32_t> corners, ConstVec3Span position,
 void triangulate(const Polygons& polygons, std::span<const std::uint32_t> smoothing, Surface& surface) {
     for (const std::uint32_t corner : polygons.corners) {
         if (corner >= surface.position.size()) {
-            throw BadFile(fmt::format("has a face whose corner is vertex {} of {}, counted from 0", corner,
-                                      surface.position.size()));
+            throw BadFile(
+                fmt::format("has a face whose corner is out of range: vertex {} of {}, counted from 0",
+                            corner, surface.position.size()));
         }
     }
     surface.indices.clear();
