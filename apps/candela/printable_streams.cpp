@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <iostream>
+#include <new>
 #include <streambuf>
 #include <string>
 #include <string_view>
@@ -27,7 +28,12 @@ class PrintableStreams::Filter final : public std::streambuf {
         return end == std::string::npos || pass_on(end + 1) ? count : 0;
     }
 
-    int sync() override { return pass_on(waiting_.size()) && to_.pubsync() == 0 ? 0 : -1; }
+    /// std::cerr calls it in a destructor, which no exception may leave.
+    int sync() override try {
+        return pass_on(waiting_.size()) && to_.pubsync() == 0 ? 0 : -1;
+    } catch (const std::bad_alloc&) {
+        return -1;
+    }
 
   private:
     bool pass_on(std::size_t count) {
