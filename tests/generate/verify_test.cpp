@@ -202,6 +202,27 @@ TEST_CASE("verify: --json has the figures, and how many pixels the verdict rests
         CHECK(std::abs(json[0].at("bias").at(figure).at("value").get<double>()) < 1e-3);
 }
 
+#ifndef CANDELA_TEST_SANITIZED
+TEST_CASE("verify: what is near is drawn in all programs, however far the rest reaches") {
+    // Spheres of a fifth of a metre and of 40 km: depths from 0.6 to 200,000 metres.
+    const fs::path scene = write_file(scratch_directory() / "far.toml", R"(version = 1
+room = {width = 1e6, height = 1e6, depth = 1e6}
+observer = {position = [0, 0, 1], look_at = [0, 0, 0]}
+image = {width = 160, height = 120}
+shading = {model = "phong"}
+reflection = {model = "lambert"}
+light = [{type = "directional", direction = [-1, -1, -1]}]
+object = [
+    {type = "sphere", radius = 0.2, segments = 64, color = [220, 120, 60]},
+    {type = "sphere", radius = 40000, segments = 64, position = [60000, 0, -150000], color = [80, 160, 220]},
+]
+)");
+    const CommandResult result = verify({scene.string()});
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 0);
+}
+#endif
+
 TEST_CASE("verify: wrong arguments are usage errors with a way out") {
     CHECK(verify({"--target", "webg"}).err.find("did you mean 'webgl'?") != std::string::npos);
     CHECK(verify({"--target", "webg"}).exit_code == 2);

@@ -35,6 +35,37 @@ class Access(PageTest):
         self.assertEqual(self.browser.run("return new Set([...document.querySelectorAll('[id]')].map((e) => e.id)).size"),
                          len(self.browser.all("[id]")))
 
+    def test_names_begin_with_what_is_seen(self):
+        """Who speaks to a page says what stands on its buttons: WCAG 2.5.3."""
+        generated = Generated("spoken", scenes.PERSPECTIVE, "all")
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        named = [button for button in self.browser.all("button, summary") if button.is_displayed() and button.text.strip()]
+        self.assertGreater(len(named), 10)
+        for button in named:
+            spoken, seen = (" ".join(text.split()).lower() for text in (button.accessible_name, button.text))
+            self.assertIn(seen, spoken)
+
+    def test_forced_colors(self):
+        generated = Generated("forced", scenes.PERSPECTIVE)
+        self.browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "forced-colors", "value": "active"}]})
+        self.addCleanup(self.browser.driver.execute_cdp_cmd, "Emulation.setEmulatedMedia", {"features": []})
+        self.browser.open(generated.address)
+        adjusted = self.browser.run("return [...document.querySelectorAll('.swatch')].map((s) => getComputedStyle(s).forcedColorAdjust)")
+        self.assertGreater(len(adjusted), 1)
+        self.assertEqual(set(adjusted), {"none"})
+
+    def test_copy_link_is_seen(self):
+        generated = Generated("copied", scenes.PERSPECTIVE)
+        self.browser.open(generated.address)
+        before = self.browser.text("#copy-link")
+        self.browser.click("copy-link")
+        self.browser.rest(0.3)
+        self.assertIn("Link", self.browser.text("#copy-link"))
+        self.assertNotEqual(self.browser.text("#copy-link"), before)
+        self.browser.rest(3)
+        self.assertEqual(self.browser.text("#copy-link"), before)
+
     def test_focus_order(self):
         generated = Generated("focus", scenes.ORTHOGRAPHIC)
         self.browser.open(generated.address)

@@ -90,3 +90,5 @@ class Robustness(PageTest):
         self.assertIn("WebGL 2", browser.problem())
         self.assertTrue(browser.one("#problem-text").is_displayed())
         self.assertIn("WebGL 2", browser.text("#problem"))
+        headings = [heading.text for heading in browser.all("h1") if heading.is_displayed()]
+        self.assertEqual(headings, [generated.file.stem])

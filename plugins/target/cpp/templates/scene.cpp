@@ -157,7 +157,7 @@ Homogeneous projected(vec3 p, double& depth) {
 
 // Draws a triangle by solving, at each pixel, for the weights b that make b0 c0 + b1 c1 + b2 c2 the pixel's direction; all
 // three are positive within the triangle, and their sum is 1 / w. No clipping is needed (Olano, Greer 1997).
-void draw_triangle(const Object& o, int object, int triangle, vec2 offset, std::vector<Seen>& picture) {
+void draw_triangle(const Object& o, int object, int triangle, vec2 offset, double near, std::vector<Seen>& picture) {
     std::array<Homogeneous, 3> c;
     std::array<double, 3> depth{};
     double left = 0, right = k_width, top = 0, bottom = k_height;
@@ -165,9 +165,8 @@ void draw_triangle(const Object& o, int object, int triangle, vec2 offset, std::
         const auto vertex = static_cast<std::size_t>(o.mesh.corners[3 * static_cast<std::size_t>(triangle) + k]);
         c[k] = projected(o.mesh.position[vertex], depth[k]);
     }
-    constexpr double k_near = 1e-4;
-    if (*std::max_element(depth.begin(), depth.end()) < k_near) return;
-    if (!k_is_perspective || *std::min_element(depth.begin(), depth.end()) > k_near) {
+    if (*std::max_element(depth.begin(), depth.end()) < near) return;
+    if (!k_is_perspective || *std::min_element(depth.begin(), depth.end()) > near) {
         const auto [x0, x1] = std::minmax({c[0][0] / c[0][2], c[1][0] / c[1][2], c[2][0] / c[2][2]});
         const auto [y0, y1] = std::minmax({c[0][1] / c[0][2], c[1][1] / c[1][2], c[2][1] / c[2][2]});
         left = std::max(left, std::floor(x0)), right = std::min(right, std::ceil(x1));
@@ -185,7 +184,7 @@ void draw_triangle(const Object& o, int object, int triangle, vec2 offset, std::
             if (b0 < 0 || b1 < 0 || b2 < 0 || sum <= 0) continue;
             const double distance = (b0 * depth[0] + b1 * depth[1] + b2 * depth[2]) / sum;
             Seen& seen = picture[static_cast<std::size_t>(y) * k_width + static_cast<std::size_t>(x)];
-            if (distance < k_near || -distance <= seen.nearness) continue;
+            if (distance < near || -distance <= seen.nearness) continue;
             const vec3 weights(static_cast<float>(b0 / sum), static_cast<float>(b1 / sum), static_cast<float>(b2 / sum));
             seen = {-distance, object, triangle, weights, area > 0};
         }
@@ -255,13 +254,26 @@ vec3 intensity_seen(const Object& o, const Seen& seen) {
     return seen.barycentric.x * at(0) + seen.barycentric.y * at(1) + seen.barycentric.z * at(2);
 }
 
+// Nothing nearer to the eye is seen: a tenth of a millimetre, or less in a small scene.
+double near_distance(const std::vector<Object>& objects) {
+    double farthest = 0, depth = 0;
+    for (const Object& o : objects) {
+        for (const vec3& p : o.mesh.position) {
+            projected(p, depth);
+            farthest = std::max(farthest, depth);
+        }
+    }
+    return farthest > 0 ? std::min(1e-4, 1e-5 * farthest) : 1e-4;
+}
+
 std::vector<vec3> render(const std::vector<Object>& objects) {
+    const double near = near_distance(objects);
     std::vector<vec3> picture(static_cast<std::size_t>(k_width) * k_height);
     for (const vec2& sample : k_samples) {
         std::vector<Seen> seen(picture.size());
         for (std::size_t o = 0; o < objects.size(); ++o) {
             for (std::size_t t = 0; t < objects[o].face_normal.size(); ++t)
-                draw_triangle(objects[o], static_cast<int>(o), static_cast<int>(t), sample, seen);
+                draw_triangle(objects[o], static_cast<int>(o), static_cast<int>(t), sample, near, seen);
         }
         for (std::size_t i = 0; i < picture.size(); ++i) {
             const vec3 intensity = seen[i].object < 0 ? k_background : intensity_seen(objects[static_cast<std::size_t>(seen[i].object)], seen[i]);

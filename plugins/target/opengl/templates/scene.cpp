@@ -138,20 +138,24 @@ std::array<float, 2> depth_range(const View& view) {
     return {nearest, farthest};
 }
 
+// Nothing nearer is seen: in perspective a tenth of a millimetre, or less in a small scene.
+float near_distance(const Observer& o, float nearest, float farthest) {
+    if (o.is_perspective) return std::max(0.9f * nearest, std::min(1e-4f, std::max(1e-5f * farthest, 1e-30f)));
+    return std::min(std::max(0.0f, nearest), 0.99f * farthest);
+}
+
 // From the world to clip coordinates, by columns. The picture is moved so that `sample`, a place within each pixel, falls
 // on the pixel's centre.
 std::array<float, 16> view_projection(const Observer& o, const View& v, int width, int height, std::array<float, 2> sample) {
     const auto [nearest, farthest] = depth_range(v);
-    const float f = std::max(1.01f * farthest, 1e-3f);
+    const float f = std::max(1.01f * farthest, 1e-30f), n = near_distance(o, nearest, f);
     const float w = static_cast<float>(width), h = static_cast<float>(height);
     const float dx = 2 * (0.5f - sample[0]) / w, dy = 2 * (sample[1] - 0.5f) / h;
     std::array<std::array<float, 4>, 4> rows{};  // of (right, top, forward, 1)
     if (o.is_perspective) {
-        const float n = std::max(0.9f * nearest, 1e-5f * f);
         const float scale = 1 / std::tan(0.5f * o.size * 0.0174532925f);
-        rows = {{{scale * h / w, 0, dx, 0}, {0, scale, dy, 0}, {0, 0, (f + n) / (f - n), -2 * f * n / (f - n)}, {0, 0, 1, 0}}};
+        rows = {{{scale * h / w, 0, dx, 0}, {0, scale, dy, 0}, {0, 0, 1, -2 * n}, {0, 0, 1, 0}}};
     } else {
-        const float n = std::min(std::max(0.0f, nearest), 0.99f * f);
         rows = {{{2 / o.size * h / w, 0, 0, dx}, {0, 2 / o.size, 0, dy}, {0, 0, 2 / (f - n), -(f + n) / (f - n)}, {0, 0, 0, 1}}};
     }
     const std::array<vec3, 3> axes = {v.right, v.top, v.forward};
@@ -335,9 +339,13 @@ class Renderer {
     void draw_sample(const Observer& observer, const View& view, Choice choice, int width, int height, std::array<float, 2> sample) {
         glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer);
         glClearColor(k_background[0], k_background[1], k_background[2], 1);
+        glClearDepth(0);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_GREATER);  // depths are 0 far away, where floats are densest
         const std::array<float, 16> matrix = view_projection(observer, view, width, height, sample);
+        const auto [nearest, farthest] = depth_range(view);
+        const float near = near_distance(observer, nearest, std::max(1.01f * farthest, 1e-30f));
         for (std::size_t i = 0; i < k_objects.size(); ++i) {
             const Object& object = k_objects[i];
             const std::size_t shading = choice.shading < 0 ? object.shading : static_cast<std::size_t>(choice.shading);
@@ -345,6 +353,7 @@ class Renderer {
             const GLuint program = program_for(shading, reflection, object.is_closed);
             glUseProgram(program);
             glUniformMatrix4fv(glGetUniformLocation(program, "view_projection"), 1, GL_FALSE, matrix.data());
+            set(program, {"near", Uniform::real, {near, 0, 0}});
             set(program, {"eye", Uniform::vector, view.eye});
             set(program, {"is_orthographic", Uniform::whole, {observer.is_perspective ? 0.0f : 1.0f, 0, 0}});
             set(program, {"towards_observer", Uniform::vector, -1.0f * view.forward});

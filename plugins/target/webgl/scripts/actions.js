@@ -11,6 +11,16 @@ async function copyToClipboard(text) {
     }
 }
 
+const SHOWN_MS = 2500;
+
+/** Says for a while on a button what it has done. */
+function showOn(button, text) {
+    button.dataset.name ??= button.textContent;
+    button.textContent = text;
+    clearTimeout(button.timer);
+    button.timer = setTimeout(() => { button.textContent = button.dataset.name; }, SHOWN_MS);
+}
+
 /** Rows of RGBA bytes as a PNG file in a data: URL. */
 export function pngUrl(pixels, width, height) {
     const canvas = element("canvas", { width, height });
@@ -35,6 +45,7 @@ export function connectActions(settings, render) {
         history.replaceState(null, "", fragmentOf(settings) || location.pathname + location.search);
         const isCopied = await copyToClipboard(location.href);
         announce(isCopied ? "The link is copied." : "The link is in the address bar.");
+        showOn(document.getElementById("copy-link"), isCopied ? "Link copied" : "Link is in the address bar");
     });
     onClick("save-picture", async () => {
         const { width, height } = settings.scene.image;

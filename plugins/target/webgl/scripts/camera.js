@@ -16,8 +16,12 @@ export function validateObserver(observer) {
     return null;
 }
 
-/** Clipping planes between which all bounding boxes lie, as close as depth precision needs them. */
-function clippingPlanes(observer, forward, bounds) {
+/**
+ * Clipping planes: nothing nearer than Candela shows, which is a tenth of a millimetre and less in a small scene, and all bounding
+ * boxes before the far one. The depth buffer is filled by the fragment shader, with the same
+ * relative precision at all distances.
+ */
+export function clippingPlanes(observer, forward, bounds) {
     let nearest = Infinity, farthest = -Infinity;
     for (const { low, high } of bounds) {
         for (let corner = 0; corner < 8; ++corner) {
@@ -29,7 +33,8 @@ function clippingPlanes(observer, forward, bounds) {
     }
     if (!(farthest > 0)) return { near: 0.1, far: 1 };
     const far = farthest * 1.001;
-    return { near: Math.max(0.9 * nearest, far * 1e-5), far };
+    if (observer.projection === "orthographic") return { near: Math.max(0.9 * nearest, 0), far };
+    return { near: Math.max(0.9 * nearest, Math.min(1e-4, 1e-5 * farthest)), far };
 }
 
 /** World space to clip space, column by column; `offset` moves the picture by so many pixels to the right and down. */
@@ -46,7 +51,7 @@ export function viewProjection(observer, bounds, width, height, offset) {
     const y = addScaled(viewRow(up, focal), w, (-2 * offset[1]) / height);
     const [depthScale, depthOffset] = isOrthographic
         ? [2 / (far - near), -(far + near) / (far - near)]
-        : [(far + near) / (far - near), (-2 * far * near) / (far - near)];
+        : [1, -2 * near];  // clips at the near plane; the fragment shader writes the depth
     const z = addScaled(scale(depth, depthScale), [0, 0, 0, 1], depthOffset);
     return new Float32Array([0, 1, 2, 3].flatMap((i) => [x[i], y[i], z[i], w[i]]));
 }

@@ -113,7 +113,7 @@ export class Controls {
         const { parameter, initial } = this.settings.find(path);
         const isGray = ([r, g, b]) => r === g && g === b;
         const holder = element("div");
-        const split = element("button", { type: "button", class: "split", "aria-label": `${title}: one number for each channel` }, "rgb");
+        const split = element("button", { type: "button", class: "split", "aria-label": `rgb: ${title}, one number for each channel` }, "rgb");
         const build = (isSingle) => {
             const pair = (name, take) => this.numberPair(parameter, sliderRange(parameter, initial), name, take);
             let row;

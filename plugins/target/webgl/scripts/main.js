@@ -16,6 +16,8 @@ window.candela = {
 
 ready.catch((error) => {
     document.body.classList.add("failed");
+    // The page's own heading stands beside the picture, which is not shown.
+    document.querySelector("main").prepend(element("h1", { dir: "auto" }, document.title));
     showError(error);
     // Read by `candela verify`.
     const text = [error.message, error.detail].filter(Boolean).join("\n");

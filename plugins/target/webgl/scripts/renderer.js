@@ -1,4 +1,4 @@
-import { viewAxes, viewProjection } from "./camera.js";
+import { clippingPlanes, viewAxes, viewProjection } from "./camera.js";
 import { Film } from "./film.js";
 import { Mesh } from "./mesh.js";
 import { ProgramCache } from "./programs.js";
@@ -16,6 +16,8 @@ export class Renderer {
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
         this.emptyVertexArray = gl.createVertexArray();
         gl.enable(gl.DEPTH_TEST);
+        gl.depthFunc(gl.GREATER);  // depths are 0 far away, where floats are densest
+        gl.clearDepth(0);
         gl.frontFace(gl.CCW);
         gl.cullFace(gl.BACK);
     }
@@ -61,7 +63,9 @@ export class Renderer {
     drawSample(film, appearance, position) {
         const { gl } = this, { observer } = appearance;
         const offset = [0.5 - position[0], 0.5 - position[1]];
+        const { near } = clippingPlanes(observer, viewAxes(observer).forward, this.bounds);
         const frameUniforms = {
+            near: { kind: "float", value: near },
             view_projection: { kind: "mat4", value: viewProjection(observer, this.bounds, film.width, film.height, offset) },
             eye: { kind: "vec3", value: observer.position },
             is_orthographic: { kind: "int", value: observer.projection === "orthographic" ? 1 : 0 },
