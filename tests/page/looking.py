@@ -71,20 +71,6 @@ class Looking(PageTest):
         nearer, own = self.observer(), self.generated.scene["observer"]["position"]
         self.assertLess(abs(nearer[2]), abs(own[2]))
 
-    def test_slow_frames_are_coarser(self):
-        """A frame that takes seconds is drawn with fewer pixels while the picture is turned, and whole when it rests."""
-        lights = "".join(f'[[light]]\ntype = "point"\nposition = [{i / 50:.3f}, 2.0, 2.0]\nintensity = 0.1\n' for i in range(80))
-        generated = Generated("slow", scenes.PERSPECTIVE.replace("[[object]]", lights + "[[object]]", 1), "phong")
-        self.browser.open(generated.address)
-        width = "return document.querySelector('canvas').width"
-        self.browser.rest(5)
-        whole, coarsest = self.browser.run(width), 10 ** 6
-        for _ in range(40):
-            self.browser.one("canvas").send_keys(Keys.ARROW_LEFT)
-            self.browser.rest(0.1)
-            coarsest = min(coarsest, self.browser.run(width))
-        self.assertLess(coarsest, 0.6 * whole)
-
     def test_orthographic_zoom(self):
         generated = Generated("zoom", scenes.ORTHOGRAPHIC)
         self.browser.open(generated.address)

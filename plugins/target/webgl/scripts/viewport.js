@@ -3,7 +3,6 @@ import { appearanceOf } from "./appearance.js";
 const REFINEMENT_DELAY_MS = 140;
 const SLOW_FRAME_MS = 50;
 const FAST_FRAME_MS = 24;
-const LOWEST_SCALE = 0.125;
 const MAX_PIXELS = 2560 * 1600;
 const PIXEL_CENTER = [0.5, 0.5];
 
@@ -19,7 +18,8 @@ export class Viewport {
         this.film = null;
         this.frameRequest = 0;
         this.refinementTimer = 0;
-        this.hasDrawn = false;
+        this.lastDraftTime = 0;
+        this.consecutiveDrafts = 0;
         this.nextSample = -1;  // of the refinement; -1: a draft comes first
         this.resizeObserver = new ResizeObserver(() => this.invalidate());
         this.resizeObserver.observe(container);
@@ -44,7 +44,7 @@ export class Viewport {
     }
 
     requestFrame() {
-        if (this.frameRequest === 0) this.frameRequest = requestAnimationFrame(() => this.drawFrame());
+        if (this.frameRequest === 0) this.frameRequest = requestAnimationFrame((time) => this.drawFrame(time));
     }
 
     /** The largest size in CSS pixels that fits into the container with the scene's aspect ratio. */
@@ -75,24 +75,23 @@ export class Viewport {
         this.renderer.encode(target, null);
     }
 
-    drawFrame() {
+    drawFrame(time) {
         this.frameRequest = 0;
         try {
-            this.nextSample < 0 ? this.drawDraft() : this.refine();
+            this.nextSample < 0 ? this.drawDraft(time) : this.refine();
         } catch (error) {
             this.onError(error);
         }
     }
 
-    drawDraft() {
-        const start = performance.now();
+    drawDraft(time) {
+        this.adaptResolution(time);
         this.appearance = appearanceOf(this.settings);
         this.renderer.prepare(this.appearance);
         this.prepareFilm(this.resolutionScale);
         this.renderer.drawSample(this.film, this.appearance, PIXEL_CENTER);
         this.show(this.film.picture);
         this.onError(null);
-        this.measure(start);
         this.nextSample = 0;
         this.refinementTimer = setTimeout(() => this.requestFrame(), REFINEMENT_DELAY_MS);
     }
@@ -109,34 +108,12 @@ export class Viewport {
         this.nextSample = 0;
     }
 
-    /** Adapts the resolution to how long the draft takes that was begun at `start`: not the time between two frames, which may
-     *  be long because nothing changed, but until the graphics have finished. */
-    measure(start) {
-        const { gl } = this.renderer;
-        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-        gl.flush();
-        const scale = this.resolutionScale;
-        const poll = () => {
-            if (this.isStopped || gl.isContextLost()) return;
-            if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
-                setTimeout(poll, 2);
-                return;
-            }
-            gl.deleteSync(fence);
-            // A later draft may have been measured first, and the first one of all compiles shaders and fills buffers.
-            if (scale === this.resolutionScale && this.hasDrawn) this.adaptResolution(performance.now() - start);
-            this.hasDrawn = true;
-        };
-        setTimeout(poll, 0);
-    }
-
-    /** `elapsed`: the milliseconds that a draft takes, most of them for its pixels. */
-    adaptResolution(elapsed) {
-        if (elapsed > SLOW_FRAME_MS) {
-            const factor = Math.max(0.25, Math.sqrt(SLOW_FRAME_MS / elapsed));
-            this.resolutionScale = Math.max(LOWEST_SCALE, this.resolutionScale * factor);
-        } else if (elapsed < FAST_FRAME_MS) {
-            this.resolutionScale = Math.min(1, this.resolutionScale * 1.05);
-        }
+    adaptResolution(time) {
+        const elapsed = time - this.lastDraftTime;
+        this.lastDraftTime = time;
+        this.consecutiveDrafts = elapsed > 400 ? 0 : this.consecutiveDrafts + 1;
+        if (this.consecutiveDrafts < 3) return;  // the first ones may include compiling shaders and filling buffers
+        if (elapsed > SLOW_FRAME_MS) this.resolutionScale = Math.max(0.25, this.resolutionScale * 0.8);
+        else if (elapsed < FAST_FRAME_MS) this.resolutionScale = Math.min(1, this.resolutionScale * 1.05);
     }
 }
