@@ -129,7 +129,7 @@ TEST_CASE("a picture format that --plugin-dir names is not replaced by another t
     CHECK(holds(found.err, "image-png.so' is refused"));
 }
 
-TEST_CASE("--quiet keeps the warning back, not the error") {
+TEST_CASE("a quiet command keeps the warning back, not the error") {
     const Copy copy("shape-cube");
     fs::resize_file(copy.library, 1000);
     CHECK(copy.render(false, {"-q"}).err.empty());

@@ -19,7 +19,8 @@ for package in g++ cmake make catch2; do
         skip "candela-dev needs $package, which is not installed as a package here"
 done
 rm -rf "$scratch"
-mkdir -p "$scratch"
+mkdir -p "$scratch/bin"
+ln -s /bin/true "$scratch/bin/ldconfig"
 
 say "make the packages"
 quiet "$(dirname "$cmake")/cpack" --config "$build/CPackConfig.cmake" -B "$scratch/packages"
@@ -33,8 +34,9 @@ for package in "${runtime[0]}" "${development[0]}"; do
     if dpkg-deb -f "$package" Description | grep -q '^  '; then fail "the description of $package is indented"; fi
 done
 
-# A root with the machine's list of packages, so that dpkg itself decides whether all dependencies are met. Triggers would
-# have the machine's own cache of libraries written.
+# A root with the machine's list of packages, so that dpkg itself decides whether all dependencies are met. The scripts that
+# CPack makes, which call ldconfig, run outside of it (there is no shell in it), and neither they nor triggers may write the
+# machine's own cache of libraries.
 root=$scratch/root
 mkdir -p "$root/var/lib/dpkg/info" "$root/var/lib/dpkg/updates" "$root/usr/lib"
 ln -s usr/lib "$root/lib"
@@ -43,8 +45,8 @@ for file in status arch info/format; do
     [ ! -e "/var/lib/dpkg/$file" ] || cp "/var/lib/dpkg/$file" "$root/var/lib/dpkg/$file"
 done
 package_manager() {
-    PATH=$PATH:/usr/sbin:/sbin dpkg --root="$root" --log="$scratch/dpkg.log" --no-triggers \
-        --force-not-root "$@"
+    PATH=$scratch/bin:$PATH:/usr/sbin:/sbin dpkg --root="$root" --log="$scratch/dpkg.log" --no-triggers \
+        --force-not-root --force-script-chrootless "$@"
 }
 files() { (cd "$root" && find . -path ./var -prune -o -print | sort); }
 files >"$scratch/before"

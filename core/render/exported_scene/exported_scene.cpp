@@ -39,7 +39,14 @@ constexpr const char* k_no_kernel =
 /// Labels are for messages: 'lamp', in quotes, or number 2.
 std::string name_in(const std::string& label) {
     const bool is_quoted = label.size() > 2 && label.front() == '\'' && label.back() == '\'';
-    return is_quoted ? label.substr(1, label.size() - 2) : label;
+    const std::string name = is_quoted ? label.substr(1, label.size() - 2) : label;
+    // Targets write labels into comments and pages: a line break would end them.
+    std::string shown;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        shown += byte < 0x20 || byte == 0x7f ? fmt::format("\\u{{{:x}}}", byte) : std::string(1, c);
+    }
+    return shown;
 }
 
 /// A value as a person writes it, in the form in which values cross to plugins.

@@ -17,9 +17,9 @@ TEST_CASE(
             [&](Double3 n, Double3 v, Double3 l, Double3 color) -> ExactPair {
                 const double light = dot(n, l), observer = std::max(dot(n, v), 0.02);
                 if (light <= 0) return {};
-                // Cosines are clamped to at least 0.0001.
+                // Cosines are clamped to at least 0.02.
                 const double factor =
-                    light * std::pow(std::max(light, 1e-4), k - 1) * std::pow(observer, k - 1);
+                    light * std::pow(std::max(light, 0.02), k - 1) * std::pow(observer, k - 1);
                 return {0.8 * factor * color, {}};
             },
             1e-4);
