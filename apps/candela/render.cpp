@@ -129,7 +129,8 @@ int run_render(const std::vector<std::string>& arguments) {
         std::string stages;
         if (is_verbose) {
             stages = fmt::format(
-                "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      {:8.2f} ms  ({} "
+                "  scene      {:8.2f} ms\n  meshes     {:8.2f} ms\n  projection {:8.2f} ms\n  tiles      "
+                "{:8.2f} ms  ({} "
                 "points lit, {})\n  writing    {:8.2f} ms\n",
                 read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles,
                 statistics.points_lit, candela::name_of(candela::instruction_set()), write_ms);

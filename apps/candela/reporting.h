@@ -16,8 +16,8 @@ bool is_quiet();
 /// Prints what is good to know on stderr, unless --quiet was given.
 void say(const std::string& text);
 
-/// Says what `make` returns after the work is done. If there is no memory for that, it is not said: the result is
-/// whole all the same.
+/// Says what `make` returns after the work is done. If there is no memory for that, it is not said: the
+/// result is whole all the same.
 template <class Make>
 void say_afterwards(Make make) {
     try {

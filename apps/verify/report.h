@@ -20,7 +20,7 @@ struct Limits {
     double displacement = 1.0 / 32;  // pixels
     double distortion = 1.0 / 16;    // pixels that zoom or roll may displace the border
     double region = 0.15;            // levels
-    double deviations = 5;           // what is within as many standard errors may be noise, however large it is
+    double deviations = 5;  // what is within as many standard errors may be noise, however large it is
     // A verdict rests on as many pixels away from edges, and on that share of those that show something:
     std::size_t least_pixels = 100;
     double least_share = 0.1;

@@ -279,7 +279,8 @@ TEST_CASE("nothing but what a scene names is loaded") {
         run_candela({"render", "-o", (scratch_directory() / "a.png").string()},
                     {.input = "", .environment = {{"LD_DEBUG", "files"}}, .directory = {}});
     REQUIRE(traced.exit_code == 0);
-    for (const char* const unused : {"OpenImageIO", "shape-mesh", "half-lambert", "gouraud", "teapot", "spot"}) {
+    for (const char* const unused :
+         {"OpenImageIO", "shape-mesh", "half-lambert", "gouraud", "teapot", "spot"}) {
         CHECK_FALSE(holds(traced.err, unused));
     }
     CHECK(holds(traced.err, "reflection-phong.so"));

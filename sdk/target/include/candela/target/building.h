@@ -16,9 +16,9 @@ void run(ProgramRunner& programs, const std::vector<std::string>& words, const s
 /// Shows a program to the user; returns its exit code.
 int show(ProgramRunner& programs, const std::vector<std::string>& words);
 
-/// Builds the CMake project in `directory` in its folder build, with the compiler that CMake or the variable CXX
-/// chooses, or else the newest that is there under a name with a version. `name`: of the target, for messages.
-/// Throws std::runtime_error where there is no compiler, or the program does not compile.
+/// Builds the CMake project in `directory` in its folder build, with the compiler that CMake or the variable
+/// CXX chooses, or else the newest that is there under a name with a version. `name`: of the target, for
+/// messages. Throws std::runtime_error where there is no compiler, or the program does not compile.
 void build_with_cmake(ProgramRunner& programs, const std::string& directory, std::string_view name);
 
 /// The end of a log, which says what went wrong.
