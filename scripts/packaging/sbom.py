@@ -17,10 +17,8 @@ import sys
 
 # By source package: what Debian's copyright file says of the parts that are used.
 LICENCES = {
-    "assimp": "BSD-3-Clause",
     "boost1.81": "BSL-1.0",
     "catch2": "BSL-1.0",
-    "earcut-hpp": "ISC",
     "eigen3": "MPL-2.0",
     "fmtlib": "MIT",
     "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
@@ -35,7 +33,6 @@ LICENCES = {
     "openexr": "BSD-3-Clause",
     "openimageio": "BSD-3-Clause",
     "tinygltf": "MIT",
-    "tinyobjloader": "MIT",
     "tomlplusplus": "MIT",
     "utfcpp": "BSL-1.0",
     "zlib": "Zlib",
