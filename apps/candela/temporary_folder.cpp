@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
@@ -24,9 +26,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Absolute paths, so that a change of the working directory leads nobody astray. None is ever freed: a signal
-// handler may be reading it.
-constinit std::array<std::atomic<const char*>, 8> folders{};
+/// A folder that a signal handler may have to remove: so its memory is never freed.
+struct Entry {
+    std::atomic<bool> is_taken{false};
+    std::atomic<bool> is_there{false};  // `path` may be read
+    // Absolute, so that a change of the working directory leads nobody astray.
+    std::array<char, PATH_MAX> path{};
+};
+constinit std::array<Entry, 8> folders{};
 
 void remove_tree(int parent, const char* name, int levels) noexcept {
     if (::unlinkat(parent, name, 0) == 0 || (errno != EISDIR && errno != EPERM)) return;
@@ -81,17 +88,21 @@ TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& pref
 TemporaryFolder::TemporaryFolder(const fs::path& existing) : path_(fs::absolute(existing)) { enter(); }
 
 void TemporaryFolder::enter() {
-    const char* const path = ::strdup(path_.c_str());
-    for (std::atomic<const char*>& folder : folders) {
-        const char* expected = nullptr;
-        if (folder.compare_exchange_strong(expected, path)) return;
+    const std::string path = path_.string();
+    for (Entry& folder : folders) {
+        if (path.size() >= folder.path.size() || folder.is_taken.exchange(true)) continue;
+        folder.path = {};
+        std::ranges::copy(path, folder.path.begin());
+        folder.is_there = true;
+        return;
     }
 }
 
 void TemporaryFolder::release() {
-    for (std::atomic<const char*>& folder : folders) {
-        const char* const path = folder.load();
-        if (path != nullptr && path_ == path) folder = nullptr;
+    for (Entry& folder : folders) {
+        if (!folder.is_there || path_ != folder.path.data()) continue;
+        folder.is_there = false;
+        folder.is_taken = false;
     }
     is_released_ = true;
 }
@@ -103,12 +114,10 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 bool has_temporary_folders() noexcept {
-    for (const std::atomic<const char*>& folder : folders)
-        if (folder.load() != nullptr) return true;
-    return false;
+    return std::ranges::any_of(folders, [](const Entry& folder) { return folder.is_there.load(); });
 }
 
 void remove_temporary_folders() noexcept {
-    for (std::atomic<const char*>& folder : folders)
-        if (const char* const path = folder.exchange(nullptr)) remove_folder(path);
+    for (Entry& folder : folders)
+        if (folder.is_there.exchange(false)) remove_folder(folder.path.data());
 }
