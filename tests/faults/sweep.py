@@ -147,6 +147,8 @@ def main():
                 whole = Run(options, case, call, 0)
                 if whole.code != 0:
                     sys.exit(f"{case.name}: without any failure, exit code {whole.code}: {whole.err.decode()}")
+                if call == "malloc" and whole.calls == 0:
+                    sys.exit(f"{case.name}: no call is counted; is {options.library} loaded?")
                 numbers = points(whole.calls, whole.calls if options.all else options.part)
                 for number, run in zip(numbers, pool.map(lambda n: Run(options, case, call, n), numbers)):
                     runs += 1
