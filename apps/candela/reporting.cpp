@@ -76,6 +76,7 @@ namespace {
         static_cast<void>(::write(STDERR_FILENO, k_message.data(), k_message.size()));
         ::_exit(static_cast<int>(ExitCode::failure));
     } catch (...) {
+        std::abort();
     }
     std::abort();
 }

@@ -17,12 +17,14 @@ bool is_quiet();
 void say(const std::string& text);
 
 /// Says what `make` returns after the work is done. If there is no memory for that, it is not said: the
-/// result is whole all the same.
+/// result is whole all the same. Returns whether there was.
 template <class Make>
-void say_afterwards(Make make) {
+bool say_afterwards(Make make) {
     try {
         if (!is_quiet()) say(make());
+        return true;
     } catch (const std::bad_alloc&) {
+        return false;
     }
 }
 

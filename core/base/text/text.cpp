@@ -24,7 +24,7 @@ std::string shortened(std::string_view text) {
         if (next > k_longest) break;
         size = next;
     }
-    std::string result(text.substr(0, size));
+    const std::string result(text.substr(0, size));
     return result.size() < text.size() ? result + "..." : result;
 }
 

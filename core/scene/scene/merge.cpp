@@ -53,7 +53,7 @@ void report_too_many(const TableNode& root, Diagnostics& diagnostics) {
 
 /// Whether `file` is in `folder` or in a folder below it. Both are canonical.
 bool is_within(const fs::path& file, const fs::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+    return std::ranges::mismatch(folder, file).in1 == folder.end();
 }
 
 /// Whether a table has anything that a scene has; otherwise a file has been included by mistake.

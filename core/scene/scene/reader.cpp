@@ -306,7 +306,7 @@ void add_files(const Model& model, std::vector<std::filesystem::path>& files) {
     for (std::size_t i = 0; i < model.parameters.schema().size(); ++i) {
         const auto& value = model.parameters.get(i);
         if (model.parameters.schema()[i].type != ParamType::file || !value) continue;
-        if (const std::string& file = std::get<std::string>(*value); !file.empty()) files.emplace_back(file);
+        if (const auto& file = std::get<std::string>(*value); !file.empty()) files.emplace_back(file);
     }
 }
 

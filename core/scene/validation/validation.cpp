@@ -84,7 +84,7 @@ std::string number_as_written(const Node& node, const Diagnostics& diagnostics) 
     constexpr std::size_t k_longest = 40;
     const bool is_number =
         std::holds_alternative<std::int64_t>(node.value) || std::holds_alternative<double>(node.value);
-    std::string text = is_number ? as_written(node, diagnostics) : "";
+    const std::string text = is_number ? as_written(node, diagnostics) : "";
     return text.size() <= k_longest ? text : "";
 }
 

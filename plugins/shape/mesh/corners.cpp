@@ -37,9 +37,9 @@ double six_volumes(const Surface& surface, std::size_t triangle, Vec3 origin) {
     double p[3][3];
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 v = position[surface.indices[3 * triangle + k]];
-        p[k][0] = double(v.x) - origin.x;
-        p[k][1] = double(v.y) - origin.y;
-        p[k][2] = double(v.z) - origin.z;
+        p[k][0] = double{v.x} - origin.x;
+        p[k][1] = double{v.y} - origin.y;
+        p[k][2] = double{v.z} - origin.z;
     }
     return p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
            p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
@@ -81,7 +81,7 @@ Corners::Corners(const Surface& surface)
         const std::uint32_t at = std::atomic_ref(begin_[place]).fetch_add(1, std::memory_order_relaxed);
         corners_[at] = static_cast<std::uint32_t>(corner);
     });
-    std::shift_right(begin_.begin(), begin_.end(), 1);
+    std::ranges::copy_backward(begin_.begin(), begin_.end() - 1, begin_.end());
     begin_[0] = 0;
     // Threads leave them in any order.
     candela::parallel_for(place_.size(), k_per_task, [&](std::size_t first, std::size_t last) {

@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "gltf_accessor.h"
 #include "gltf_document.h"
 #include "readers.h"
-
-using candela::Vec3;
 
 namespace mesh {
 
@@ -112,7 +111,7 @@ class Walk {
 
     void walk(const std::vector<int>& roots) {
         std::vector<std::pair<int, Affine>> open;
-        for (auto root = roots.rbegin(); root != roots.rend(); ++root) open.emplace_back(*root, Affine{});
+        for (const int root : std::views::reverse(roots)) open.emplace_back(root, Affine{});
         while (!open.empty()) {
             const auto [index, parent] = open.back();
             open.pop_back();
@@ -126,8 +125,7 @@ class Walk {
                     throw BadFile(fmt::format("has no mesh {}", node.mesh));
                 add(model_.meshes[static_cast<std::size_t>(node.mesh)], to_world);
             }
-            for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-                open.emplace_back(*child, to_world);
+            for (const int child : std::views::reverse(node.children)) open.emplace_back(child, to_world);
         }
     }
 

@@ -154,9 +154,9 @@ std::vector<std::string> losses_of(const Json& json) {
         if (loss.ends_with("set of pointss")) loss = fmt::format("{} sets of points", points);
         if (loss.ends_with("set of liness")) loss = fmt::format("{} sets of lines", lines);
     }
-    if (has_colors) losses.push_back("vertex colours");
-    if (has_second_uv) losses.push_back("further texture coordinates");
-    if (has_other_attributes) losses.push_back("attributes of vertices of its own");
+    if (has_colors) losses.emplace_back("vertex colours");
+    if (has_second_uv) losses.emplace_back("further texture coordinates");
+    if (has_other_attributes) losses.emplace_back("attributes of vertices of its own");
     const std::size_t scenes = array_of(json, "scenes").size();
     if (scenes > 1) note(losses, scenes - 1, "other scene");
     std::set<std::string> extensions;
@@ -185,7 +185,7 @@ class NeededBuffers {
         : accessors_(array_of(json, "accessors")), views_(array_of(json, "bufferViews")) {
         for (const Json& mesh : array_of(json, "meshes")) {
             for (const Json& primitive : array_of(mesh, "primitives")) {
-                bool is_draco = has_extension(primitive, "KHR_draco_mesh_compression");
+                const bool is_draco = has_extension(primitive, "KHR_draco_mesh_compression");
                 add_accessor(index_of(primitive, "indices"), is_draco);
                 if (!primitive.is_object()) continue;
                 const auto attributes = primitive.find("attributes");

@@ -236,20 +236,20 @@ class Reader {
         if (unknown_ > 0)
             surface_.losses.push_back(fmt::format("{} that no OBJ file has, such as {}",
                                                   counted(unknown_, "statement"), first_unknown_));
-        if (has_colors_) surface_.losses.push_back("vertex colours");
+        if (has_colors_) surface_.losses.emplace_back("vertex colours");
         for (const auto& [what, count] : losses_) {
             if (what == "use of a material") {
                 surface_.losses.push_back(count == 1 ? "a use of a material"
                                                      : fmt::format("{} uses of materials", count));
             } else if (what == "weight of a vertex") {
-                surface_.losses.push_back("weights of vertices");
+                surface_.losses.emplace_back("weights of vertices");
             } else if (what == "material library") {
                 surface_.losses.push_back(count == 1 ? "a material library"
                                                      : fmt::format("{} material libraries", count));
             } else if (what == "list of points") {
-                surface_.losses.push_back("points");
+                surface_.losses.emplace_back("points");
             } else if (what == "free-form curve or surface") {
-                surface_.losses.push_back("free-form curves and surfaces");
+                surface_.losses.emplace_back("free-form curves and surfaces");
             } else {
                 surface_.losses.push_back(counted(count, what));
             }

@@ -252,8 +252,8 @@ class Reader {
                         }
                         for (std::size_t k = 0; k < 3; ++k) {
                             // Negative ones become too large.
-                            const auto index = static_cast<std::uint32_t>(
-                                load<Item>(row + sizeof(Length) + k * sizeof(Item), swapped));
+                            const auto index = static_cast<std::uint32_t>(static_cast<std::int64_t>(
+                                load<Item>(row + sizeof(Length) + k * sizeof(Item), swapped)));
                             most = std::max(most, index);
                             indices[3 * i + k] = index;
                         }

@@ -29,7 +29,7 @@ std::vector<Point> projected(std::span<const std::uint32_t> corners, ConstVec3Sp
     std::vector<Double3> p(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 v = position[corners[i]];
-        p[i] = {double(v.x) - origin.x, double(v.y) - origin.y, double(v.z) - origin.z};
+        p[i] = {double{v.x} - origin.x, double{v.y} - origin.y, double{v.z} - origin.z};
     }
     Double3 normal{};
     for (std::size_t i = 0; i < n; ++i) {

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <system_error>
 
@@ -29,8 +30,8 @@ double beyond_range(std::string_view word) {
 std::optional<double> number_from(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
     double value = 0;
-    const char* const end = word.data() + word.size();
-    const auto [stop, problem] = std::from_chars(word.data(), end, value);
+    const char* const end = std::to_address(word.end());
+    const auto [stop, problem] = std::from_chars(std::to_address(word.begin()), end, value);
     if (stop != end || word.empty()) return std::nullopt;
     if (problem == std::errc::result_out_of_range) return beyond_range(word);
     if (problem != std::errc()) return std::nullopt;
@@ -40,8 +41,8 @@ std::optional<double> number_from(std::string_view word) {
 std::optional<std::int64_t> integer_from(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
     std::int64_t value = 0;
-    const char* const end = word.data() + word.size();
-    const auto [stop, problem] = std::from_chars(word.data(), end, value);
+    const char* const end = std::to_address(word.end());
+    const auto [stop, problem] = std::from_chars(std::to_address(word.begin()), end, value);
     if (stop == end && problem == std::errc() && !word.empty()) return value;
     const std::optional<double> number = number_from(word);
     constexpr double k_most = 9e15;
