@@ -31,23 +31,21 @@ using Causes = Eigen::Matrix<double, k_causes, 1>;
 class Fit {
   public:
     void add(const Causes& effects, double difference) {
-        normal_.selfadjointView<Eigen::Lower>().rankUpdate(effects);
+        normal_ += effects * effects.transpose();
         if (difference == 0) return;
         right_side_ += difference * effects;
-        noise_.selfadjointView<Eigen::Lower>().rankUpdate(effects, difference * difference);
+        noise_ += difference * difference * effects * effects.transpose();
     }
 
     void solve() {
         // What has no effect on the picture, such as a displacement of one colour, is 0.
-        const Matrix normal = normal_.selfadjointView<Eigen::Lower>(),
-                     noise = noise_.selfadjointView<Eigen::Lower>();
         const Causes scale =
-            normal.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
-        const Matrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+            normal_.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
+        const Matrix scaled = scale.asDiagonal() * normal_ * scale.asDiagonal();
         const Matrix inverse = scale.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse() *
                                scale.asDiagonal();
         values_ = inverse * right_side_;
-        errors_ = (inverse * noise * inverse).diagonal().cwiseMax(0).cwiseSqrt();
+        errors_ = (inverse * noise_ * inverse).diagonal().cwiseMax(0).cwiseSqrt();
     }
     const Causes& values() const { return values_; }
     Estimate estimate(int cause) const {
@@ -72,8 +70,9 @@ double effect_of_gain(double level, candela::ColorEncoding encoding) {
 /// What each cause, of size 1, does to the i-th value.
 Causes effects_on(const Expectation& expected, std::size_t i) {
     const auto width = static_cast<std::size_t>(expected.width);
-    const double x = static_cast<double>(i / 3 % width) + 0.5 - 0.5 * expected.width;
-    const double y = static_cast<double>(i / 3 / width) + 0.5 - 0.5 * expected.height;
+    const std::size_t column = i / 3 % width, row = i / 3 / width;
+    const double x = static_cast<double>(column) + 0.5 - 0.5 * expected.width;
+    const double y = static_cast<double>(row) + 0.5 - 0.5 * expected.height;
     // What is displaced to the right shows what lies to the left.
     const double right = -static_cast<double>(expected.sensitivity.right[i]);
     const double down = -static_cast<double>(expected.sensitivity.down[i]);
@@ -148,8 +147,8 @@ Bias bias_of(const Expectation& expected, const std::vector<std::uint8_t>& progr
         const Estimate mean = regions[i].estimate();
         if (std::abs(mean.value) <= std::abs(bias.region.value)) continue;
         bias.region = mean;
-        bias.region_x = k_region * static_cast<int>(i % across);
-        bias.region_y = k_region * static_cast<int>(i / across);
+        bias.region_x = static_cast<int>(k_region * (i % across));
+        bias.region_y = static_cast<int>(k_region * (i / across));
     }
     return bias;
 }
