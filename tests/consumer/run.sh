@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds a plugin, a target and a program in CMake projects of their own against an installed Candela, and uses them: list,
-# describe, render, import, remove.
+# Builds a plugin and a target in CMake projects of their own against an installed Candela, and uses them: list, describe, render,
+# remove.
 #   run.sh BUILD_DIR SCRATCH_DIR CMAKE CXX
 set -euo pipefail
 build=$1 scratch=$2 cmake=$3 cxx=$4
@@ -78,16 +78,6 @@ code=0
 "$candela" generate --target csw --plugin-dir "$csv" 2>"$scratch/out" || code=$?
 expect "$scratch/out" "there is no target 'csw'; did you mean 'csv'? (possible: cpp, csv, opengl, webgl)" "candela generate"
 "$candela" plugin test "$csv/target-csv.so" >"$scratch/out" || { cat "$scratch/out" >&2; fail "the target does not conform"; }
-
-say "a program imports the core's modules, and uses the plugin"
-cp -r "$here/program" "$scratch/program-of-its-own"
-"$cmake" -G Ninja -S "$scratch/program-of-its-own" -B "$scratch/program-of-its-own/build" -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 ||
-    { cat "$scratch/configure.log" >&2; fail "configuring the program"; }
-"$cmake" --build "$scratch/program-of-its-own/build" >"$scratch/build.log" 2>&1 ||
-    { cat "$scratch/build.log" >&2; fail "building the program"; }
-"$scratch/program-of-its-own/build/program" "$scratch/plugins" >"$scratch/out" || fail "running the program"
-expect "$scratch/out" "it needs no tangents" "the program"
 
 say "by directory flag, and wrong values are explained"
 unset CANDELA_PLUGIN_PATH

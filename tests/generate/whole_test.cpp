@@ -92,7 +92,7 @@ TEST_CASE("plugin new: without room for a file, there is no folder, and a retry 
     }
 }
 
-TEST_CASE("verify: interrupted at any moment, it leaves nothing behind") {
+TEST_CASE("verify: interrupted at any moment, it leaves nothing behind", "[whole]") {
     const fs::path report = scratch_directory() / "report";
     // Not in the scratch folder, whose path is too long for a browser's sockets.
     std::string temporary = (fs::temp_directory_path() / "whole-XXXXXX").string();

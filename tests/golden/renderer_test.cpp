@@ -169,7 +169,7 @@ std::size_t resident() {
 
 }  // namespace
 
-TEST_CASE("the thousandth picture holds no more memory than the hundredth") {
+TEST_CASE("the thousandth picture holds no more memory than the hundredth", "[whole]") {
     Fixture fixture(k_scene);
     candela::Renderer renderer(candela::Renderer::Keep::visibility);
     const auto render = [&](int pictures) {
