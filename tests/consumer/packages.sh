@@ -80,6 +80,8 @@ say "a plugin from nothing, with the installed packages alone"
 quiet package_manager -i "${development[@]}"
 # One kind: what a kind needs of an installation beside the others' is tried by templates.sh with `cmake --install`.
 bash "$here/templates.sh" --installed "$root/usr" "$scratch/templates" "$cmake" "$cxx" light
+say "a program with Candela in it, with the installed packages alone"
+bash "$here/embedding.sh" "$root/usr" "$scratch/embedding" "$cmake" "$cxx"
 interface=$(sed -n 's/^#define CANDELA_INTERFACE_VERSION //p' "$root/usr/include/candela/abi.h")
 [ "$(dpkg-deb -f "${runtime[0]}" Provides)" = "candela-plugin-interface-$interface" ] || fail "the interface is not provided"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that imports and includes point down: api < base < host < scene < render < core < sdk, apps.
+"""Checks that imports and includes point down: api < base < host < scene < render < embedding < core < sdk, apps.
 
 Plugins, and the parts of the SDK that are built into plugins, include headers of api and of the SDK, and nothing else; any
 compiler builds them, so they import no module. Each module of api exports what its header declares, all of it.
@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-STOREYS = ["api", "base", "host", "scene", "render", "core"]
+STOREYS = ["api", "base", "host", "scene", "render", "embedding", "core"]
 SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
 # What is compiled into plugins, as opposed to the SDK's programs.
 SDK_OF_PLUGINS = ("sdk/include/", "sdk/target/", "sdk/templates/")

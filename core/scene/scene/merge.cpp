@@ -315,8 +315,10 @@ namespace {
 /// A stream has no folder: paths in it are relative to the working directory.
 std::string shown_name(const SceneRequest& request, const fs::path& file) {
     if (!request.streams.contains(file)) return file.string();
-    return file == "-" || file.filename() == "stdin" ? "standard input"
-                                                     : fmt::format("stream {}", file.filename().string());
+    if (file == "-" || file.filename() == "stdin") return "standard input";
+    // A descriptor's number says little without its folder, and its folder is the system's.
+    return file.parent_path().filename() == "fd" ? fmt::format("stream {}", file.filename().string())
+                                                 : file.string();
 }
 
 /// The folder of the scene's first file.

@@ -27,8 +27,8 @@ struct ModelSetting {
 
 struct SceneRequest {
     std::vector<std::filesystem::path> files;  // merged; none: the default scene
-    /// The contents of those among `files` that can only be read once, such as pipes. Paths in them are
-    /// relative to the working directory.
+    /// The contents of those among `files` that can only be read once, such as pipes, or that are no files
+    /// but text. Paths in them are relative to the working directory.
     std::map<std::filesystem::path, std::string> streams{};
     std::vector<Setting> settings;
     std::optional<ModelSetting> shading;                   // of every object

@@ -1,0 +1,169 @@
+#include "candela/embedding.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+import candela.color;
+import candela.diagnostics;
+import candela.film;
+import candela.image;
+import candela.params;
+import candela.registry;
+import candela.render;
+import candela.scene;
+
+namespace candela::embedding {
+
+namespace {
+
+std::vector<Problem> problems_of(const Diagnostics& diagnostics) {
+    std::vector<Problem> problems;
+    for (Diagnostic& found : diagnostics.sorted()) {
+        problems.push_back({.is_error = found.severity == Severity::error,
+                            .file = std::move(found.place.file),
+                            .line = found.place.line,
+                            .column = found.place.column,
+                            .message = std::move(found.message),
+                            .hint = std::move(found.hint)});
+    }
+    return problems;
+}
+
+std::string text_of(const std::vector<Problem>& problems) {
+    std::string text;
+    for (const Problem& problem : problems) {
+        if (!text.empty()) text += '\n';
+        if (!problem.file.empty()) {
+            text += problem.file;
+            if (problem.line > 0) text += fmt::format(":{}:{}", problem.line, problem.column);
+            text += ": ";
+        }
+        text += fmt::format("{}: {}", problem.is_error ? "error" : "warning", problem.message);
+        if (!problem.hint.empty()) text += fmt::format(" ({})", problem.hint);
+    }
+    return text;
+}
+
+Problem warning_of(const Refusal& refusal) {
+    return {.is_error = false,
+            .file = refusal.file.string(),
+            .message = refusal.reason,
+            .hint = fmt::format("'{}' is used instead", refusal.used_instead.string())};
+}
+
+/// Calls a function; what the core throws becomes what this interface promises.
+template <typename Function>
+auto translated(const Function& function) {
+    try {
+        return function();
+    } catch (const candela::Error& problem) {
+        throw Error(problem.what());
+    }
+}
+
+}  // namespace
+
+Error::Error(const std::string& message, std::vector<Problem> problems)
+    : std::runtime_error(message), problems_(std::move(problems)) {}
+Error::~Error() = default;
+
+struct Scene::Parts {
+    Parts(SceneRequest wanted, Options given)
+        : options(std::move(given)),
+          registry(plugin_search_path(options.plugin_folders), PluginTrust::own_and_system,
+                   options.plugin_folders.size(),
+                   [this](const Refusal& refusal) { replaced.push_back(warning_of(refusal)); }),
+          request(std::move(wanted)),
+          renderer(candela::Renderer::Keep::visibility) {
+        compile(request);
+    }
+
+    /// The scene stays what it was if this one has errors.
+    void compile(const SceneRequest& wanted) {
+        Diagnostics diagnostics;
+        const auto draft = draft_scene(wanted, registry, diagnostics);
+        auto compiled =
+            draft ? candela::compile(*draft, registry, diagnostics, options.threads) : std::nullopt;
+        std::vector<Problem> problems = problems_of(diagnostics);
+        if (!compiled) {
+            const std::string text = text_of(problems);
+            throw Error(text, std::move(problems));
+        }
+        // Triangles of another compilation are others even where they are at the same address.
+        renderer.forget();
+        scene = std::move(compiled);
+        warnings = std::move(problems);
+        warnings.insert(warnings.end(), replaced.begin(), replaced.end());
+    }
+
+    template <typename Picture, typename Value>
+    Picture render(PixelType pixels, std::span<const Value> PictureView::* values) {
+        const ImageSettings& image = scene->image;
+        Film film(image.width, image.height, pixels, image.color_management);
+        renderer.render(*scene, film, {.threads = options.threads, .progress = options.progress});
+        const PictureView view = film.view();
+        const std::span<const Value> all = view.*values;
+        return {.width = film.width(), .height = film.height(), .rgb = {all.begin(), all.end()}};
+    }
+
+    Options options;
+    std::vector<Problem> replaced;  // plugins, of which the registry tells once
+    Registry registry;              // outlives what its plugins made
+    SceneRequest request;
+    std::optional<CompiledScene> scene;
+    std::vector<Problem> warnings;
+    candela::Renderer renderer;
+};
+
+Scene::Scene(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+Scene::Scene(const std::vector<std::filesystem::path>& files, Options options)
+    : parts_(translated([&] {
+          SceneRequest request;
+          request.files = files;
+          return std::make_unique<Parts>(std::move(request), std::move(options));
+      })) {}
+
+Scene Scene::from_text(std::string text, std::string_view name, Options options) {
+    return translated([&] {
+        SceneRequest request;
+        request.files.emplace_back(name);
+        request.streams.emplace(name, std::move(text));
+        return Scene(std::make_unique<Parts>(std::move(request), std::move(options)));
+    });
+}
+
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+void Scene::set(std::string_view path, std::string_view value) {
+    translated([&] {
+        SceneRequest changed = parts_->request;
+        std::erase_if(changed.settings, [&](const Setting& setting) { return setting.path == path; });
+        changed.settings.push_back({fmt::format("set {}", path), std::string(path), std::string(value)});
+        parts_->compile(changed);
+        parts_->request = std::move(changed);
+    });
+}
+
+const std::vector<Problem>& Scene::warnings() const noexcept { return parts_->warnings; }
+int Scene::width() const noexcept { return parts_->scene->image.width; }
+int Scene::height() const noexcept { return parts_->scene->image.height; }
+
+BytePicture Scene::render() {
+    return translated([&] { return parts_->render<BytePicture>(PixelType::byte, &PictureView::bytes); });
+}
+
+FloatPicture Scene::render_floats() {
+    return translated([&] { return parts_->render<FloatPicture>(PixelType::real, &PictureView::reals); });
+}
+
+}  // namespace candela::embedding
