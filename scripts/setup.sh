@@ -42,7 +42,7 @@ packages=(
   libtinygltf-dev libopenimageio-dev esbuild
 )
 if [ "$everything" = yes ]; then
-  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file
+  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file lintian
     g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri libpng-dev
     chromium chromium-driver python3-selenium valgrind)
 fi

@@ -5,6 +5,4 @@
 #include "helper.h"
 #include "verbs.h"
 
-int run_diff(const std::vector<std::string>& arguments) {
-    become_helper("candela-diff", arguments, "the program that compares pictures", "package candela");
-}
+int run_diff(const std::vector<std::string>& arguments) { become_helper(comparing_program(), arguments); }

@@ -19,13 +19,20 @@ fs::path beside_command(const char* relative) {
     return fs::canonical("/proc/self/exe").parent_path().parent_path() / relative;
 }
 
-void become_helper(const std::string& program, const std::vector<std::string>& arguments, const char* what,
-                   const char* where_from) {
+fs::path helper(const char* program, const char* what, const char* where_from) {
     const fs::path file = beside_command("lib/candela") / program;
     if (!fs::exists(file)) {
         throw Error(ErrorCategory::failure, fmt::format("{} is not installed: there is no '{}' ({})", what,
                                                         file.string(), where_from));
     }
+    return file;
+}
+
+fs::path comparing_program() {
+    return helper("candela-diff", "the program that compares pictures", "package candela-openimageio");
+}
+
+void become_helper(const fs::path& file, const std::vector<std::string>& arguments) {
     std::vector<std::string> words{file.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;

@@ -8,7 +8,12 @@
 /// Where something is that is installed beside the command, relative to the prefix.
 std::filesystem::path beside_command(const char* relative);
 
-/// Becomes lib/candela/`program`. Throws candela::Error where it is not there ("`what` is not installed: …
-/// (`where_from`)") or cannot be run.
-[[noreturn]] void become_helper(const std::string& program, const std::vector<std::string>& arguments,
-                                const char* what, const char* where_from);
+/// lib/candela/`program`. Throws candela::Error where it is not there ("`what` is not installed: …
+/// (`where_from`)").
+std::filesystem::path helper(const char* program, const char* what, const char* where_from);
+
+/// candela-diff. Throws like helper(): it is in a package of its own.
+std::filesystem::path comparing_program();
+
+/// Becomes this program. Throws candela::Error where it cannot be run.
+[[noreturn]] void become_helper(const std::filesystem::path& file, const std::vector<std::string>& arguments);

@@ -16,8 +16,9 @@ using candela::Error;
 using candela::ErrorCategory;
 
 int run_plugin_test(const std::vector<std::string>& arguments) {
-    become_helper("candela-conformance", arguments, "the conformance kit",
-                  "package candela-dev, or a build with tests");
+    become_helper(
+        helper("candela-conformance", "the conformance kit", "package candela-dev, or a build with tests"),
+        arguments);
 }
 
 namespace {

@@ -129,7 +129,7 @@ verify::Expectation expectation_of(candela::CompiledScene& scene, double toleran
 
 /// How the picture that a program has drawn compares.
 verify::Verdict verdict_on(const std::string& name, const verify::Expectation& expected,
-                           const Workplace& workplace) {
+                           const Workplace& workplace, const fs::path& comparing) {
     const fs::path& folder = workplace.path();
     const fs::path picture = folder / (name + ".png"), decoded = workplace.scratch(name + ".ppm");
     verify::Verdict verdict{.target = name};
@@ -139,8 +139,8 @@ verify::Verdict verdict_on(const std::string& name, const verify::Expectation& e
     }
     try {
         verdict.comparison =
-            verify::compare(beside_command("lib/candela/candela-diff"), folder / "reference.png", picture,
-                            folder / "edges.png", folder / (name + "-difference.png"), decoded);
+            verify::compare(comparing, folder / "reference.png", picture, folder / "edges.png",
+                            folder / (name + "-difference.png"), decoded);
     } catch (const Error&) {
         if (!fs::is_regular_file(decoded)) throw;
         const verify::RgbPicture read = verify::read_ppm(decoded);
@@ -194,6 +194,7 @@ int run_verify(const std::vector<std::string>& arguments) {
     add_models_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
+    const fs::path comparing = comparing_program();  // before anything is built for it
     candela::Registry registry = registry_from(line);
     const std::vector<LoadedTarget> chosen = targets_from(line, registry);
     const verify::Limits limits = limits_from(line);
@@ -228,7 +229,7 @@ int run_verify(const std::vector<std::string>& arguments) {
             step();
             target.draw(program, folder / (name + ".png"));
             step();
-            verdicts.push_back(verdict_on(name, expected, workplace));
+            verdicts.push_back(verdict_on(name, expected, workplace, comparing));
             step();
         }
     }

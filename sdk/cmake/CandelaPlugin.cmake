@@ -104,9 +104,10 @@ function(candela_add_plugin id)
     endif()
 endfunction()
 
-# candela_install_plugin(<kind>/<name> [DESTINATION <dir>]): the library and its manifest, into lib/candela/plugins.
+# candela_install_plugin(<kind>/<name> [DESTINATION <dir>] [COMPONENT <name>]): the library and its manifest, into
+# lib/candela/plugins.
 function(candela_install_plugin id)
-    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "DESTINATION" "")
+    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "DESTINATION;COMPONENT" "")
     string(REPLACE "/" "_" suffix ${id})
     set(target candela_${suffix})
     if(NOT PLUGIN_DESTINATION)
@@ -114,8 +115,12 @@ function(candela_install_plugin id)
     endif()
     set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../..")
     get_target_property(manifest ${target} CANDELA_MANIFEST)
-    install(TARGETS ${target} LIBRARY DESTINATION ${PLUGIN_DESTINATION})
-    install(FILES $<TARGET_FILE_DIR:${target}>/${manifest} DESTINATION ${PLUGIN_DESTINATION})
+    set(component)
+    if(PLUGIN_COMPONENT)
+        set(component COMPONENT ${PLUGIN_COMPONENT})
+    endif()
+    install(TARGETS ${target} LIBRARY DESTINATION ${PLUGIN_DESTINATION} ${component})
+    install(FILES $<TARGET_FILE_DIR:${target}>/${manifest} DESTINATION ${PLUGIN_DESTINATION} ${component})
 endfunction()
 
 # candela_add_plugin_test(<kind>/<name> SOURCES <file>... [LIBRARIES <target>...]): tests with Catch2, which find the folder of

@@ -11,7 +11,7 @@ fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
 skip() { printf 'SKIPPED: %s\n' "$*"; exit 77; }
 quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
 
-for tool in dpkg dpkg-deb dpkg-query dpkg-shlibdeps file; do
+for tool in dpkg dpkg-deb dpkg-query dpkg-shlibdeps file lintian; do
     command -v "$tool" >/dev/null || skip "there is no $tool here"
 done
 for package in g++ cmake make catch2; do
@@ -25,11 +25,22 @@ ln -s /bin/true "$scratch/bin/ldconfig"
 say "make the packages"
 quiet "$(dirname "$cmake")/cpack" --config "$build/CPackConfig.cmake" -B "$scratch/packages"
 runtime=("$scratch"/packages/candela_*.deb)
+formats=("$scratch"/packages/candela-openimageio_*.deb)
 development=("$scratch"/packages/candela-dev_*.deb)
-{ [ -f "${runtime[0]}" ] && [ -f "${development[0]}" ]; } || fail "not both packages were made"
-[ "$(dpkg-deb -f "${development[0]}" Version)" = "$(dpkg-deb -f "${runtime[0]}" Version)" ] || fail "versions differ"
+for package in "${runtime[0]}" "${formats[0]}" "${development[0]}"; do
+    [ -f "$package" ] || fail "not all packages were made: there is no $package"
+    [ "$(dpkg-deb -f "$package" Version)" = "$(dpkg-deb -f "${runtime[0]}" Version)" ] || fail "versions differ"
+done
 dpkg-deb -f "${runtime[0]}" Depends | grep -q libtbb || fail "the core's libraries are not among the dependencies"
-for package in "${runtime[0]}" "${development[0]}"; do
+if dpkg-deb -f "${runtime[0]}" Depends | grep -qi 'openimageio\|openexr'; then
+    fail "candela depends on OpenImageIO, which is candela-openimageio's part"
+fi
+dpkg-deb -f "${formats[0]}" Depends | grep -q libopenimageio || fail "candela-openimageio does not depend on OpenImageIO"
+say "lintian finds no errors"
+# As root it would not run without being told so; the packages are data to it.
+lintian --allow-root --fail-on error --tag-display-limit 0 "$scratch"/packages/*.deb >"$scratch/log" 2>&1 ||
+    { cat "$scratch/log" >&2; fail "lintian has found errors"; }
+for package in "${runtime[0]}" "${formats[0]}" "${development[0]}"; do
     # Two spaces would mean text that is not to be flowed.
     if dpkg-deb -f "$package" Description | grep -q '^  '; then fail "the description of $package is indented"; fi
 done
@@ -66,6 +77,20 @@ quiet "$candela" render -o "$scratch/picture.png"
 "$build/bin/candela" render -o "$scratch/built.png" 2>"$scratch/log"
 cmp -s "$scratch/picture.png" "$scratch/built.png" || fail "the installed command renders another picture than the built one"
 for target in cpp opengl webgl; do quiet "$candela" generate --target $target -o "$scratch/$target"; done
+
+say "what is in candela-openimageio is asked for by that name, and is there when it is installed"
+asks() {
+    local code=0
+    "$@" >"$scratch/log" 2>&1 || code=$?
+    { [ "$code" -ne 0 ] && grep -q 'candela-openimageio' "$scratch/log"; } ||
+        { cat "$scratch/log" >&2; fail "nothing says which package $* needs (exit code $code)"; }
+}
+asks "$candela" render -o "$scratch/picture.exr"
+asks "$candela" diff "$scratch/picture.png" "$scratch/built.png"
+asks "$candela" verify --target cpp --report "$scratch/report"
+[ ! -e "$scratch/report" ] || fail "verify has begun a report that it cannot finish"
+quiet package_manager -i "${formats[@]}"
+quiet "$candela" render -o "$scratch/picture.exr"
 quiet "$candela" verify --target cpp --width 120 --height 120
 quiet "$candela" diff --tolerance 0 "$scratch/picture.png" "$scratch/built.png"
 "$candela" plugin doctor --plugin-dir "$root/usr/lib/candela/plugins" >"$scratch/log" || { cat "$scratch/log" >&2; fail "the doctor"; }
@@ -101,8 +126,8 @@ END
 quiet "$cmake" -G Ninja -S "$scratch/through-lib" -B "$scratch/through-lib/build" -DCMAKE_CXX_COMPILER="$cxx" -DROOT="$root"
 
 say "remove"
-quiet package_manager --purge candela candela-dev
-if dpkg-query --admindir="$root/var/lib/dpkg" -W candela candela-dev >"$scratch/log" 2>&1; then fail "dpkg still knows them"; fi
+quiet package_manager --purge candela candela-openimageio candela-dev
+if dpkg-query --admindir="$root/var/lib/dpkg" -W candela candela-openimageio candela-dev >"$scratch/log" 2>&1; then fail "dpkg still knows them"; fi
 files >"$scratch/after"
 diff "$scratch/before" "$scratch/after" >&2 || fail "this is left behind"
 say "all well"

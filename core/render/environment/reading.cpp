@@ -1,7 +1,6 @@
 module;
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +18,7 @@ module candela.environment;
 
 import candela.descriptor;
 import candela.diagnostics;
+import candela.formats;
 import candela.image;
 import candela.memory;
 import candela.text;
@@ -67,8 +67,8 @@ Environment read_environment(const fs::path& file, Registry& registry, ColorEnco
     const PluginFile* const plugin = registry.find_format(extension, FormatUse::read);
     if (plugin == nullptr) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' is of no format that an image plugin reads (possible: {})",
-                                file.string(), fmt::join(registry.extensions(FormatUse::read), ", ")));
+                    fmt::format("'{}' is of no format that an image plugin reads{}", file.string(),
+                                possible_formats(registry, FormatUse::read)));
     }
     const std::string& name = plugin->manifest.name;
     const auto reader =

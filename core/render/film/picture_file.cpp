@@ -1,7 +1,6 @@
 module;
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -16,6 +15,7 @@ module candela.film;
 import candela.color;
 import candela.diagnostics;
 import candela.files;
+import candela.formats;
 import candela.library;
 import candela.text;
 
@@ -46,10 +46,10 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
         const std::string meant = extension.empty() ? "" : suggestion(extension, all, ".");
         throw Error(
             ErrorCategory::bad_request,
-            fmt::format("'{}' {}{} (possible: {})", path.string(),
+            fmt::format("'{}' {}{}{}", path.string(),
                         extension.empty() ? "has no extension that names a picture format"
-                                          : fmt::format("is of no format that an image plugin writes"),
-                        meant.empty() ? "" : "; " + meant, fmt::join(all, ", ")));
+                                          : "is of no format that an image plugin writes",
+                        meant.empty() ? "" : "; " + meant, possible_formats(registry, FormatUse::write)));
     }
     const auto& formats = plugin->manifest.formats;
     const auto format =
