@@ -1,8 +1,11 @@
 import { clippingPlanes, viewAxes, viewProjection } from "./camera.js";
 import { Film } from "./film.js";
+import { LightTable } from "./lights.js";
 import { Mesh } from "./mesh.js";
 import { ProgramCache } from "./programs.js";
 import { scale } from "./vectors.js";
+
+const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 
 /** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
 export class Renderer {
@@ -14,6 +17,7 @@ export class Renderer {
         this.programs = new ProgramCache(gl, scene);
         this.meshes = scene.objects.map((object) => new Mesh(gl, object.mesh));
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
+        this.lights = new LightTable(gl, scene);
         this.emptyVertexArray = gl.createVertexArray();
         gl.enable(gl.DEPTH_TEST);
         gl.depthFunc(gl.GREATER);  // depths are 0 far away, where floats are densest
@@ -52,13 +56,6 @@ export class Renderer {
         for (const program of needed) program.check();
     }
 
-    setLights(program, appearance) {
-        for (const light of appearance.lights) {
-            program.setUniform(light.switch, light.isOn);
-            for (const [name, uniform] of light.uniforms) program.setUniform(name, uniform);
-        }
-    }
-
     /** Renders one sample per pixel into the film's picture; `position` is within the pixel, from its top left. */
     drawSample(film, appearance, position) {
         const { gl } = this, { observer } = appearance;
@@ -70,6 +67,7 @@ export class Renderer {
             eye: { kind: "vec3", value: observer.position },
             is_orthographic: { kind: "int", value: observer.projection === "orthographic" ? 1 : 0 },
             towards_observer: { kind: "vec3", value: scale(viewAxes(observer).forward, -1) },
+            ...this.lights.bind(LIGHTS_UNIT, appearance.lights),
         };
         gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
         gl.viewport(0, 0, film.width, film.height);
@@ -82,7 +80,6 @@ export class Renderer {
             if (!prepared.has(program)) {
                 prepared.add(program);
                 for (const [name, uniform] of Object.entries(frameUniforms)) program.setUniform(name, uniform);
-                this.setLights(program, appearance);
             }
             for (const [name, uniform] of object.uniforms) program.setUniform(name, uniform);
             object.closed ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
