@@ -5,6 +5,7 @@ import { Mesh } from "./mesh.js";
 import { ProgramCache } from "./programs.js";
 import { scale } from "./vectors.js";
 
+const POLL_MS = 2;
 const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 
 /** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
@@ -56,8 +57,11 @@ export class Renderer {
         for (const program of needed) program.check();
     }
 
-    /** Renders one sample per pixel into the film's picture; `position` is within the pixel, from its top left. */
-    drawSample(film, appearance, position) {
+    /**
+     * Renders one sample per pixel into the film's picture; `position` is within the pixel, from its top left. `rows`: from
+     * which row to which, counted from the bottom; others stay as they are.
+     */
+    drawSample(film, appearance, position, rows = [0, film.height]) {
         const { gl } = this, { observer } = appearance;
         const offset = [0.5 - position[0], 0.5 - position[1]];
         const { near } = clippingPlanes(observer, viewAxes(observer).forward, this.bounds);
@@ -71,6 +75,8 @@ export class Renderer {
         };
         gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
         gl.viewport(0, 0, film.width, film.height);
+        gl.enable(gl.SCISSOR_TEST);
+        gl.scissor(0, rows[0], film.width, rows[1] - rows[0]);
         gl.clearColor(...appearance.background, 1);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         const prepared = new Set();
@@ -85,6 +91,23 @@ export class Renderer {
             object.closed ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
             this.meshes[i].draw(object.rate, object.shading);
         });
+        gl.disable(gl.SCISSOR_TEST);
+    }
+
+    /** Calls back once the graphics have finished all that they have been given; never if they are lost before. */
+    whenFinished(callback) {
+        const { gl } = this, fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        const poll = () => {
+            if (gl.isContextLost()) return;
+            if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
+                setTimeout(poll, POLL_MS);
+                return;
+            }
+            gl.deleteSync(fence);
+            callback();
+        };
+        setTimeout(poll, 0);
     }
 
     /** A pass over all pixels into a framebuffer; null is the canvas. */
