@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <utility>
 #include <vector>
 
 using candela::Observer;
@@ -38,24 +41,76 @@ Observer shifted(const Observer& observer, float x, float y, int height) {
     return result;
 }
 
+/// Radians. Many times what the last bits of floats do to a direction, and too little to show in anything
+/// continuous: a highlight with an exponent of 100 changes by a third of a level.
+constexpr float k_turn = 2e-4f;
+
+/// Which way a light's directions are turned: an angle about the direction itself, in radians.
+constexpr std::array k_turns = {0.0f, 2 * std::numbers::pi_v<float> / 3, 4 * std::numbers::pi_v<float> / 3};
+
+/// A light whose directions are turned by a small angle. What it sends is not changed.
+class TurnedLight final : public candela::Light {
+  public:
+    /// `way`: as in k_turns; none to leave the light as it is. It may change between pictures.
+    TurnedLight(std::unique_ptr<candela::Light> light, const std::optional<float>& way)
+        : light_(std::move(light)), way_(way) {}
+
+    int sample_count() const noexcept override { return light_->sample_count(); }
+    bool has_ambient() const noexcept override { return light_->has_ambient(); }
+
+    void illuminate(int sample, const candela::ReceiverBatch& receivers,
+                    const candela::IncidentBatch& incident) const override {
+        light_->illuminate(sample, receivers, incident);
+        if (!way_) return;
+        const float along = k_turn * std::cos(*way_), across = k_turn * std::sin(*way_);
+        const candela::Vec3Span& to_light = incident.to_light;
+        for (std::size_t i = 0; i < receivers.count; ++i) {
+            const Vec3 l{to_light.x[i], to_light.y[i], to_light.z[i]};
+            const Vec3 other = std::abs(l.x) < 0.7f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+            const Vec3 u = candela::normalized(candela::cross(l, other));
+            to_light.set(i, candela::normalized(l + along * u + across * candela::cross(l, u)));
+        }
+    }
+    void illuminate_ambient(const candela::ReceiverBatch& receivers,
+                            const candela::Vec3Span& ambient) const override {
+        light_->illuminate_ambient(receivers, ambient);
+    }
+    std::unique_ptr<candela::Light> release() { return std::move(light_); }
+
+  private:
+    std::unique_ptr<candela::Light> light_;
+    const std::optional<float>& way_;
+};
+
 using Intensities = std::vector<float>;
 
-/// Pictures of a scene with one sample a pixel. Its observer and its samples come back to what they were.
+/// Pictures of a scene with one sample a pixel. The scene is what it was when this is gone.
 class Mover {
   public:
     Mover(candela::CompiledScene& scene, const candela::Film& reference)
         : scene_(scene), reference_(reference), observer_(scene.observer), samples_(scene.image.samples) {
         scene_.image.samples = 1;
+        for (candela::LitSource& source : scene_.lights) {
+            auto turned = std::make_unique<TurnedLight>(std::move(source.light), way_);
+            turned_.push_back(turned.get());
+            source.light = std::move(turned);
+        }
     }
     Mover(const Mover&) = delete;
     Mover& operator=(const Mover&) = delete;
     ~Mover() {
         scene_.observer = observer_;
         scene_.image.samples = samples_;
+        for (std::size_t i = 0; i < turned_.size(); ++i) {
+            std::unique_ptr<candela::Light> own = turned_[i]->release();
+            scene_.lights[i].light = std::move(own);
+        }
     }
 
-    /// What is seen at each pixel's place (x, y), from its top left.
-    Intensities seen_at(float x, float y) {
+    /// What is seen at each pixel's place (x, y), from its top left. `way`: in which the lights' directions
+    /// are turned, if at all.
+    Intensities seen_at(float x, float y, std::optional<float> way = std::nullopt) {
+        way_ = way;
         scene_.observer = shifted(observer_, 0.5f - x, 0.5f - y, reference_.height());
         candela::Film film(reference_.width(), reference_.height(), candela::PixelType::real,
                            scene_.image.color_management);
@@ -68,6 +123,8 @@ class Mover {
     const candela::Film& reference_;
     Observer observer_;
     int samples_;
+    std::optional<float> way_;
+    std::vector<TurnedLight*> turned_;
 };
 
 /// In a picture's file, 0 to 255, not rounded.
@@ -102,6 +159,11 @@ Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& r
         const float x = static_cast<float>(sample.x) / 16, y = static_cast<float>(sample.y) / 16;
         const Intensities there = mover.seen_at(x, y);
         std::vector<float> largest(there.size());
+        const auto note = [&](const Intensities& other, std::size_t i) {
+            if (other[i] == there[i]) return;
+            const float change = std::abs(level_of(other[i], encoding) - level_of(there[i], encoding));
+            largest[i] = std::max(largest[i], change);
+        };
         for (const float dx : {-k_shift, k_shift}) {
             for (const float dy : {-k_shift, k_shift}) {
                 const Intensities beside = mover.seen_at(x + dx, y + dy);
@@ -110,12 +172,22 @@ Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& r
                 for (std::size_t i = 0; i < there.size(); ++i) {
                     mean_x[i] += 0.5f * share * beside[i];
                     mean_y[i] += 0.5f * share * beside[i];
-                    if (beside[i] == there[i]) continue;
-                    const float moved =
-                        std::abs(level_of(beside[i], encoding) - level_of(there[i], encoding));
-                    largest[i] = std::max(largest[i], moved);
+                    note(beside, i);
                 }
             }
+        }
+        // A sliver may lie between what is seen there and what is seen at that distance.
+        for (const float near : {k_shift / 2, k_shift / 4}) {
+            for (const float dx : {-near, near}) {
+                for (const float dy : {-near, near}) {
+                    const Intensities beside = mover.seen_at(x + dx, y + dy);
+                    for (std::size_t i = 0; i < there.size(); ++i) note(beside, i);
+                }
+            }
+        }
+        for (const float way : k_turns) {
+            const Intensities turned = mover.seen_at(x, y, way);
+            for (std::size_t i = 0; i < there.size(); ++i) note(turned, i);
         }
         for (std::size_t i = 0; i < there.size(); ++i) {
             change[i] += share * largest[i];

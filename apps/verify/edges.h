@@ -10,8 +10,8 @@ namespace verify {
 /// What a picture owes to where exactly things lie in it. A pixel each, or its red, green and blue, row by
 /// row.
 struct Sensitivity {
-    /// Whether a pixel's colour depends on where exactly an edge lies, so that two rasterisers may differ
-    /// there though both are right.
+    /// Whether a pixel's colour depends on where exactly an edge or a step lies, so that two rasterisers may
+    /// differ there though both are right.
     std::vector<bool> edges;
     /// By how many of 255 levels a channel grows where the observed place moves by a pixel to the right, or
     /// down.
@@ -26,9 +26,9 @@ constexpr float edge_levels(double tolerance) {
 }
 
 /// A pixel is an edge that changes, by more than `levels` of 255 on the average of its samples, where they
-/// move by an eighth of a pixel; or that is that much apart from the mean of what its samples see, because
-/// Candela evaluates light once for each triangle in a pixel. `reference` is the picture of `scene`, 8-bit;
-/// the scene is left as it was.
+/// move by an eighth of a pixel, or where light comes from a direction that differs by 0.0002 radians; or
+/// that is that much apart from the mean of what its samples see, because Candela evaluates light once for
+/// each triangle in a pixel. `reference` is the picture of `scene`, 8-bit; the scene is left as it was.
 Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& reference, float levels);
 
 /// Candela's picture before it is rounded: 0 to 255, encoded as in a file.

@@ -1,12 +1,15 @@
 #include "candela/target/glsl.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "candela/embed.h"
 #include "candela/target/kernels.h"
 
+CANDELA_EMBED(candela_target_trigonometry, CANDELA_TARGET_TEMPLATES "/trigonometry.glsl");
 CANDELA_EMBED(candela_target_lit, CANDELA_TARGET_TEMPLATES "/lit.glsl");
 CANDELA_EMBED(candela_target_vertex, CANDELA_TARGET_TEMPLATES "/vertex.glsl");
 CANDELA_EMBED(candela_target_fragment, CANDELA_TARGET_TEMPLATES "/fragment.glsl");
@@ -24,55 +27,85 @@ constexpr const char* k_preamble =
     "vec3 unit_or_zero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
     "#define normalize unit_or_zero\n\n";
 
-std::string lights_array(const ExportedModel& model) {
-    return std::string(model.plugin->kernel.prefix) + "_lights";
+/// "point_light": what names that have to do with a model's lights begin with.
+std::string light_name(const ExportedModel& model) {
+    return fmt::format("{}_light", model.plugin->kernel.prefix);
 }
 
-/// A light model's lights: an array of uniforms, and the loop that adds them up.
+constexpr const char* k_light_table =
+    "// What the lights' structs hold, a texel per member and {0} in a row: as bits, so that a texel can be "
+    "a vector, a\n"
+    "// number or an integer. A texture has room for any number of lights, uniform variables for a few "
+    "hundred.\n"
+    "uniform highp isampler2D light_table;\n"
+    "ivec3 table_bits(int at) {{ return texelFetch(light_table, ivec2(at % {0}, at / {0}), 0).xyz; }}\n"
+    "vec3 table_vec3(int at) {{ return intBitsToFloat(table_bits(at)); }}\n"
+    "float table_float(int at) {{ return intBitsToFloat(table_bits(at).x); }}\n"
+    "int table_int(int at) {{ return table_bits(at).x; }}\n\n";
+
+/// How a shader reads a member of a struct from the table.
+const char* reader_of(ParamType type) {
+    switch (type) {
+        case ParamType::real:
+            return "table_float";
+        case ParamType::integer:
+        case ParamType::boolean:
+        case ParamType::choice:
+            return "table_int";
+        default:
+            return "table_vec3";
+    }
+}
+
+/// A light model's lights: how one is read, and the loop that adds them up.
 struct LightLoop {
     std::string declarations;
     std::string statements;
 };
 
-LightLoop loop_over(const ExportedModel& model, std::size_t count) {
-    const std::string array = lights_array(model);
+LightLoop loop_over(const ExportedModel& model, const LightBlock& block) {
+    const PluginDescriptor& plugin = *model.plugin;
     LightLoop loop;
-    if (has_parameters(model))
-        loop.declarations +=
-            fmt::format("uniform {} {}[{}];\n", model.plugin->kernel.parameters, array, count);
-    loop.declarations += fmt::format("uniform bool {}_on[{}];\n", array, count);
-
-    const std::string light = has_parameters(model) ? array + "[i]" : "";
+    loop.declarations = fmt::format("uniform int {};\n", block.count);
     std::string body;
+    if (has_parameters(model)) {
+        std::vector<std::string> members;
+        for (const std::size_t i : plugin.kernel.members) {
+            const std::string at = members.empty() ? "at" : fmt::format("at + {}", members.size());
+            members.push_back(fmt::format("{}({})", reader_of(plugin.parameters[i].type), at));
+        }
+        const std::string type = plugin.kernel.parameters, read = "read_" + light_name(model);
+        loop.declarations += fmt::format(
+            "{0} {1}(int i) {{\n    int at = {2}{3} * i;\n    return {0}({4});\n}}\n", type, read,
+            block.first == 0 ? "" : fmt::format("{} + ", block.first), block.size, fmt::join(members, ", "));
+        body = fmt::format("        {} light = {}(i);\n", type, read);
+    }
+    constexpr const char* k_sum =
+        "{0}Reflected reflected = reflect_light(s, incident.to_light);\n"
+        "{0}sum += reflected.diffuse * incident.diffuse + reflected.specular * incident.specular;\n";
     if (has_function(model, "sample_count")) {
         body += fmt::format(
             "        int samples = {};\n        for (int k = 0; k < samples; ++k) {{\n"
             "            Incident incident = {};\n",
-            call(model, "sample_count", light, ""), call(model, "illuminate", light, "r, k"));
-        body +=
-            "            Reflected reflected = reflect_light(s, incident.to_light);\n"
-            "            sum += reflected.diffuse * incident.diffuse + reflected.specular * "
-            "incident.specular;\n        }\n";
+            call(model, "sample_count", "light", ""), call(model, "illuminate", "light", "r, k"));
+        body += fmt::format(fmt::runtime(k_sum), "            ") + "        }\n";
     } else if (has_function(model, "illuminate")) {
-        body += fmt::format("        Incident incident = {};\n", call(model, "illuminate", light, "r"));
-        body +=
-            "        Reflected reflected = reflect_light(s, incident.to_light);\n"
-            "        sum += reflected.diffuse * incident.diffuse + reflected.specular * incident.specular;\n";
+        body += fmt::format("        Incident incident = {};\n", call(model, "illuminate", "light", "r"));
+        body += fmt::format(fmt::runtime(k_sum), "        ");
     }
     if (has_function(model, "illuminate_ambient"))
         body += fmt::format("        sum += reflect_ambient(s) * {};\n",
-                            call(model, "illuminate_ambient", light, "r"));
-    loop.statements =
-        fmt::format("    for (int i = 0; i < {}; ++i) {{\n        if (!{}_on[i]) continue;\n{}    }}\n",
-                    count, array, body);
+                            call(model, "illuminate_ambient", "light", "r"));
+    loop.statements = fmt::format("    for (int i = 0; i < {}; ++i) {{\n{}    }}\n", block.count, body);
     return loop;
 }
 
 std::string lights_text(const ExportedScene& scene) {
     std::string text, declarations, statements;
-    for (std::size_t m = 0; m < scene.light_models.size(); ++m) {
-        const auto count = std::ranges::count(scene.lights, m, &ExportedLight::model);
-        const LightLoop loop = loop_over(scene.light_models[m], static_cast<std::size_t>(count));
+    const std::vector<LightBlock> blocks = light_blocks(scene);
+    if (!blocks.empty()) declarations = fmt::format(fmt::runtime(k_light_table), k_light_table_width);
+    for (std::size_t m = 0; m < blocks.size(); ++m) {
+        const LightLoop loop = loop_over(scene.light_models[m], blocks[m]);
         text += std::string(scene.light_models[m].plugin->kernel.text) + "\n";
         declarations += loop.declarations;
         statements += loop.statements;
@@ -125,19 +158,26 @@ GlslParts glsl_of(const ExportedScene& scene) {
     for (const auto* texts : {&parts.reflections, &parts.shadings}) {
         for (const std::string& text : *texts) users += text;
     }
-    parts.prelude = k_preamble + needed_parts(kernel_prelude(), users) + "\n";
+    static const std::regex k_trigonometry(R"(\ba?(sin|cos)\s*\()");
+    parts.prelude = k_preamble;
+    if (std::regex_search(users, k_trigonometry)) parts.prelude += candela_target_trigonometry;
+    parts.prelude += needed_parts(kernel_prelude(), users) + "\n";
     return parts;
 }
 
-std::vector<LightUniform> light_uniforms(const ExportedScene& scene) {
-    std::vector<std::size_t> next(scene.light_models.size());
-    std::vector<LightUniform> uniforms;
-    for (const ExportedLight& light : scene.lights) {
-        const std::string array = lights_array(scene.light_models[light.model]);
-        const std::size_t i = next[light.model]++;
-        uniforms.push_back({fmt::format("{}[{}]", array, i), fmt::format("{}_on[{}]", array, i)});
+std::vector<LightBlock> light_blocks(const ExportedScene& scene) {
+    std::vector<LightBlock> blocks;
+    std::size_t first = 0;
+    for (std::size_t m = 0; m < scene.light_models.size(); ++m) {
+        const ExportedModel& model = scene.light_models[m];
+        const auto lights =
+            static_cast<std::size_t>(std::ranges::count(scene.lights, m, &ExportedLight::model));
+        const std::size_t size = has_parameters(model) ? model.plugin->kernel.members.size() : 0;
+        blocks.push_back(
+            {.count = light_name(model) + "_count", .lights = lights, .first = first, .size = size});
+        first += size * lights;
     }
-    return uniforms;
+    return blocks;
 }
 
 const char* rate_name(ShadingRate rate) {

@@ -207,6 +207,16 @@ TEST_CASE("generate: programs say what the CA and RE are that their comments cit
     }
 }
 
+TEST_CASE("generate: a newer compiler's warnings do not end the build of a program") {
+    for (const char* const target : {"cpp", "opengl"}) {
+        const fs::path directory = scratch_directory() / target;
+        generate({"--target", target, "-o", directory.string()});
+        const std::string cmake = read_file(directory / "CMakeLists.txt");
+        CHECK(cmake.find("-Wall -Wextra") != std::string::npos);
+        CHECK(cmake.find("-Werror") == std::string::npos);
+    }
+}
+
 TEST_CASE("generate: errors name what is wrong, and what to do") {
     const fs::path directory = scratch_directory();
     const auto expect = [&](const std::vector<std::string>& arguments, int code, const std::string& message) {

@@ -23,7 +23,8 @@ void replace_in(const fs::path& file, const std::string& from, const std::string
 CommandResult verify(const std::vector<std::string>& arguments) {
     std::vector<std::string> words{"verify"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    return run_candela(words);
+    // A warning of ours would be a user's.
+    return run_candela(words, {.input = "", .environment = {{"CXXFLAGS", "-Werror"}}, .directory = {}});
 }
 
 const std::vector<std::string> k_small = {"--width", "160", "--height", "120"};
@@ -220,6 +221,100 @@ object = [
     const CommandResult result = verify({scene.string()});
     INFO(result.out << result.err);
     CHECK(result.exit_code == 0);
+}
+#endif
+
+#ifndef CANDELA_TEST_SANITIZED
+namespace {
+
+void expect_match(const fs::path& name, const std::string& text) {
+    const fs::path scene = write_file(scratch_directory() / name, text);
+    const CommandResult result = verify({scene.string()});
+    INFO(name << "\n" << result.out << result.err);
+    CHECK(result.exit_code == 0);
+}
+
+}  // namespace
+
+TEST_CASE("verify: a thousand lights match in C++, in OpenGL and in a browser") {
+    std::string text = R"(version = 1
+observer = {position = [0.4, 1.1, 3.6], look_at = [0, -0.1, 0], fov = 38}
+image = {width = 96, height = 72}
+shading = {model = "phong"}
+reflection = {model = "phong"}
+object = [
+    {type = "sphere", radius = 0.6, segments = 24, position = [-0.6, -0.2, 0]},
+    {type = "cube", size = 0.7, position = [0.7, -0.3, 0], shading = "gouraud"},
+]
+)";
+    for (int i = 0; i < 1000; ++i) {
+        // A spiral, in which the golden angle keeps neighbours apart.
+        const double angle = 2.399963 * i, radius = 0.3 + 1.7 * std::sqrt(i / 1000.0);
+        text += fmt::format(
+            "[[light]]\ntype = \"{}\"\nposition = [{:.4f}, {:.4f}, {:.4f}]\nintensity = 0.003\n"
+            "color = [{}, {}, {}]\n{}",
+            i % 5 == 0 ? "spot" : "point", radius * std::cos(angle), 1.5 + 0.0007 * i,
+            radius * std::sin(angle), 37 * i % 256, 91 * i % 256, 53 * i % 256,
+            i % 5 == 0 ? "direction = [0, -1, 0]\n" : "");
+    }
+    expect_match("thousand.toml", text);
+}
+
+TEST_CASE(
+    "verify: where the last bits of N.L decide on a step of brightness, programs that are right match") {
+    // Two of the cube's faces are parallel to the light, so that N.L is 0 but for rounding.
+    expect_match("parallel.toml", R"(version = 1
+observer = {position = [0.77, 1.13, 4.5], look_at = [0, 0, 0], projection = "orthographic", height = 1.8}
+image = {width = 120, height = 100, samples = 4, color_management = "none"}
+shading = {model = "flat"}
+reflection = {model = "toon"}
+light = [
+    {type = "ambient", intensity = 0.3},
+    {type = "directional", direction = [1, -1, -1], intensity = 0.6},
+    {type = "point", position = [1.6, 2.4, 2], intensity = 9},
+]
+object = [{type = "cube", size = 0.8, rotation = [0, 45, 0], color = [139, 85, 246], material = {bands = 1, highlight = 20}}]
+)");
+}
+
+TEST_CASE("verify: a spot's cone and a highlight's rim are as exact in shaders as elsewhere") {
+    expect_match("cone.toml", R"(version = 1
+observer = {position = [-0.21, 1.37, 4.5], look_at = [0, 0, 0], fov = 42}
+image = {width = 240, height = 160, color_management = "none"}
+shading = {model = "flat"}
+reflection = {model = "toon"}
+light = [
+    {type = "ambient", intensity = 0.3},
+    {type = "directional", direction = [-1, -1, -2], intensity = 0.6},
+    {type = "spot", position = [0, 2.4, 2], direction = [0, -1, -0.8], intensity = 9, inner_angle = 15, outer_angle = 35},
+]
+[[object]]
+type = "sphere"
+radius = 0.6
+segments = 8
+position = [-1.6, -0.15, 0]
+color = [167, 132, 232]
+material = {bands = 3, highlight = 30}
+)");
+    expect_match("rim.toml", R"(version = 1
+observer = {position = [-1.13, 1.17, 4.5], look_at = [0, 0, 0], fov = 42}
+image = {width = 240, height = 160}
+shading = {model = "flat"}
+reflection = {model = "toon"}
+light = [
+    {type = "ambient", intensity = 0.3},
+    {type = "spot", position = [0, 2.4, 2], direction = [0, -1, -0.8], intensity = 9, inner_angle = 15, outer_angle = 35},
+    {type = "directional", direction = [0, -1, -1], intensity = 0.6},
+]
+[[object]]
+type = "torus"
+major_radius = 0.45
+minor_radius = 0.2
+segments = 32
+position = [1.6, 0.06, 0]
+color = [132, 182, 205]
+material = {bands = 5, highlight = 10}
+)");
 }
 #endif
 

@@ -71,6 +71,48 @@ class Looking(PageTest):
         nearer, own = self.observer(), self.generated.scene["observer"]["position"]
         self.assertLess(abs(nearer[2]), abs(own[2]))
 
+    def turn(self):
+        """By a key; until a draft has been drawn and timed."""
+        self.browser.driver.execute_async_script("""
+            const done = arguments[0], { readings } = clock;
+            const wait = () => (clock.readings >= readings + 2 ? done() : setTimeout(wait, 5));
+            document.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
+            wait();""")
+
+    def rest_with(self, width):
+        self.browser.driver.execute_async_script("""
+            const [width, done] = arguments;
+            const wait = () => (document.querySelector("canvas").width === width ? done() : setTimeout(wait, 20));
+            wait();""", width)
+
+    def test_slow_frames_are_coarser(self):
+        """With a clock of our own, by which a draft takes a second: it has fewer pixels while the picture is turned, and all when
+        it rests; and by which it takes no time, all the while."""
+        clock = self.browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": """
+            window.clock = { time: 0, step: 1000, readings: 0 };
+            performance.now = () => { clock.readings += 1; return (clock.time += clock.step); };"""})
+        self.addCleanup(self.browser.driver.execute_cdp_cmd, "Page.removeScriptToEvaluateOnNewDocument", clock)
+        self.browser.open(self.generated.address)
+        self.turn()
+        whole = self.browser.run("return parseInt(document.querySelector('canvas').style.width)")
+        self.rest_with(whole)
+        self.browser.run("""
+            const canvas = document.querySelector("canvas");
+            window.widths = [];
+            new MutationObserver(() => widths.push(canvas.width)).observe(canvas, { attributes: true, attributeFilter: ["width"] });""")
+        for _ in range(4):
+            self.turn()
+        self.assertLess(min(self.browser.run("return widths")), 0.2 * whole)
+        self.rest_with(whole)
+        self.browser.run("clock.step = 0")
+        for _ in range(4):
+            self.turn()
+        self.rest_with(whole)
+        self.browser.run("widths.length = 0")
+        for _ in range(4):
+            self.turn()
+        self.assertEqual(self.browser.run("return widths"), [])
+
     def test_orthographic_zoom(self):
         generated = Generated("zoom", scenes.ORTHOGRAPHIC)
         self.browser.open(generated.address)

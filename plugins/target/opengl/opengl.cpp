@@ -67,7 +67,9 @@ class OpenGlWriter {
                          {"BACKGROUND", braces(decoded(image.background, encoding_))},
                          {"SAMPLES", samples()},
                          {"OBSERVER", observer()},
+                         {"LIGHT_COUNTS", light_counts()},
                          {"LIGHT_VALUES", light_values()},
+                         {"LIGHT_TABLE_WIDTH", fmt::format("{}", k_light_table_width)},
                          {"OBJECTS", objects},
                          {"PICTURE_FILE", std::string(picture_file_source())}};
         values.insert(values.end(), about.begin(), about.end());
@@ -103,44 +105,49 @@ class OpenGlWriter {
                            is_perspective, float_text(is_perspective ? o.fov : o.height));
     }
 
-    /// `prefix`: what stands before a member's name, "point_lights[0].".
-    static std::string uniform(const std::string& prefix, const ParamSpec& p, const ParamValue& value) {
+    static std::string uniform(const ParamSpec& p, const ParamValue& value) {
         switch (p.type) {
             case ParamType::real:
-                return fmt::format("{{\"{}{}\", Uniform::real, {{{}, 0, 0}}}}", prefix, p.name,
+                return fmt::format("{{\"{}\", Uniform::real, {{{}, 0, 0}}}}", p.name,
                                    float_text(value.number[0]));
             case ParamType::integer:
             case ParamType::boolean:
             case ParamType::choice:
-                return fmt::format("{{\"{}{}\", Uniform::whole, {{{}, 0, 0}}}}", prefix, p.name,
-                                   value.integer);
+                return fmt::format("{{\"{}\", Uniform::whole, {{{}, 0, 0}}}}", p.name, value.integer);
             default:
-                return fmt::format("{{\"{}{}\", Uniform::vector, {}}}", prefix, p.name,
+                return fmt::format("{{\"{}\", Uniform::vector, {}}}", p.name,
                                    braces(Vec3{value.number[0], value.number[1], value.number[2]}));
         }
     }
 
-    static std::vector<std::string> uniforms(const std::string& prefix, const ExportedModel& model,
-                                             const ExportedValues& values) {
+    static std::vector<std::string> uniforms(const ExportedModel& model, const ExportedValues& values) {
         std::vector<std::string> all;
         for (std::size_t i = 0; i < values.delivered.size(); ++i) {
             const ParamSpec& p = model.plugin->parameters[i];
             if (p.type != ParamType::text && p.type != ParamType::file)
-                all.push_back(uniform(prefix, p, values.delivered[i]));
+                all.push_back(uniform(p, values.delivered[i]));
         }
         return all;
     }
 
+    std::string light_counts() const {
+        std::string text;
+        for (const LightBlock& block : light_blocks(scene_))
+            text += fmt::format("    {{\"{}\", Uniform::whole, {{{}, 0, 0}}}},\n", block.count, block.lights);
+        return text;
+    }
+
     std::string light_values() const {
         std::string text;
-        const std::vector<LightUniform> names = light_uniforms(scene_);
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            const ExportedLight& light = scene_.lights[i];
-            text += fmt::format("    // {}\n    {{\"{}\", Uniform::whole, {{1, 0, 0}}}},\n",
-                                tame(light.label), names[i].is_on);
-            for (const std::string& one :
-                 uniforms(names[i].values + ".", scene_.light_models[light.model], light.values))
-                text += "    " + one + ",\n";
+        for (std::size_t m = 0; m < scene_.light_models.size(); ++m) {
+            const PluginDescriptor& plugin = *scene_.light_models[m].plugin;
+            for (const ExportedLight& light : scene_.lights) {
+                if (light.model != m) continue;
+                text += fmt::format("    // {}\n", tame(light.label));
+                for (const std::size_t i : plugin.kernel.members)
+                    text +=
+                        fmt::format("    {},\n", uniform(plugin.parameters[i], light.values.delivered[i]));
+            }
         }
         return text;
     }
@@ -149,7 +156,7 @@ class OpenGlWriter {
     static std::string all_uniforms(std::span<const Model> models, std::span<const ExportedValues> sets) {
         std::vector<std::string> all;
         for (std::size_t i = 0; i < sets.size(); ++i)
-            all.push_back(fmt::format("{{{}}}", fmt::join(uniforms("", models[i], sets[i]), ", ")));
+            all.push_back(fmt::format("{{{}}}", fmt::join(uniforms(models[i], sets[i]), ", ")));
         return fmt::format("{{{}}}", fmt::join(all, ",\n      "));
     }
 

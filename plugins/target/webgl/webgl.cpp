@@ -73,6 +73,17 @@ Json model_json(const ExportedModel& model, const std::string& glsl) {
         {"reference", plugin.reference}, {"parameters", std::move(parameters)}, {"glsl", glsl}};
 }
 
+/// Where a light model's lights are in the table that shaders read.
+Json block_json(const ExportedModel& model, const LightBlock& block) {
+    Json members = Json::array();
+    for (const std::size_t i : model.plugin->kernel.members)
+        members.push_back(model.plugin->parameters[i].name);
+    return {{"count", block.count},
+            {"lights", block.lights},
+            {"first", block.first},
+            {"members", std::move(members)}};
+}
+
 Json values_json(const ExportedModel& model, const ExportedValues& values) {
     Json result = Json::object();
     for (std::size_t i = 0; i < values.written.size(); ++i) {
@@ -152,18 +163,18 @@ Json scene_json(const ExportedScene& scene) {
     const GlslParts glsl = glsl_of(scene);
     Json lights = Json::array(), objects = Json::array();
     Json light_models = Json::object(), reflections = Json::object(), shadings = Json::object();
-    const std::vector<LightUniform> uniforms = light_uniforms(scene);
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const ExportedLight& light = scene.lights[i];
+    for (const ExportedLight& light : scene.lights) {
         const ExportedModel& model = scene.light_models[light.model];
         lights.push_back({{"label", light.label},
                           {"model", model.plugin->name},
-                          {"uniform", uniforms[i].values},
-                          {"switch", uniforms[i].is_on},
                           {"values", values_json(model, light.values)}});
     }
-    for (const ExportedModel& model : scene.light_models)
-        light_models[model.plugin->name] = model_json(model, model.plugin->kernel.text);
+    const std::vector<LightBlock> blocks = light_blocks(scene);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const ExportedModel& model = scene.light_models[i];
+        Json& json = light_models[model.plugin->name] = model_json(model, model.plugin->kernel.text);
+        json["block"] = block_json(model, blocks[i]);
+    }
     for (std::size_t i = 0; i < scene.reflections.size(); ++i)
         reflections[scene.reflections[i].plugin->name] =
             model_json(scene.reflections[i], glsl.reflections[i]);
@@ -185,6 +196,7 @@ Json scene_json(const ExportedScene& scene) {
               {"screen", glsl.screen},
               {"accumulate", glsl.accumulate},
               {"encode", glsl.encode}}},
+            {"light_table_width", k_light_table_width},
             {"lights", std::move(lights)},
             {"light_models", std::move(light_models)},
             {"reflection_models", std::move(reflections)},

@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -92,6 +93,9 @@ struct Observer {
 };
 const Observer k_observer = {@OBSERVER@};
 
+// The lights, model by model: how many there are, and the members of their structs one after the other.
+const std::vector<Uniform> k_light_counts = {
+@LIGHT_COUNTS@};
 const std::vector<Uniform> k_light_values = {
 @LIGHT_VALUES@};
 
@@ -209,6 +213,25 @@ void set(GLuint program, const Uniform& u, const char* owner = "") {
     if (u.type == Uniform::vector) glUniform3fv(at, 1, u.value.data());
 }
 
+// The lights' values as a texture that shaders read, a texel each, in rows of this width.
+GLuint light_table() {
+    const std::size_t width = @LIGHT_TABLE_WIDTH@, height = k_light_values.size() / width + 1;
+    std::vector<std::array<GLint, 4>> texels(width * height);
+    for (std::size_t i = 0; i < k_light_values.size(); ++i) {
+        const Uniform& u = k_light_values[i];
+        if (u.type == Uniform::whole) texels[i][0] = static_cast<GLint>(u.value[0]);
+        else std::memcpy(&texels[i], &u.value, sizeof(u.value));
+    }
+    GLuint texture = 0;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32I, static_cast<GLsizei>(width), static_cast<GLsizei>(height), 0, GL_RGBA_INTEGER,
+                 GL_INT, texels.data());
+    return texture;
+}
+
 // A mesh as the graphics processor has it: each triangle has vertices of its own, whose places of light, normals and so on
 // depend on where the shading model evaluates light.
 struct Buffers {
@@ -301,6 +324,9 @@ class Renderer {
         glGenVertexArrays(1, &nothing_);
         accumulate_ = linked(k_header + k_screen, k_header + k_accumulate);
         encode_ = linked(k_header + k_screen, k_header + k_encode);
+        glActiveTexture(GL_TEXTURE2);  // passes over the screen have the first two
+        light_table();
+        glActiveTexture(GL_TEXTURE0);
     }
 
     // Draws the scene to a framebuffer of that size; 0 is the window.
@@ -390,7 +416,8 @@ class Renderer {
                                    k_reflections[reflection].glsl + k_shadings[shading].glsl;
         program = linked(common + k_vertex, common + k_fragment);
         glUseProgram(program);
-        for (const Uniform& u : k_light_values) set(program, u);
+        set(program, {"light_table", Uniform::whole, {2, 0, 0}});
+        for (const Uniform& u : k_light_counts) set(program, u);
         return program;
     }
 

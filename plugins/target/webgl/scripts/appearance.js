@@ -29,15 +29,22 @@ function modelUniforms(settings, model, prefix, struct, isSrgb) {
         .map((parameter) => [`${struct}.${parameter.name}`, toUniform(parameter, settings.get(prefix + parameter.name), isSrgb)]);
 }
 
+/** The members of a light's struct, in their order. */
+function structMembers(settings, model, prefix, isSrgb) {
+    return model.block.members.map((name) => {
+        const parameter = model.parameters.find((p) => p.name === name);
+        return toUniform(parameter, settings.get(prefix + name), isSrgb);
+    });
+}
+
 /** A snapshot of the settings as the renderer takes them, so that they may change while it refines a picture. */
 export function appearanceOf(settings) {
     const { scene } = settings;
     const isSrgb = scene.image.color_management === "srgb";
-    const lights = scene.lights.map((light, i) => ({
-        switch: light.switch,
-        isOn: { kind: "int", value: settings.get(`light.${i}.on`) ? 1 : 0 },
-        uniforms: modelUniforms(settings, scene.light_models[light.model], `light.${i}.value.`, light.uniform, isSrgb),
-    }));
+    const lights = scene.lights
+        .map(({ model }, i) => ({ model, isOn: settings.get(`light.${i}.on`), prefix: `light.${i}.value.` }))
+        .filter(({ isOn }) => isOn)
+        .map(({ model, prefix }) => ({ model, members: structMembers(settings, scene.light_models[model], prefix, isSrgb) }));
     const objects = scene.objects.map((object, i) => {
         const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
         const shadingModel = scene.shading_models[shading], reflectionModel = scene.reflection_models[reflection];

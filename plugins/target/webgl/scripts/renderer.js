@@ -1,8 +1,12 @@
 import { clippingPlanes, viewAxes, viewProjection } from "./camera.js";
 import { Film } from "./film.js";
+import { LightTable } from "./lights.js";
 import { Mesh } from "./mesh.js";
 import { ProgramCache } from "./programs.js";
 import { scale } from "./vectors.js";
+
+const POLL_MS = 2;
+const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 
 /** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
 export class Renderer {
@@ -14,6 +18,7 @@ export class Renderer {
         this.programs = new ProgramCache(gl, scene);
         this.meshes = scene.objects.map((object) => new Mesh(gl, object.mesh));
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
+        this.lights = new LightTable(gl, scene);
         this.emptyVertexArray = gl.createVertexArray();
         gl.enable(gl.DEPTH_TEST);
         gl.depthFunc(gl.GREATER);  // depths are 0 far away, where floats are densest
@@ -52,15 +57,11 @@ export class Renderer {
         for (const program of needed) program.check();
     }
 
-    setLights(program, appearance) {
-        for (const light of appearance.lights) {
-            program.setUniform(light.switch, light.isOn);
-            for (const [name, uniform] of light.uniforms) program.setUniform(name, uniform);
-        }
-    }
-
-    /** Renders one sample per pixel into the film's picture; `position` is within the pixel, from its top left. */
-    drawSample(film, appearance, position) {
+    /**
+     * Renders one sample per pixel into the film's picture; `position` is within the pixel, from its top left. `rows`: from
+     * which row to which, counted from the bottom; others stay as they are.
+     */
+    drawSample(film, appearance, position, rows = [0, film.height]) {
         const { gl } = this, { observer } = appearance;
         const offset = [0.5 - position[0], 0.5 - position[1]];
         const { near } = clippingPlanes(observer, viewAxes(observer).forward, this.bounds);
@@ -70,9 +71,12 @@ export class Renderer {
             eye: { kind: "vec3", value: observer.position },
             is_orthographic: { kind: "int", value: observer.projection === "orthographic" ? 1 : 0 },
             towards_observer: { kind: "vec3", value: scale(viewAxes(observer).forward, -1) },
+            ...this.lights.bind(LIGHTS_UNIT, appearance.lights),
         };
         gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
         gl.viewport(0, 0, film.width, film.height);
+        gl.enable(gl.SCISSOR_TEST);
+        gl.scissor(0, rows[0], film.width, rows[1] - rows[0]);
         gl.clearColor(...appearance.background, 1);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         const prepared = new Set();
@@ -82,12 +86,28 @@ export class Renderer {
             if (!prepared.has(program)) {
                 prepared.add(program);
                 for (const [name, uniform] of Object.entries(frameUniforms)) program.setUniform(name, uniform);
-                this.setLights(program, appearance);
             }
             for (const [name, uniform] of object.uniforms) program.setUniform(name, uniform);
             object.closed ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
             this.meshes[i].draw(object.rate, object.shading);
         });
+        gl.disable(gl.SCISSOR_TEST);
+    }
+
+    /** Calls back once the graphics have finished all that they have been given; never if they are lost before. */
+    whenFinished(callback) {
+        const { gl } = this, fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        const poll = () => {
+            if (gl.isContextLost()) return;
+            if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
+                setTimeout(poll, POLL_MS);
+                return;
+            }
+            gl.deleteSync(fence);
+            callback();
+        };
+        setTimeout(poll, 0);
     }
 
     /** A pass over all pixels into a framebuffer; null is the canvas. */

@@ -1,26 +1,25 @@
 import { appearanceOf } from "./appearance.js";
+import { AdaptiveResolution } from "./resolution.js";
 
 const REFINEMENT_DELAY_MS = 140;
-const SLOW_FRAME_MS = 50;
-const FAST_FRAME_MS = 24;
 const MAX_PIXELS = 2560 * 1600;
 const PIXEL_CENTER = [0.5, 0.5];
 
 /**
  * Keeps the canvas up to date: one sample per pixel, at a lower resolution where frames are slow, while something changes;
- * all samples once it rests.
+ * all samples once it rests. A frame is begun when the graphics have finished the one before, so that none queue up.
  */
 export class Viewport {
     /** `container`: the element that the canvas is fitted into. `onError` gets an error, or null after a successful frame. */
     constructor({ canvas, container, renderer, settings, onError }) {
         Object.assign(this, { canvas, container, renderer, settings, onError });
-        this.resolutionScale = 1;
+        this.resolution = new AdaptiveResolution();
         this.film = null;
+        this.isDrawing = false;
         this.frameRequest = 0;
         this.refinementTimer = 0;
-        this.lastDraftTime = 0;
-        this.consecutiveDrafts = 0;
         this.nextSample = -1;  // of the refinement; -1: a draft comes first
+        this.nextBand = 0;     // of that sample
         this.resizeObserver = new ResizeObserver(() => this.invalidate());
         this.resizeObserver.observe(container);
         settings.listeners.push(() => this.invalidate());
@@ -39,12 +38,13 @@ export class Viewport {
         if (this.isStopped) return;
         this.appearance = null;
         this.nextSample = -1;
+        this.nextBand = 0;
         clearTimeout(this.refinementTimer);
         this.requestFrame();
     }
 
     requestFrame() {
-        if (this.frameRequest === 0) this.frameRequest = requestAnimationFrame((time) => this.drawFrame(time));
+        if (this.frameRequest === 0 && !this.isDrawing) this.frameRequest = requestAnimationFrame(() => this.drawFrame());
     }
 
     /** The largest size in CSS pixels that fits into the container with the scene's aspect ratio. */
@@ -75,45 +75,57 @@ export class Viewport {
         this.renderer.encode(target, null);
     }
 
-    drawFrame(time) {
+    drawFrame() {
         this.frameRequest = 0;
         try {
-            this.nextSample < 0 ? this.drawDraft(time) : this.refine();
+            this.nextSample < 0 ? this.drawDraft() : this.refine();
         } catch (error) {
             this.onError(error);
         }
     }
 
-    drawDraft(time) {
-        this.adaptResolution(time);
+    drawDraft() {
         this.appearance = appearanceOf(this.settings);
         this.renderer.prepare(this.appearance);
-        this.prepareFilm(this.resolutionScale);
+        const start = performance.now();
+        this.prepareFilm(this.resolution.scale);
         this.renderer.drawSample(this.film, this.appearance, PIXEL_CENTER);
         this.show(this.film.picture);
         this.onError(null);
         this.nextSample = 0;
-        this.refinementTimer = setTimeout(() => this.requestFrame(), REFINEMENT_DELAY_MS);
+        this.whenFinished(() => {
+            this.resolution.adapt(performance.now() - start);
+            if (this.nextSample < 0) this.requestFrame();
+            else this.refinementTimer = setTimeout(() => this.requestFrame(), REFINEMENT_DELAY_MS);
+        });
     }
 
+    /** Draws a band of a sample. */
     refine() {
-        const { renderer } = this, positions = this.settings.scene.image.sample_positions;
+        const { renderer } = this, { bands } = this.resolution, positions = this.settings.scene.image.sample_positions;
         this.prepareFilm(1);
-        if (this.nextSample === 0) renderer.clearSum(this.film);
-        renderer.drawSample(this.film, this.appearance, positions[this.nextSample]);
-        renderer.accumulate(this.film, 1 / positions.length);
-        this.nextSample += 1;
-        if (this.nextSample < positions.length) return this.requestFrame();
-        this.show(this.film.sum);
-        this.nextSample = 0;
+        const { height } = this.film, [bottom, top] = [this.nextBand, this.nextBand + 1].map((k) => Math.round((k * height) / bands));
+        if (this.nextSample === 0 && this.nextBand === 0) renderer.clearSum(this.film);
+        renderer.drawSample(this.film, this.appearance, positions[this.nextSample], [bottom, top]);
+        this.nextBand += 1;
+        if (this.nextBand === bands) {
+            renderer.accumulate(this.film, 1 / positions.length);
+            this.nextBand = 0;
+            this.nextSample += 1;
+        }
+        const isWhole = this.nextSample === positions.length;
+        if (isWhole) this.show(this.film.sum);
+        this.whenFinished(() => {
+            if (!isWhole || this.nextSample < 0) this.requestFrame();
+        });
     }
 
-    adaptResolution(time) {
-        const elapsed = time - this.lastDraftTime;
-        this.lastDraftTime = time;
-        this.consecutiveDrafts = elapsed > 400 ? 0 : this.consecutiveDrafts + 1;
-        if (this.consecutiveDrafts < 3) return;  // the first ones may include compiling shaders and filling buffers
-        if (elapsed > SLOW_FRAME_MS) this.resolutionScale = Math.max(0.25, this.resolutionScale * 0.8);
-        else if (elapsed < FAST_FRAME_MS) this.resolutionScale = Math.min(1, this.resolutionScale * 1.05);
+    /** Calls back when the graphics have finished the frame, until when no other is begun. */
+    whenFinished(callback) {
+        this.isDrawing = true;
+        this.renderer.whenFinished(() => {
+            this.isDrawing = false;
+            if (!this.isStopped) callback();
+        });
     }
 }

@@ -1,6 +1,7 @@
 // The shaders of a scene, in parts: GLSL 3.30 and GLSL ES 3.00, whichever the header says.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,13 +23,21 @@ struct GlslParts {
 /// Throws std::runtime_error where the kernels cannot stand in one program.
 GlslParts glsl_of(const ExportedScene& scene);
 
-/// The uniforms of a light: "point_lights[2]" and, a bool, "point_lights_on[2]".
-struct LightUniform {
-    std::string values;
-    std::string is_on;
+/// Texels in a row of the texture `light_table`, from which shaders read lights. A texel has four 32-bit
+/// integers (RGBA32I) and holds a member of a light's struct: the bits of a vector's three floats, of one
+/// float, or an integer.
+constexpr int k_light_table_width = 1024;
+
+/// Where the lights of one model are in the table: one after the other, each with its struct's members in
+/// their order (KernelText::members).
+struct LightBlock {
+    std::string count;       // the uniform, an int, of how many of them shine: "point_light_count"
+    std::size_t lights = 0;  // how many there is room for: those of the scene
+    std::size_t first = 0;   // the texel where they begin
+    std::size_t size = 0;    // texels per light
 };
-/// Of each light of the scene.
-std::vector<LightUniform> light_uniforms(const ExportedScene& scene);
+/// Of each light model of the scene.
+std::vector<LightBlock> light_blocks(const ExportedScene& scene);
 
 /// "face", "vertex", "fragment".
 const char* rate_name(ShadingRate rate);

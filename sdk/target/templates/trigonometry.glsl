@@ -1,0 +1,25 @@
+// GLSL leaves to the driver how exact these are; some have 11 bits, with which the rim of a cone or of a highlight lies
+// elsewhere. Here they are exact to some units of a float's last bit.
+float exact_sin(float x) {
+    float n = floor(0.318309886 * x + 0.5);
+    float r = ((x - n * 3.140625) - n * 9.67502593994e-4) - n * 1.50995799e-7;  // x - n pi
+    float z = r * r;
+    float p = (((2.6052249168e-6 * z - 0.00019809075306) * z + 0.008333051064) * z - 0.16666657992) * z + 1.0;
+    return mod(n, 2.0) == 0.0 ? r * p : -r * p;
+}
+float exact_cos(float x) { return exact_sin(x + 1.57079633); }
+float asin_of_small(float t) {  // t from 0 to 1/2
+    float z = t * t;
+    return t * ((((0.050653528257 * z + 0.039647069538) * z + 0.075476364806) * z + 0.16665105905) * z + 1.0000000814);
+}
+float exact_acos(float x) {
+    float a = min(abs(x), 1.0);
+    float of_a = a > 0.5 ? 2.0 * asin_of_small(sqrt(0.5 - 0.5 * a)) : 1.57079633 - asin_of_small(a);
+    return x < 0.0 ? 3.14159265 - of_a : of_a;
+}
+float exact_asin(float x) { return 1.57079633 - exact_acos(x); }
+#define sin exact_sin
+#define cos exact_cos
+#define acos exact_acos
+#define asin exact_asin
+
