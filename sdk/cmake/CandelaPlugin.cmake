@@ -1,5 +1,5 @@
 # candela_add_plugin(<kind>/<name> SOURCES <file>... [KERNEL <file>] [EMBED <file>...] [LIBRARIES <target>...]
-#                    [VERSION <x.y.z>])
+#                    [VERSION <x.y.z>] [CONFORMANCE_VALUES <parameter>=<value>...])
 #
 # A plugin: <kind>-<name>.so and, made from it, <kind>-<name>.json. Kind is light, reflection, shading, shape,
 # image or target.
@@ -10,6 +10,7 @@
 #   EMBED      files that the sources embed, with CANDELA_EMBED(variable, CANDELA_SOURCE_DIR "/...") (candela/embed.h)
 #   LIBRARIES  what else is linked
 #   VERSION    of the plugin; the project's by default
+#   CONFORMANCE_VALUES  parameters' values for "conforms", such as a file that the plugin needs: file=/full/path
 include_guard(GLOBAL)
 
 set(CANDELA_PLUGIN_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
@@ -32,7 +33,7 @@ set(CANDELA_HARDENING_COMPILE_OPTIONS
 set(CANDELA_HARDENING_LINK_OPTIONS -Wl,-z,relro -Wl,-z,now)
 
 function(candela_add_plugin id)
-    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION" "SOURCES;EMBED;LIBRARIES")
+    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION" "SOURCES;EMBED;LIBRARIES;CONFORMANCE_VALUES")
     if(PLUGIN_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "candela_add_plugin(${id}): unknown arguments ${PLUGIN_UNPARSED_ARGUMENTS}")
     endif()
@@ -67,6 +68,10 @@ function(candela_add_plugin id)
         cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
         target_compile_definitions(${target} PRIVATE CANDELA_KERNEL_FILE="${kernel}")
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS ${kernel})
+        # What programs that are generated from the kernel would not compile with is said now, once, at its line.
+        target_compile_options(${target} PRIVATE
+            -Werror=unused-variable -Werror=uninitialized
+            $<$<CXX_COMPILER_ID:Clang>:-Werror=sometimes-uninitialized>)
     endif()
     if(PLUGIN_EMBED)
         list(TRANSFORM PLUGIN_EMBED PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]")
@@ -99,7 +104,9 @@ function(candela_add_plugin id)
 
     # A test of all that a host relies on.
     if(TARGET candela::conformance AND (CANDELA_CONFORMANCE_TESTS OR NOT DEFINED CANDELA_CONFORMANCE_TESTS))
-        add_test(NAME "${id} conforms" COMMAND candela::conformance $<TARGET_FILE:${target}>)
+        list(TRANSFORM PLUGIN_CONFORMANCE_VALUES PREPEND --set=)
+        add_test(NAME "${id} conforms"
+            COMMAND candela::conformance $<TARGET_FILE:${target}> ${PLUGIN_CONFORMANCE_VALUES})
         set_tests_properties("${id} conforms" PROPERTIES LABELS conformance TIMEOUT 900)
     endif()
 endfunction()

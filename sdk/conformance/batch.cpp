@@ -12,12 +12,24 @@ using candela::PluginKind;
 using candela::Vec3;
 
 Arrays::Arrays(std::size_t arrays, std::size_t count, std::size_t shift)
-    : count_(count), shift_(shift), data_(arrays, std::vector<float>(2 * k_guard + count + shift, k_mark)) {
+    : count_(count),
+      shift_(shift),
+      data_(arrays, std::vector<float>(2 * k_guard + count + shift, std::bit_cast<float>(k_poison))) {
     fill(0);
 }
 
 void Arrays::fill(float value) {
     for (std::size_t a = 0; a < arrays(); ++a) std::fill_n((*this)[a], count_, value);
+}
+
+void Arrays::poison() { fill(std::bit_cast<float>(k_poison)); }
+
+void Arrays::surround_with(float value) {
+    for (std::vector<float>& array : data_) {
+        const auto begin = array.begin() + static_cast<std::ptrdiff_t>(k_guard + shift_);
+        std::fill(array.begin(), begin, value);
+        std::fill(begin + static_cast<std::ptrdiff_t>(count_), array.end(), value);
+    }
 }
 
 Arrays Arrays::part(std::size_t first, std::size_t count, std::size_t shift) const {
@@ -28,7 +40,7 @@ Arrays Arrays::part(std::size_t first, std::size_t count, std::size_t shift) con
 
 std::string Arrays::trespass() const {
     for (const std::vector<float>& array : data_) {
-        const auto is_mark = [](float x) { return x == k_mark; };
+        const auto is_mark = [](float x) { return std::bit_cast<std::uint32_t>(x) == k_poison; };
         const auto begin = array.begin() + static_cast<std::ptrdiff_t>(k_guard + shift_);
         if (!std::all_of(array.begin(), begin, is_mark)) return "before";
         if (!std::all_of(begin + static_cast<std::ptrdiff_t>(count_), array.end(), is_mark)) return "after";
@@ -205,8 +217,51 @@ Arrays inputs_for(std::size_t count, unsigned seed) {
     return in;
 }
 
+Arrays aligned_inputs() {
+    constexpr std::size_t k_cases = 16;
+    Arrays in = inputs_for(8 * k_cases, 11);
+    for (std::size_t i = 0; i < in.count(); ++i) {
+        const Vec3 n = in.at(k_normal, i), t = in.at(k_tangent, i), v = in.at(k_observer, i);
+        const Vec3 mirrored = candela::normalized(2 * dot(n, v) * n - v);
+        // Half of them with normals along an axis, where products are exact.
+        const Vec3 views[] = {v, n, v, v, v, n, n, t, t, v, -t, t, v, n, v, t};
+        const Vec3 lights[] = {v, v, n, mirrored, -v, n, -n, n, t, -n, t, -t, t, t, -mirrored, v};
+        in.vec3(k_observer).set(i, views[i % k_cases]);
+        in.vec3(k_light).set(i, lights[i % k_cases]);
+        in.vec3(k_vertex_normal).set(i, (i % 2 == 0 ? 1.0f : 0.5f) * n);
+        if (i < in.count() / 2) continue;
+        in.vec3(k_normal).set(i, {0, 1, 0});
+        in.vec3(k_tangent).set(i, {1, 0, 0});
+        in.vec3(k_vertex_normal).set(i, {0, 1, 0});
+        in.vec3(k_barycentric)
+            .set(i, {i % 3 == 0 ? 1.0f : 0.0f, i % 3 == 1 ? 1.0f : 0.0f, i % 3 == 2 ? 1.0f : 0.0f});
+        const Vec3 axes[] = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {0.6f, 0.8f, 0}, {0, 0.8f, -0.6f}};
+        in.vec3(k_observer).set(i, axes[i % 5]);
+        in.vec3(k_light).set(i, axes[i / 5 % 5]);
+        in.vec3(k_dpdu).set(i, {2, 0, 0});
+        in.vec3(k_dpdv).set(i, {0, 0, -2});
+    }
+    return in;
+}
+
+Vec3 turned(Vec3 p) {
+    // By 0.6435 rad about z (3-4-5), then about x.
+    const Vec3 q{0.8f * p.x - 0.6f * p.y, 0.6f * p.x + 0.8f * p.y, p.z};
+    return {q.x, 0.28f * q.y - 0.96f * q.z, 0.96f * q.y + 0.28f * q.z};
+}
+
+Arrays turned(const Arrays& in) {
+    Arrays result = in;
+    for (const std::size_t vector :
+         {k_normal, k_observer, k_tangent, k_light, k_vertex_normal, k_dpdu, k_dpdv}) {
+        for (std::size_t i = 0; i < in.count(); ++i) result.vec3(vector).set(i, turned(in.at(vector, i)));
+    }
+    return result;
+}
+
 Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift) {
     Arrays out(3 * call.outputs.size(), in.count(), shift);
+    if (!call.adds) out.poison();
     call.run(in.count(), in, out);
     return out;
 }

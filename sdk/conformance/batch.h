@@ -1,7 +1,9 @@
 // The plugins that work on batches, seen alike: arrays of floats in, arrays of floats out.
 #pragma once
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,7 +11,11 @@
 
 #include "subject.h"
 
-/// Arrays of one length, with room before and after each that nobody may write to.
+/// A signalling NaN. Whatever is computed from it has other bits, so that no arithmetic leaves it as it is.
+inline constexpr std::uint32_t k_poison = 0x7fa5'5a5a;
+
+/// Arrays of one length, with room before and after each that nobody may write to. What is read there is
+/// NaN.
 class Arrays {
   public:
     /// `shift`: floats by which each array starts off its alignment.
@@ -29,6 +35,13 @@ class Arrays {
     candela::Vec3 at(std::size_t first, std::size_t i) const { return vec3(first)[i]; }
 
     void fill(float value);
+    /// Fills what lies before and after the arrays, instead of with NaN: for what reads it and hides that.
+    void surround_with(float value);
+    /// Fills the arrays with what only writing removes; is_written() finds it again.
+    void poison();
+    bool is_written(std::size_t array, std::size_t i) const {
+        return std::bit_cast<std::uint32_t>((*this)[array][i]) != k_poison;
+    }
     /// Elements [first, first + count) of all arrays.
     Arrays part(std::size_t first, std::size_t count, std::size_t shift = 0) const;
     /// "before" or "after" where the room there was written to, or empty.
@@ -37,7 +50,6 @@ class Arrays {
 
   private:
     static constexpr std::size_t k_guard = 64;
-    static constexpr float k_mark = -1.2345e30f;
     std::size_t count_;
     std::size_t shift_;
     std::vector<std::vector<float>> data_;
@@ -80,6 +92,12 @@ BatchSubject batch_subject(const Values& values);
 
 /// Inputs as a renderer gives them, the same for one `seed`: unit vectors, positions, colours.
 Arrays inputs_for(std::size_t count, unsigned seed = 1);
+/// Inputs whose vectors coincide, oppose each other or are orthogonal: V = N, L = V, a vertex normal that is
+/// the face normal …
+Arrays aligned_inputs();
+/// The same inputs in a world that is turned: all vectors are, positions are not.
+Arrays turned(const Arrays& in);
+candela::Vec3 turned(candela::Vec3 v);
 
 /// What a call gives.
 Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift = 0);

@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +16,8 @@
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
+
+#include "descendants.h"
 
 namespace {
 
@@ -37,6 +41,43 @@ double seconds_since(Clock::time_point begin) {
     ::_exit(0);
 }
 
+/// The process between the kit and the plugin: it has what the plugin starts as its descendants, and ends all
+/// of them when the plugin has ended, when the kit asks for it (SIGTERM), and when the kit is gone.
+[[noreturn]] void be_the_guardian(pid_t kit, int report, const std::function<void(Findings&)>& work) {
+    sigset_t awaited, usual;
+    ::sigemptyset(&awaited);
+    for (const int signal : {SIGCHLD, SIGTERM}) ::sigaddset(&awaited, signal);
+    ::sigprocmask(SIG_BLOCK, &awaited, &usual);
+    // Not with the terminal's signals: the kit decides.
+    ::setpgid(0, 0);
+    inherit_orphans();
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != kit) ::_exit(1);
+    const pid_t guardian = ::getpid();
+    const pid_t worker = ::fork();
+    if (worker < 0) ::_exit(1);
+    if (worker == 0) {
+        ::sigprocmask(SIG_SETMASK, &usual, nullptr);
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (::getppid() != guardian) ::_exit(1);
+        be_the_child(report, work);
+    }
+    for (;;) {
+        int signal = 0;
+        ::sigwait(&awaited, &signal);
+        int status = 0;
+        bool has_ended = false;
+        while (const pid_t ended = ::waitpid(-1, &status, WNOHANG)) {
+            has_ended = ended == worker;
+            if (ended < 0 || has_ended) break;
+        }
+        if (!has_ended && signal != SIGTERM) continue;
+        end_descendants();
+        if (has_ended) Findings(report).add("ended", std::to_string(status));
+        ::_exit(0);
+    }
+}
+
 /// All that the child says until it ends or its time is over; whether it ended.
 bool read_all(int report, double seconds, std::string& text) {
     const auto begin = Clock::now();
@@ -54,15 +95,17 @@ bool read_all(int report, double seconds, std::string& text) {
     }
 }
 
-void judge(Outcome& outcome, const std::string& text, int status) {
+void judge(Outcome& outcome, const std::string& text) {
     bool is_done = false;
+    int status = 0;
     const auto worsen = [&](Verdict verdict) { outcome.verdict = std::max(outcome.verdict, verdict); };
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         const std::size_t space = line.find(' ');
         const std::string verdict = line.substr(0, space);
         is_done = is_done || verdict == "done";
-        if (verdict == "done") continue;
+        if (verdict == "ended") status = std::stoi(line.substr(space + 1));
+        if (verdict == "done" || verdict == "ended") continue;
         outcome.messages.push_back(space == std::string::npos ? "" : line.substr(space + 1));
         worsen(verdict == "failed"    ? Verdict::failed
                : verdict == "skipped" ? Verdict::skipped
@@ -111,31 +154,44 @@ Outcome run_in_child(const std::string& group, double seconds, const std::functi
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
     const auto begin = Clock::now();
     // Boost.Process starts programs; this child goes on in this one, which has nothing of a plugin in it yet.
-    const pid_t child = ::fork();
-    if (child < 0) throw std::runtime_error(std::strerror(errno));
-    if (child == 0) {
+    const pid_t kit = ::getpid();
+    const pid_t guardian = ::fork();
+    if (guardian < 0) throw std::runtime_error(std::strerror(errno));
+    if (guardian == 0) {
         ::close(ends[0]);
-        be_the_child(ends[1], work);
+        be_the_guardian(kit, ends[1], work);
     }
-    ::setpgid(child, child);
     ::close(ends[1]);
     Outcome outcome{group, Verdict::passed, {}, 0};
     std::string text;
     const bool ended = read_all(ends[0], seconds, text);
-    if (!ended) ::kill(-child, SIGKILL);
+    if (!ended) ::kill(guardian, SIGTERM);
     ::close(ends[0]);
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    while (::waitpid(guardian, nullptr, 0) < 0 && errno == EINTR) {
     }
-    // What a plugin started and left behind.
-    ::kill(-child, SIGKILL);
     outcome.seconds = seconds_since(begin);
-    if (ended) {
-        judge(outcome, text, status);
-    } else {
-        judge(outcome, text + "done\n", 0);
+    judge(outcome, ended ? text : text + "done\n");
+    if (!ended) {
         outcome.verdict = Verdict::timed_out;
         outcome.messages.push_back(fmt::format("not finished after {} s", seconds));
     }
+    return outcome;
+}
+
+Outcome run_here(const std::string& group, const std::function<void(Findings&)>& work) {
+    const int report = ::memfd_create("candela-conformance", MFD_CLOEXEC);
+    if (report < 0) throw std::runtime_error(std::strerror(errno));
+    const auto begin = Clock::now();
+    Findings findings(report);
+    work(findings);
+    findings.add("done", "");
+    Outcome outcome{group, Verdict::passed, {}, seconds_since(begin)};
+    std::string text;
+    ::lseek(report, 0, SEEK_SET);
+    char buffer[4096];
+    for (ssize_t count = 0; (count = ::read(report, buffer, sizeof buffer)) > 0;)
+        text.append(buffer, static_cast<std::size_t>(count));
+    ::close(report);
+    judge(outcome, text);
     return outcome;
 }

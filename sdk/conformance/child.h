@@ -17,6 +17,9 @@ class Findings {
     int descriptor_;
 };
 
-/// Runs `work` in a child with a process group of its own, standard output and error thrown away; kills it
-/// after `seconds`.
+/// Runs `work` in a child with a process group of its own, standard output and error thrown away; ends it
+/// after `seconds`. Whatever it started has ended when this returns, and soon after this process is killed.
 Outcome run_in_child(const std::string& group, double seconds, const std::function<void(Findings&)>& work);
+
+/// Runs `work` in this process, where a debugger sees it; without a limit.
+Outcome run_here(const std::string& group, const std::function<void(Findings&)>& work);

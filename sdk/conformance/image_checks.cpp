@@ -1,6 +1,7 @@
 // What must hold of image formats.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstddef>
@@ -8,9 +9,12 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "kernel_program.h"
@@ -41,6 +45,24 @@ struct Picture {
                 }
             }
         }
+    }
+
+    /// One colour after another, in one row, for 1, 2, … pixels: what formats that count equal pixels are
+    /// tried with, around the largest counts of seven and eight bits as well.
+    static Picture of_runs() {
+        std::vector<std::size_t> colors;
+        std::size_t run = 0;
+        for (const auto& [shortest, longest] : {std::pair{1, 39}, std::pair{120, 135}, std::pair{250, 260}}) {
+            for (int length = shortest; length <= longest; ++length)
+                colors.insert(colors.end(), static_cast<std::size_t>(length), run++);
+        }
+        Picture result(static_cast<int>(colors.size()), 1);
+        for (std::size_t i = 0; i < result.reals.size(); ++i) {
+            const float value = (colors[i / 3] >> (i % 3)) % 2 == 0 ? 0.25f : 0.75f;
+            result.reals[i] = value;
+            result.bytes[i] = static_cast<std::uint8_t>(std::lround(255 * value));
+        }
+        return result;
     }
 
     candela::PictureView view(PixelType pixels) const {
@@ -106,6 +128,26 @@ std::shared_ptr<ImageFormat> reader_of(const FileFormat& format, const std::shar
 /// What comes back must be that on average: some formats are lossy, some round as floats.
 constexpr double k_mean_difference = 0.06;
 
+/// And that in each stretch of so many numbers.
+constexpr double k_local_difference = 0.2;
+constexpr std::size_t k_stretch = 96;
+
+/// The pixel from which on a stretch comes back as something else, or nothing.
+std::optional<std::size_t> differing_stretch(const std::vector<float>& sent, const std::vector<float>& back) {
+    for (std::size_t first = 0; first + k_stretch <= sent.size(); first += k_stretch) {
+        double difference = 0;
+        for (std::size_t i = first; i < first + k_stretch; ++i)
+            difference += std::abs(double{sent[i]} - double{back[i]});
+        if (!(difference <= k_local_difference * static_cast<double>(k_stretch))) return first / 3;
+    }
+    return std::nullopt;
+}
+
+void write_file(const fs::path& file, std::span<const std::byte> bytes) {
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
 }  // namespace
 
 TEST_CASE("round trip: what it writes is read as the same picture, of any size", "[image]") {
@@ -115,13 +157,12 @@ TEST_CASE("round trip: what it writes is read as the same picture, of any size",
     for (const FileFormat& format : subject().formats) {
         const auto reader = reader_of(format, writer);
         if (reader == nullptr) continue;
-        for (const Picture& picture : {Picture(1, 1), Picture(7, 5), Picture(64, 64), Picture(1000, 3)}) {
+        for (const Picture& picture :
+             {Picture(1, 1), Picture(7, 5), Picture(64, 64), Picture(1000, 3), Picture::of_runs()}) {
             Memory memory;
             writer->write(picture.view(format.pixels), format.extension, memory);
             const fs::path file = directory.path() / (std::string("picture.") + format.extension);
-            std::ofstream(file, std::ios::binary)
-                .write(reinterpret_cast<const char*>(memory.bytes.data()),
-                       static_cast<std::streamsize>(memory.bytes.size()));
+            write_file(file, memory.bytes);
             ReadBack back;
             try {
                 reader->read(file.c_str(), back);
@@ -132,6 +173,9 @@ TEST_CASE("round trip: what it writes is read as the same picture, of any size",
             if (back.width != picture.width || back.height != picture.height)
                 FAIL("a ." << format.extension << " of " << picture.size() << " comes back as " << back.width
                            << " x " << back.height);
+            if (const auto pixel = differing_stretch(picture.reals, back.values))
+                FAIL("from pixel " << *pixel << " on, the pixels of a ." << format.extension << " of "
+                                   << picture.size() << " come back as others");
             for (std::size_t c = 0; c < 3; ++c) {
                 double difference = 0;
                 for (std::size_t i = c; i < picture.reals.size(); i += 3)
@@ -149,6 +193,64 @@ TEST_CASE("round trip: what it writes is read as the same picture, of any size",
         }
     }
     if (compared == 0) SKIP("no installed plugin reads its formats");
+}
+
+TEST_CASE("truncated: a file that is cut off is refused, not read as a picture", "[image]") {
+    const std::shared_ptr<ImageFormat> format_plugin = make<ImageFormat>(default_values());
+    const TemporaryDirectory directory;
+    bool reads_any = false;
+    for (const FileFormat& format : subject().formats) {
+        if (!format.reads) continue;
+        reads_any = true;
+        Memory memory;
+        format_plugin->write(Picture(64, 48).view(format.pixels), format.extension, memory);
+        const std::size_t whole = memory.bytes.size();
+        const fs::path file = directory.path() / (std::string("cut.") + format.extension);
+        for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{5}, std::size_t{20},
+                                         whole / 4, whole / 2, 3 * whole / 4, 9 * whole / 10}) {
+            write_file(file, std::span(memory.bytes).first(std::min(length, whole)));
+            bool is_refused = false;
+            try {
+                ReadBack back;
+                format_plugin->read(file.c_str(), back);
+            } catch (const std::exception&) {
+                is_refused = true;
+            }
+            if (!is_refused)
+                FAIL("a ." << format.extension << " that is cut off after " << length << " of " << whole
+                           << " bytes is read as if it were whole");
+        }
+    }
+    if (!reads_any) SKIP("it reads no files");
+}
+
+TEST_CASE("repeatable: the same picture gives the same file, again and from 4 threads at once", "[image]") {
+    const auto writer = make<ImageFormat>(default_values());
+    for (const FileFormat& format : subject().formats) {
+        const auto written = [&](const Picture& picture) {
+            Memory memory;
+            writer->write(picture.view(format.pixels), format.extension, memory);
+            return memory.bytes;
+        };
+        const std::vector<Picture> pictures{Picture(64, 48), Picture(31, 17), Picture(100, 9),
+                                            Picture(5, 80)};
+        std::vector<std::vector<std::byte>> first;
+        for (const Picture& picture : pictures) first.push_back(written(picture));
+        std::vector<int> differs(pictures.size());
+        std::vector<std::thread> threads;
+        for (std::size_t t = 0; t < pictures.size(); ++t) {
+            threads.emplace_back([&, t] {
+                for (int round = 0; round < 10 && differs[t] == 0; ++round)
+                    differs[t] = written(pictures[t]) == first[t] ? 0 : 1;
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+        for (std::size_t t = 0; t < pictures.size(); ++t) {
+            if (differs[t] != 0)
+                FAIL("a ." << format.extension << " of " << pictures[t].size()
+                           << " is another file the second time, or while other threads write");
+        }
+    }
 }
 
 TEST_CASE("failing writes: where its bytes cannot be stored it says so", "[image]") {

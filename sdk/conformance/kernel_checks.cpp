@@ -6,6 +6,8 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <fstream>
+#include <regex>
+#include <sstream>
 #include <string>
 
 #include "batch.h"
@@ -19,6 +21,15 @@ namespace {
 
 void skip_without_kernel() {
     if (subject().kernel.text == nullptr) SKIP("it has no kernel text: programs cannot be generated from it");
+}
+
+/// "cook_torrance" and "CookTorrance" alike.
+std::string lower_without_separators(const std::string& name) {
+    std::string result;
+    for (const char c : name) {
+        if (c != '_') result += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return result;
 }
 
 /// The compiler may join a product and a sum in one build and not in the other, and a large exponent makes
@@ -78,10 +89,34 @@ void compare_shape(const KernelProgram& program, const Values& values) {
 
 }  // namespace
 
+TEST_CASE("kernel names: all that it declares begins with its own name, as several stand in one program",
+          "[reflection][light][shading][shape]") {
+    skip_without_kernel();
+    const candela::KernelText& kernel = subject().kernel;
+    const std::string prefix = lower_without_separators(kernel.prefix);
+    static const std::regex k_declared(
+        R"(^(?:struct\s+(\w+)|#\s*define\s+(\w+)|(?:KERNEL|const|constexpr|inline|static)\s[\w\s]*?\b(\w+)\s*[({=\[]))");
+    std::istringstream lines(kernel.text);
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        std::smatch found;
+        if (!std::regex_search(line, found, k_declared)) continue;
+        const std::string name = found[1].matched ? found[1] : found[2].matched ? found[2] : found[3];
+        if (lower_without_separators(name).starts_with(prefix)) continue;
+        FAIL_CHECK(kernel_file_name()
+                   << ":" << number << ": '" << name << "' may be declared by another kernel of "
+                   << "the same program; call it " << kernel.prefix << "_" << name << ", or so");
+    }
+}
+
 TEST_CASE("kernel as C++: the text compiles, and gives the numbers that the plugin gives",
           "[reflection][light][shading][shape]") {
     skip_without_kernel();
     const KernelProgram program;
+    if (!program.warnings().empty())
+        FAIL_CHECK("programs that are generated from the kernel's text compile with warnings:"
+                   << program.warnings());
     for (const Values& values : many_values(20)) {
         if (subject_manifest().kind == PluginKind::shape) {
             compare_shape(program, values);
@@ -115,8 +150,16 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
                               << prelude << "\n#line 1\n"
                               << subject().kernel.text << "\nvoid main() { color = vec4(1.0); }\n";
         const ProgramOutput compiled = output_of(*validator, {shader.string()});
-        if (compiled.exit_code != 0)
-            FAIL("the kernel's text does not compile as GLSL " << version << ":\n"
-                                                               << compiled.text.substr(0, 400));
+        if (compiled.exit_code == 0) continue;
+        // "ERROR: 0:12: …", after a line with the file's name: "#line" has set the number.
+        static const std::regex k_error("ERROR: \\d+:(\\d+):");
+        std::istringstream lines(compiled.text);
+        std::string errors;
+        for (std::string line; std::getline(lines, line) && errors.size() < 400;) {
+            if (std::regex_search(line, k_error))
+                errors += "\n" + std::regex_replace(line, k_error, kernel_file_name() + ":$1:");
+        }
+        FAIL("the kernel's text does not compile as GLSL "
+             << version << ":" << (errors.empty() ? "\n" + compiled.text.substr(0, 400) : errors));
     }
 }

@@ -1,9 +1,9 @@
 #include "kernel_program.h"
 
 #include <fmt/format.h>
-#include <cstdlib>
 
 #include <catch2/catch_test_macros.hpp>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -99,6 +99,9 @@ std::string body_of(PluginKind kind) {
     }
 }
 
+/// What the kit adds to the kernel's text, in the compiler's messages.
+constexpr const char* k_calls_file = "the kit's calls of it";
+
 /// The whole program. Functions get the parameters first, or not at all, and the sample's number last, if
 /// they take it.
 std::string source() {
@@ -109,7 +112,8 @@ std::string source() {
                                    : parameters + " m; (void)p; (void)sample;\n" + members_from_parameters();
     const std::string text = fmt::format(
         "#include \"candela/kernel.h\"\n"
-        "namespace candela::kernel {{\n{}\n}}\n"
+        "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
+        "namespace candela::kernel {{\n#line 1 \"{}\"\n{}\n#line 1 \"{}\"\n}}\n"
         "using namespace candela::kernel;\n"
         "#define CALL(name, ...) [&](auto m_, auto... a) {{ \\\n"
         "    if constexpr (requires {{ {}_##name(m_, a...); }}) return {}_##name(m_, a...); \\\n"
@@ -117,23 +121,24 @@ std::string source() {
         "#define SAMPLED(name, s) [&](auto m_, auto a) {{ \\\n"
         "    if constexpr (requires {{ {}_##name(m_, a, sample); }}) return {}_##name(m_, a, sample); \\\n"
         "    else return CALL(name, a); }}(m, s)\n",
-        kernel.text, kernel.prefix, kernel.prefix, kernel.prefix, kernel.prefix, kernel.prefix);
+        kernel_file_name(), kernel.text, k_calls_file, kernel.prefix, kernel.prefix, kernel.prefix,
+        kernel.prefix, kernel.prefix);
     std::string body = body_of(subject_manifest().kind);
     for (std::size_t at; (at = body.find("PARAMETERS")) != std::string::npos;) body.replace(at, 10, filled);
     return text + body;
 }
 
-/// Lines that say what is wrong, few enough to read.
-std::string errors_in(const std::string& log) {
+/// Lines that say what is wrong, few enough to read: those that hold `word` and begin with `begin`.
+std::string lines_with(const std::string& word, const std::string& begin, const std::string& log) {
     std::istringstream lines(log);
     std::string result;
     int shown = 0;
     for (std::string line; std::getline(lines, line) && shown < 4;) {
-        if (line.find("error") == std::string::npos) continue;
+        if (line.find(word) == std::string::npos || !line.starts_with(begin)) continue;
         result += "\n" + line;
         ++shown;
     }
-    return result.empty() ? "\n" + log.substr(0, 400) : result;
+    return result;
 }
 
 std::vector<float> delivered(const Values& values) {
@@ -151,6 +156,8 @@ std::vector<float> delivered(const Values& values) {
 }
 
 }  // namespace
+
+std::string kernel_file_name() { return subject_manifest().name + ".kernel"; }
 
 fs::path sdk_include_directory() {
     std::error_code problem;
@@ -179,11 +186,19 @@ KernelProgram::KernelProgram() {
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
     const fs::path file = directory_.path() / "kernel.cpp", library = directory_.path() / "kernel.so";
     std::ofstream(file) << source();
-    const ProgramOutput compiled =
-        output_of(*compiler, {"-std=c++20", "-O1", "-fPIC", "-shared", "-w", "-ffp-contract=off",
-                              "-I" + include.string(), file.string(), "-o", library.string()});
-    if (compiled.exit_code != 0)
-        FAIL("the kernel's text does not compile as C++ (" << *compiler << "):" << errors_in(compiled.text));
+    std::vector<std::string> arguments{"-std=c++20",       "-O1", "-fPIC", "-shared", "-Wall", "-Wextra",
+                                       "-ffp-contract=off"};
+    // A local variable that is not initialised is NaN then; g++ 11 has no such option.
+    if (compiler->find("clang") != std::string::npos)
+        arguments.emplace_back("-ftrivial-auto-var-init=pattern");
+    arguments.insert(arguments.end(), {"-isystem", include.string(), file.string(), "-o", library.string()});
+    const ProgramOutput compiled = output_of(*compiler, arguments);
+    if (compiled.exit_code != 0) {
+        const std::string errors = lines_with("error", "", compiled.text);
+        FAIL("the kernel's text does not compile as C++ ("
+             << *compiler << "):" << (errors.empty() ? "\n" + compiled.text.substr(0, 400) : errors));
+    }
+    warnings_ = lines_with(": warning: ", kernel_file_name() + ":", compiled.text);
     try {
         library_.load(library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const std::exception& problem) {

@@ -11,6 +11,9 @@
 /// The folder that has candela/kernel.h, above the kit's own; empty where there is none.
 std::filesystem::path sdk_include_directory();
 
+/// "cel.kernel": what messages call the plugin's kernel text, whose lines they count.
+std::string kernel_file_name();
+
 /// A folder that is gone when this is.
 class TemporaryDirectory {
   public:
@@ -31,6 +34,10 @@ class KernelProgram {
     /// compiler.
     KernelProgram();
 
+    /// What the compiler warns of in the kernel's text, a line each, with the warnings that generated
+    /// programs are compiled with.
+    const std::string& warnings() const { return warnings_; }
+
     /// What the calls of batch_subject() give, by name; `sample` is the light's.
     void run(const std::string& call, const Values& values, int sample, const Arrays& in, Arrays& out) const;
     /// A shape's position at (u, v) of its parameter square.
@@ -42,5 +49,6 @@ class KernelProgram {
     Function function(const std::string& name) const;
 
     TemporaryDirectory directory_;
+    std::string warnings_;
     boost::dll::shared_library library_;
 };

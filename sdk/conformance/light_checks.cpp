@@ -34,6 +34,27 @@ std::vector<float> sent_to(const Values& values, const std::vector<Vec3>& points
     return sum;
 }
 
+constexpr float k_far = 1e5f;
+
+/// How many times as much light comes to 2 k_far as to k_far, by the parameters that the shipped lights share
+/// (candela/light_plugin.h); nothing where it has none of them.
+std::optional<double> law_of_parameters(const Values& values) {
+    const candela::ParamSet& set = values.set;
+    const auto value = [&](const char* name) -> const candela::Value* {
+        const std::size_t index = set.index_of(name);
+        return index < set.schema().size() && set.get(index) ? &*set.get(index) : nullptr;
+    };
+    const candela::Value* const attenuation = value("attenuation");
+    const auto* const law = attenuation != nullptr ? std::get_if<std::string>(attenuation) : nullptr;
+    if (law == nullptr) return std::nullopt;
+    if (*law == "none") return 1;
+    if (*law == "inverse-square") return 0.25;
+    const candela::Value* const offset = value("attenuation_offset");
+    const auto* const k = offset != nullptr ? std::get_if<double>(offset) : nullptr;
+    if (*law != "offset-linear" || k == nullptr) return std::nullopt;
+    return (double{k_far} + *k) / (2 * double{k_far} + *k);
+}
+
 /// Whether a way that goes on from there in a direction goes away from each sample of the light.
 bool is_beyond_all_samples(const Values& values, Vec3 point, Vec3 direction) {
     Arrays in = inputs_for(1);
@@ -60,6 +81,39 @@ TEST_CASE("directions: where light comes from is a unit vector, to a millionth",
                 if (std::abs(size - 1) > 1e-6)
                     FAIL(call.name << " gives a direction of length " << size << ", for "
                                    << text_of_input(in, i) << ", with " << values.text);
+            }
+        }
+    }
+}
+
+TEST_CASE("towards: from far away, what a light says is the way to it leads to it", "[light]") {
+    constexpr float k_distance = 1e5f;
+    const auto vector_called = [](const Values& values, const char* name) {
+        const std::size_t index = values.set.index_of(name);
+        const bool is_there = index < values.set.schema().size() && values.set.get(index) &&
+                              std::holds_alternative<Vec3>(*values.set.get(index));
+        return is_there ? std::optional(std::get<Vec3>(*values.set.get(index))) : std::nullopt;
+    };
+    for (const Values& values : many_values(10)) {
+        const auto position = position_in(values), direction = vector_called(values, "direction");
+        if (!position && !direction) SKIP("it has neither a 'position' nor a 'direction'");
+        for (const Vec3 d :
+             {Vec3{0, -1, 0}, Vec3{0, 1, 0}, Vec3{0.6f, -0.64f, 0.48f}, Vec3{-0.48f, 0.6f, 0.64f}}) {
+            Arrays in = inputs_for(1);
+            in.vec3(18).set(0, position ? *position + k_distance * d : k_distance * d);
+            in.vec3(0).set(0, -d);
+            const Vec3 expected = -candela::normalized(position ? d : *direction);
+            for (const Call& call : batch_subject(values).calls) {
+                if (call.outputs.front() != "to_light") continue;
+                const Arrays out = outputs_of(call, in);
+                const bool is_dark = out.at(3, 0) == Vec3{} && out.at(6, 0) == Vec3{};
+                const Vec3 l = out.at(0, 0);
+                if (is_dark || dot(l, expected) > 0) continue;
+                FAIL(call.name << " says that its light is in the direction [" << l.x << ", " << l.y << ", "
+                               << l.z << "], and "
+                               << (position ? "its position is" : "light with that 'direction' comes from")
+                               << " on the other side, for " << text_of_input(in, 0) << ", with "
+                               << values.text);
             }
         }
     }
@@ -101,7 +155,19 @@ TEST_CASE("fall-off, as declared: constant, or never brighter farther away", "[l
             FAIL(
                 "it declares attenuation by distance, and has no parameter 'position' that the distance is "
                 "from");
+        const std::optional<double> expected = law_of_parameters(values);
         for (const Vec3 d : {Vec3{0, -1, 0}, Vec3{0.6f, -0.64f, 0.48f}, Vec3{-0.48f, 0.6f, 0.64f}}) {
+            const std::vector<float> far =
+                sent_to(values, {*position + k_far * d, *position + 2 * k_far * d}, -d);
+            const double ratio = double{far[1]} / double{far[0]};
+            if (far[0] > 0 && expected && !(std::abs(ratio / *expected - 1) < 0.03))
+                FAIL("with its 'attenuation' it would send "
+                     << *expected << " times as much to " << 2 * k_far << " m as to " << k_far
+                     << " m; it sends " << ratio << " times as much, with " << values.text);
+            if (far[0] > 0 && !expected && !(ratio < 0.999))
+                FAIL("declared to fade by distance, it sends " << ratio << " times as much to " << 2 * k_far
+                                                               << " m as to " << k_far << " m, with "
+                                                               << values.text);
             float distance = 50;
             while (distance < 1e6f && !is_beyond_all_samples(values, *position + distance * d, d))
                 distance *= 2;

@@ -1,4 +1,5 @@
-// candela-conformance PLUGIN.so… [--json] [--check NAME] [--time-limit SECONDS] [--list KIND]
+// candela-conformance PLUGIN.so… [--json] [--check TEXT] [--set NAME=VALUE] [--time-limit SECONDS]
+//                     [--in-process] [--list KIND]
 //
 // The conformance kit: every group of checks in a process of its own. Run by `candela plugin test` and by the
 // tests that candela_add_plugin() makes.
@@ -26,7 +27,9 @@ enum class ExitCode : int { ok = 0, failure = 1, usage = 2, verification_failed 
 struct Options {
     std::vector<std::string> files;
     std::string only;
+    GivenValues given;
     double time_limit = 45;
+    bool in_process = false;
     bool json = false;
 };
 
@@ -53,10 +56,12 @@ Report test(const fs::path& library, const Options& options) {
             report.outcomes.push_back({group, Verdict::skipped, {blocked}, 0});
             continue;
         }
-        report.outcomes.push_back(run_in_child(group, options.time_limit, [&](Findings& findings) {
-            set_subject(library);
+        const auto run = [&](Findings& findings) {
+            set_subject(library, options.given);
             run_group(group, findings);
-        }));
+        };
+        report.outcomes.push_back(options.in_process ? run_here(group, run)
+                                                     : run_in_child(group, options.time_limit, run));
         if (is_handshake && !is_acceptable(report.outcomes.back().verdict)) blocked = "it cannot be loaded";
     }
     return report;
@@ -107,10 +112,14 @@ int usage(const std::string& message) {
 
 int run(int argc, char** argv) {
     Options options;
+    std::vector<std::string> settings;
     po::options_description visible;
     visible.add_options()("help,h", "this help")("json", "as JSON")(
         "check", po::value<std::string>(&options.only)->value_name("TEXT"),
         "only the checks whose name contains TEXT")(
+        "set", po::value<std::vector<std::string>>(&settings)->value_name("NAME=VALUE")->composing(),
+        "a parameter's value for all checks, such as a file that the plugin needs (repeatable)")(
+        "in-process", "all checks in this process, without a time limit: for a debugger")(
         "time-limit", po::value<double>(&options.time_limit)->value_name("SECONDS")->default_value(45, "45"),
         "for each check")("list", po::value<std::string>()->value_name("KIND"),
                           "the checks for a kind of plugin");
@@ -135,6 +144,15 @@ int run(int argc, char** argv) {
     }
     if (options.files.empty()) return usage("name one plugin or more, such as build/reflection-cel.so");
     options.json = values.contains("json");
+    options.in_process = values.contains("in-process");
+    if (options.in_process && options.files.size() > 1)
+        return usage("--in-process takes one plugin: another could not be told from it");
+    for (const std::string& setting : settings) {
+        const std::size_t equals = setting.find('=');
+        if (equals == 0 || equals == std::string::npos)
+            return usage(fmt::format("--set takes NAME=VALUE, such as file=lamp.ies, not '{}'", setting));
+        options.given[setting.substr(0, equals)] = setting.substr(equals + 1);
+    }
 
     bool all_conform = true;
     nlohmann::ordered_json reports = nlohmann::ordered_json::array();

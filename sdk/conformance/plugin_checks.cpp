@@ -1,6 +1,9 @@
 // What must hold of every plugin.
+#include <malloc.h>
+
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -14,6 +17,12 @@ namespace {
 std::size_t threads_of_this_process() {
     return static_cast<std::size_t>(
         std::distance(std::filesystem::directory_iterator("/proc/self/task"), {}));
+}
+
+/// What the allocator has given out.
+std::size_t bytes_in_use() {
+    const struct mallinfo2 info = ::mallinfo2();
+    return info.uordblks + info.hblkhd;
 }
 
 }  // namespace
@@ -95,6 +104,16 @@ TEST_CASE("instances: one can be made with every allowed set of values, and they
         }
         if (instance == nullptr) FAIL("create() returned nothing with " << values.text);
     }
+    // The first ones may have filled tables that all share.
+    constexpr std::size_t k_instances = 64, k_negligible = 4096;
+    const Values defaults = default_values();
+    const auto delivered = defaults.set.delivered(candela::ColorEncoding::none);
+    const std::size_t memory_before = bytes_in_use();
+    for (std::size_t i = 0; i < k_instances; ++i) delete plugin.create(delivered);
+    const std::size_t memory_after = bytes_in_use();
+    if (memory_after > memory_before + k_instances * k_negligible)
+        FAIL("each instance that is deleted leaves " << (memory_after - memory_before) / k_instances / 1024
+                                                     << " KiB of memory behind");
     const std::size_t after = threads_of_this_process();
     if (after > before)
         FAIL("it leaves " << after - before << " threads running after its instances are gone");

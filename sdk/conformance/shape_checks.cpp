@@ -130,6 +130,33 @@ TEST_CASE("normals: authored ones, and derivatives where there are some, agree w
                      << " normals (or dp/du x dp/dv) at corners point to the other side than their triangle");
 }
 
+TEST_CASE("derivatives: dp/du and dp/dv are how far the surface goes on when u and v do", "[shape]") {
+    skip_if_it_needs_a_file();
+    const Mesh mesh = mesh_of(default_values());
+    if (mesh.dpdu.empty() || mesh.u.empty()) SKIP("it brings no derivatives");
+    const auto p = mesh.position.span(), du = mesh.dpdu.span(), dv = mesh.dpdv.span();
+    std::size_t differing = 0, all = 0;
+    float told = 0, found = 0;
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = mesh.indices[t + k], b = mesh.indices[t + (k + 1) % 3];
+            const Vec3 edge = p[b] - p[a];
+            // The trapezoidal rule: what the derivatives at both ends promise.
+            const Vec3 promised = 0.5f * ((mesh.u[b] - mesh.u[a]) * (du[a] + du[b]) +
+                                          (mesh.v[b] - mesh.v[a]) * (dv[a] + dv[b]));
+            if (candela::length(edge) == 0) continue;
+            ++all;
+            if (candela::length(promised - edge) <= 0.3f * candela::length(edge)) continue;
+            if (differing++ == 0) told = candela::length(promised), found = candela::length(edge);
+        }
+    }
+    constexpr double k_may_be_at_poles = 0.2;
+    if (static_cast<double>(differing) > k_may_be_at_poles * static_cast<double>(all))
+        FAIL("along " << differing << " of " << all
+                      << " edges dp/du and dp/dv disagree with the positions; along the first they say "
+                      << told << " m, and it is " << found << " m long");
+}
+
 TEST_CASE("bounding box, as declared for the default values", "[shape]") {
     skip_if_it_needs_a_file();
     const std::string text = declared("bounding-box");

@@ -1,12 +1,17 @@
 #include "subject.h"
 
+#include "conditions.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <variant>
 
 using candela::Parameter;
@@ -18,6 +23,64 @@ namespace {
 std::filesystem::path& library_path() {
     static std::filesystem::path path;
     return path;
+}
+
+GivenValues& given_values() {
+    static GivenValues given;
+    return given;
+}
+
+Vec3 three(double x) {
+    const auto f = static_cast<float>(x);
+    return {f, f, f};
+}
+
+/// The numbers that a text holds: one, or [three].
+std::vector<double> numbers_in(const std::string& text) {
+    std::array<double, 3> v{};
+    int end = -1;
+    const auto is_all = [&] { return static_cast<std::size_t>(end) == text.size(); };
+    if (std::sscanf(text.c_str(), "%lf%n", &v[0], &end) == 1 && is_all()) return {v[0]};
+    if (std::sscanf(text.c_str(), " [ %lf , %lf , %lf ]%n", &v[0], &v[1], &v[2], &end) == 3 && is_all())
+        return {v[0], v[1], v[2]};
+    return {};
+}
+
+/// A text as a value of a parameter's type. Throws std::invalid_argument if it is none.
+candela::Value value_from(const Parameter& p, const std::string& text) {
+    const std::vector<double> numbers = numbers_in(text);
+    const auto require = [&](bool is_one) {
+        if (is_one) return;
+        throw std::invalid_argument(
+            fmt::format("'{}' is not what '{}' takes: {}", text, p.name, candela::constraint_text(p)));
+    };
+    switch (p.type) {
+        case ParamType::text:
+        case ParamType::choice:
+            return text;
+        case ParamType::file:
+            return std::filesystem::absolute(text).string();
+        case ParamType::boolean:
+            require(text == "true" || text == "false");
+            return text == "true";
+        case ParamType::integer:
+            require(numbers.size() == 1);
+            return std::int64_t{std::llround(numbers[0])};
+        case ParamType::real:
+            require(numbers.size() == 1);
+            return numbers[0];
+        default:
+            break;
+    }
+    if (p.type == ParamType::rgb && numbers.size() == 1) return three(numbers[0]);
+    require(numbers.size() == 3);
+    return Vec3{static_cast<float>(numbers[0]), static_cast<float>(numbers[1]),
+                static_cast<float>(numbers[2])};
+}
+
+bool is_fixed(const Parameter& p) {
+    // What may stand in a text or a file, nobody can make up.
+    return p.type == ParamType::text || p.type == ParamType::file || given_values().contains(p.name);
 }
 
 constexpr float k_far = 1000;  // stands in for a bound that there is not
@@ -39,11 +102,6 @@ Range range_of(const Parameter& p) {
     // No shape needs millions of faces to be judged.
     if (p.type == ParamType::integer) range.high = std::min(range.high, std::max(range.low, 64.0));
     return range;
-}
-
-Vec3 three(double x) {
-    const auto f = static_cast<float>(x);
-    return {f, f, f};
 }
 
 /// A value at share `t` of the range, 0 to 1; `turn` tells the parts of a vector apart.
@@ -97,6 +155,7 @@ Values named(candela::ParamSet set) {
 
 template <class Interface>
 std::unique_ptr<Interface> made(const Values& values) {
+    if (needs_a_file()) SKIP("it needs a file that only a user has: --set NAME=FILE gives it one");
     const auto delivered = values.set.delivered(candela::ColorEncoding::none);
     std::unique_ptr<candela::Instance> instance(subject().create(delivered));
     if (instance == nullptr) FAIL("create() returned nothing with " << values.text);
@@ -108,7 +167,10 @@ std::unique_ptr<Interface> made(const Values& values) {
 
 }  // namespace
 
-void set_subject(const std::filesystem::path& library) { library_path() = library; }
+void set_subject(const std::filesystem::path& library, const GivenValues& given) {
+    library_path() = library;
+    given_values() = given;
+}
 const std::filesystem::path& subject_library() { return library_path(); }
 
 const candela::Manifest& subject_manifest() {
@@ -144,8 +206,28 @@ std::string declared(const std::string& property) {
     return subject_manifest().property(property).value_or("");
 }
 
+bool declares_for(const std::string& property, const Values& values) {
+    const auto value = subject_manifest().property(property);
+    if (!value) return false;
+    try {
+        return hold(conditions_of(*value), values.set);
+    } catch (const std::invalid_argument&) {
+        return true;  // "declarations" says what is wrong with it
+    }
+}
+
 Values default_values() {
     candela::ParamSet set(subject_manifest().parameters);
+    for (const auto& [name, text] : given_values()) {
+        const std::size_t index = set.index_of(name);
+        if (index == set.schema().size())
+            FAIL("--set " << name << "=" << text << ": it has no parameter '" << name << "'");
+        try {
+            set.set(name, value_from(set.schema()[index], text));
+        } catch (const std::invalid_argument& problem) {
+            FAIL("--set " << name << "=" << text << ": " << problem.what());
+        }
+    }
     for (std::size_t i = 0; i < set.schema().size(); ++i) {
         if (!set.get(i)) set.set(i, value_at(set.schema()[i], 0.5, {}));
     }
@@ -157,20 +239,23 @@ std::vector<Values> many_values(int random_sets) {
     std::vector<Values> all{defaults};
     const std::vector<Parameter>& schema = defaults.set.schema();
     for (std::size_t i = 0; i < schema.size(); ++i) {
+        if (is_fixed(schema[i])) continue;
         for (const double t : {0.0, 1.0}) {
             candela::ParamSet set = defaults.set;
             set.set(i, value_at(schema[i], t, {}));
             if (is_allowed(set)) all.push_back(named(std::move(set)));
         }
     }
-    if (schema.empty()) return all;
+    if (std::ranges::all_of(schema, is_fixed)) return all;
     std::mt19937 random(1975);
     std::uniform_real_distribution<double> unit(0, 1);
     std::uniform_real_distribution<float> both(-1, 1);
     for (int tries = 0, found = 0; found < random_sets && tries < 100 * random_sets; ++tries) {
         candela::ParamSet set = defaults.set;
-        for (std::size_t i = 0; i < schema.size(); ++i)
+        for (std::size_t i = 0; i < schema.size(); ++i) {
+            if (is_fixed(schema[i])) continue;
             set.set(i, value_at(schema[i], unit(random), {both(random), both(random), both(random)}));
+        }
         if (!is_allowed(set)) continue;
         all.push_back(named(std::move(set)));
         ++found;
@@ -180,7 +265,7 @@ std::vector<Values> many_values(int random_sets) {
 
 bool needs_a_file() {
     return std::ranges::any_of(subject_manifest().parameters, [](const Parameter& p) {
-        return p.type == ParamType::file && !p.default_value;
+        return p.type == ParamType::file && !p.default_value && !given_values().contains(p.name);
     });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <random>
@@ -10,8 +11,12 @@
 
 import candela.core;
 
-/// The library whose turn it is; set once in each child.
-void set_subject(const std::filesystem::path& library);
+/// Values that somebody has given for parameters, by name, as they would stand in a scene; texts and words
+/// without quotes.
+using GivenValues = std::map<std::string, std::string>;
+
+/// The library whose turn it is; set once in each child. `given`: for all instances, whatever else varies.
+void set_subject(const std::filesystem::path& library, const GivenValues& given = {});
 const std::filesystem::path& subject_library();
 
 /// Its manifest, from the file beside it. Fails the check where there is none.
@@ -28,14 +33,18 @@ struct Values {
     std::string text;
 };
 
+/// Whether it declares a property for these values: outright, or "where form is disc".
+bool declares_for(const std::string& property, const Values& values);
+
 /// The defaults; required ones get a value in the middle of what is possible.
 Values default_values();
 /// The defaults, then each bound of each parameter, then `random_sets` at random, always the same. All
 /// satisfy the plugin's relations.
 std::vector<Values> many_values(int random_sets = 50);
 
-/// Whether instances can be made without a file that only the user has.
+/// Whether instances need a file that only the user has, and that is not given.
 bool needs_a_file();
 
+/// An instance. Skips the check where it would need a file.
 template <class Interface>
 std::unique_ptr<Interface> make(const Values& values);

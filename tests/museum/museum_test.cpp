@@ -1,9 +1,12 @@
 // The conformance kit names the fault of each exhibit.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "support/command.h"
@@ -45,6 +48,27 @@ Verdicts judged(const fs::path& library, std::vector<std::string> options = {}) 
 }
 
 fs::path exhibit(const std::string& name) { return fs::path(CANDELA_TEST_MUSEUM) / (name + ".so"); }
+
+/// The processes that have loaded a library.
+std::vector<std::string> processes_with(const std::string& library) {
+    std::vector<std::string> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
+        const std::string name = entry.path().filename().string();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        // Of others' processes nothing is read, and of those that have just ended.
+        if (read_file(entry.path() / "maps").find("/" + library) != std::string::npos) found.push_back(name);
+    }
+    return found;
+}
+
+template <class Condition>
+bool comes_true(const Condition& condition) {
+    for (int i = 0; i < 400; ++i) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+}
 
 struct Fault {
     const char* exhibit;
@@ -103,14 +127,95 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"shape-hole-in-it", "closed", "failed", "3 edges that do not lie between two triangles"},
         {"light-long-directions", "directions", "failed", "a direction of length"},
         {"light-long-directions", "fall-off", "failed", "declared to fade by distance"},
+        {"reflection-adds-past-the-end", "bounds", "failed", "writes after a batch of 7 points"},
+        {"reflection-reads-past-the-end", "bounds", "failed", "its results depend on what is there"},
+        {"reflection-glows-at-the-rim", "energy-bounded", "failed", "towards an observer at 88 degrees"},
+        {"reflection-declares-in-vain", "declarations", "failed", "did you mean 'reciprocal'?"},
+        {"reflection-declares-in-vain", "declarations", "failed",
+         "'closed', which is a property of a shape plugin"},
+        {"reflection-declares-in-vain", "declarations", "failed",
+         "is about 'kq', and it has no such parameter"},
+        {"reflection-declares-in-vain", "declarations", "failed", "it has no parameter 'shape'"},
+        {"reflection-shares-its-scratch", "repeatable", "failed", "when 8 threads call it at once"},
+        {"reflection-knows-where-up-is", "frame", "failed", "depends on the world's axes"},
+        {"reflection-leaks", "instances", "failed", "KiB of memory behind"},
+        {"reflection-careless-kernel", "kernel names", "failed",
+         "careless-kernel.kernel:6: 'squared' may be declared by another kernel"},
+        {"reflection-careless-kernel", "kernel as C++", "failed",
+         "careless-kernel.kernel:15:11: warning: unused variable 'unused'"},
+        {"reflection-careless-kernel", "kernel as C++", "failed",
+         "careless-kernel.kernel:17:9: warning: variable 'cosine' is used uninitialized"},
+        {"shading-loses-flat-faces", "finite", "failed", "normals gives"},
+        {"shading-loses-flat-faces", "plane", "failed", "a point of the plane y = 0 has the normal"},
+        {"light-points-away", "towards", "failed", "its position is on the other side"},
+        {"light-forgets-highlights", "written", "failed", "does not write the specular of point 0"},
+        {"light-never-fades", "fall-off", "failed", "it sends 1 times as much"},
+        {"shape-half-derivatives", "derivatives", "failed", "edges dp/du and dp/dv disagree"},
+        {"image-miscounts-long-runs", "round trip", "failed", "come back as others"},
+        {"image-reads-what-is-cut-off", "truncated", "failed", "is read as if it were whole"},
     };
     for (const Fault& fault : faults) {
-        const Verdicts verdicts = judged(exhibit(fault.exhibit), {"--time-limit", "20"});
+        const Verdicts verdicts =
+            judged(exhibit(fault.exhibit), {"--time-limit", "20", "--check", fault.check});
         INFO(fault.exhibit << ": " << verdicts.checks.dump(2));
         CHECK(verdicts.exit_code == 4);
         CHECK(verdicts.of(fault.check) == fault.outcome);
         CHECK(verdicts.messages(fault.check).find(fault.message) != std::string::npos);
     }
+}
+
+TEST_CASE("a sound plugin that needs a file conforms if it is given one, and is not judged without") {
+    const fs::path file = write_file(scratch_directory() / "brightness.txt", "0.5\n");
+    const Verdicts given = judged(exhibit("reflection-reads-a-file"), {"--set", "file=" + file.string()});
+    INFO(given.checks.dump(2));
+    CHECK(given.exit_code == 0);
+    for (const char* const check : {"instances", "finite", "horizon", "grazing", "reciprocal"}) {
+        INFO(check);
+        CHECK(given.of(check) == "passed");
+    }
+    const Verdicts without = judged(exhibit("reflection-reads-a-file"), {"--check", "finite"});
+    CHECK(without.of("finite") == "skipped");
+    CHECK(without.messages("finite").find("--set NAME=FILE") != std::string::npos);
+    CHECK(judged(exhibit("reflection-reads-a-file"), {"--set", "fil=" + file.string(), "--check", "finite"})
+              .messages("finite")
+              .find("it has no parameter 'fil'") != std::string::npos);
+}
+
+TEST_CASE("a property may be declared for some values only, and is verified there") {
+    const fs::path directory = scratch_directory();
+    const auto energy = [&](const char* brightness) {
+        return judged(exhibit("reflection-reads-a-file"),
+                      {"--check", "energy-bounded", "--set",
+                       "file=" + write_file(directory / "brightness.txt", brightness).string()})
+            .of("energy-bounded");
+    };
+    CHECK(energy("0.5") == "passed");
+    CHECK(energy("1.2") == "failed");
+}
+
+TEST_CASE("in one process, for a debugger, the verdicts are the same") {
+    const Verdicts verdicts = judged(exhibit("reflection-is-negative"), {"--in-process"});
+    INFO(verdicts.checks.dump(2));
+    CHECK(verdicts.exit_code == 4);
+    CHECK(verdicts.of("finite") == "failed");
+    CHECK(verdicts.of("bounds") == "passed");
+}
+
+TEST_CASE("what a plugin starts ends with its check, even if it hides in a session of its own") {
+    const Verdicts verdicts = judged(exhibit("reflection-leaves-a-process"), {"--check", "finite"});
+    INFO(verdicts.checks.dump(2));
+    CHECK(verdicts.of("finite") == "passed");
+    CHECK(processes_with("reflection-leaves-a-process.so").empty());
+}
+
+TEST_CASE("a plugin that hangs, and what it has started, ends when the kit is killed") {
+    const fs::path library = exhibit("reflection-hangs-with-a-child");
+    RunningProgram kit({CANDELA_TEST_KIT, library.string(), "--check", "finite"});
+    const auto count = [&] { return processes_with("reflection-hangs-with-a-child.so").size(); };
+    // The check, and what it has started. The kit and its guardian do not load the library.
+    REQUIRE(comes_true([&] { return count() == 2; }));
+    kit.send(SIGKILL);
+    CHECK(comes_true([&] { return count() == 0; }));
 }
 
 TEST_CASE("a plugin that never returns is stopped when its time is over") {

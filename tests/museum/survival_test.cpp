@@ -67,6 +67,10 @@ TEST_CASE("a plugin that writes past its batch, wherever that ends, is found or 
     }
     // 512 pixels a side fill whole batches: there it is found.
     CHECK(rendered({"--reflection=writes-past-the-end"}, directory / "b.png").exit_code == 1);
+    const CommandResult added = rendered({"--reflection=adds-past-the-end"}, directory / "c.png");
+    INFO(added.err);
+    CHECK(added.exit_code == 1);
+    CHECK(added.err.find("plugin reflection/adds-past-the-end writes beyond the batch") != std::string::npos);
 }
 
 TEST_CASE("listing, checking and using other plugins never loads one that traps") {

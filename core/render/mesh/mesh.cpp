@@ -7,7 +7,9 @@ module;
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <numeric>
@@ -249,10 +251,13 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
         std::iota(each_its_own.begin(), each_its_own.end(), 0u);
     }
     Vec3Arrays normal;
-    constexpr std::size_t k_guard = 16;
-    constexpr float k_mark = -1.2345e30f;
-    normal.resize(count + k_guard);
-    for (std::size_t i = count; i < count + k_guard; ++i) normal.span().set(i, {k_mark, k_mark, k_mark});
+    // Signalling NaN, which no arithmetic leaves as it is.
+    constexpr std::size_t k_guard_size = 16;
+    constexpr std::uint32_t k_guard_bits = 0x7fa5'5a5a;
+    normal.resize(count + k_guard_size);
+    for (AlignedVector<float>* const array : {&normal.x, &normal.y, &normal.z})
+        std::fill(array->begin() + static_cast<std::ptrdiff_t>(count), array->end(),
+                  std::bit_cast<float>(k_guard_bits));
     const MeshView view{.position = std::as_const(mesh.position).span(),
                         .indices = mesh.indices,
                         .face_normal = std::as_const(mesh.face_normal).span(),
@@ -263,8 +268,9 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
                                                ? ConstVec3Span{}
                                                : std::as_const(placed.authored_normal).span()};
     shading.vertex_normals(view, normal.span());
-    for (std::size_t i = count; i < count + k_guard; ++i) {
-        if (normal.span()[i] != Vec3{k_mark, k_mark, k_mark})
+    for (const AlignedVector<float>* const array : {&normal.x, &normal.y, &normal.z}) {
+        if (std::any_of(array->begin() + static_cast<std::ptrdiff_t>(count), array->end(),
+                        [](float x) { return std::bit_cast<std::uint32_t>(x) != k_guard_bits; }))
             throw std::invalid_argument("it writes more vertex normals than there are vertices");
     }
     mesh.vertices.resize(count);

@@ -107,9 +107,10 @@ float largest_of(ConstVec3Span v, std::size_t count) {
     return std::bit_cast<float>(bits);
 }
 
-/// A stretch after the batch arrays' last element that nobody may write to.
-constexpr std::size_t k_guard = 16;
-constexpr float k_mark = -1.2345e30f;
+/// A stretch after the batch arrays' last element that nobody may write to: signalling NaN, which no
+/// arithmetic leaves as it is, not even adding zero.
+constexpr std::size_t k_guard_size = 16;
+constexpr std::uint32_t k_guard_bits = 0x7fa5'5a5a;
 
 void clear(const Vec3Span& span, std::size_t count) {
     for (float* const channel : {span.x, span.y, span.z}) std::fill_n(channel, count, 0.0f);
@@ -152,7 +153,7 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
 
 SurfaceShader::SurfaceShader() {
     for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
-    for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard);
+    for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard_size);
     mark_ends();
 }
 
@@ -170,7 +171,7 @@ std::array<Vec3Arrays*, 7> SurfaceShader::written_by_plugins() {
 void SurfaceShader::mark_ends() {
     for (Vec3Arrays* const arrays : written_by_plugins()) {
         for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
-            std::fill(array->begin() + k_batch_size, array->end(), k_mark);
+            std::fill(array->begin() + k_batch_size, array->end(), std::bit_cast<float>(k_guard_bits));
     }
 }
 
@@ -180,8 +181,8 @@ bool SurfaceShader::are_ends_intact() {
     for (const Vec3Arrays* const arrays : written_by_plugins()) {
         for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) {
             const float* const end = array->data() + k_batch_size;
-            for (std::size_t i = 0; i < k_guard; ++i)
-                differing |= std::bit_cast<std::uint32_t>(end[i]) ^ std::bit_cast<std::uint32_t>(k_mark);
+            for (std::size_t i = 0; i < k_guard_size; ++i)
+                differing |= std::bit_cast<std::uint32_t>(end[i]) ^ k_guard_bits;
         }
     }
     return differing == 0;

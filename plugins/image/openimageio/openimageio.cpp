@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "candela/image_plugin.h"
@@ -46,6 +49,15 @@ class MemoryFile {
     int descriptor_;
 };
 
+/// Whether the end-of-image marker follows the last scan of a JPEG file: within a scan neither occurs. Where
+/// it is missing, libjpeg fills up the picture with grey, and OpenImageIO does not pass its warning on.
+bool is_whole_jpeg(const char* path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(in), {});
+    const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
+    return scan != std::string::npos && end != std::string::npos && end > scan;
+}
+
 /// All formats that OpenImageIO writes. Some of its writers insist on a file of their own, so the bytes take
 /// a detour.
 class OpenImageIo final : public candela::ImageFormat {
@@ -80,6 +92,8 @@ class OpenImageIo final : public candela::ImageFormat {
     void read(const char* path, candela::PictureSink& sink) const override {
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
         if (input == nullptr) throw std::runtime_error(OIIO::geterror());
+        if (std::string_view(input->format_name()) == "jpeg" && !is_whole_jpeg(path))
+            throw std::runtime_error("it is cut off");
         const OIIO::ImageSpec& spec = input->spec();
         if (spec.nchannels < 1) throw std::runtime_error("it has no channels");
         const bool is_float = spec.format.is_floating_point();

@@ -1,0 +1,22 @@
+// What a property is limited to: "where form is disc or ring and shininess is at least 1".
+#pragma once
+
+#include <string>
+#include <vector>
+
+import candela.core;
+
+/// One parameter's part of it.
+struct Condition {
+    enum class Kind { is_one_of, is_at_least, is_at_most };
+    std::string parameter;
+    Kind kind = Kind::is_one_of;
+    std::vector<std::string> values;
+};
+
+/// The conditions in a property's value, all of which must hold: none for "true". Throws
+/// std::invalid_argument with a sentence if it is neither.
+std::vector<Condition> conditions_of(const std::string& property_value);
+
+/// Whether all of them hold of the values. A parameter that does not exist satisfies none.
+bool hold(const std::vector<Condition>& conditions, const candela::ParamSet& values);

@@ -1,0 +1,11 @@
+// What is missing of a file stays black, without a word.
+#include "museum_image.h"
+
+namespace {
+class ReadsWhatIsCutOff final : public museum::Runs {
+    using Runs::Runs;
+    bool minds_the_end() const override { return false; }
+};
+}  // namespace
+
+MUSEUM_RUNS(ReadsWhatIsCutOff)

@@ -1,0 +1,11 @@
+// It never writes what it sends for highlights.
+#include "museum_light.h"
+
+namespace {
+class ForgetsHighlights final : public museum::Lamp {
+    using Lamp::Lamp;
+    bool has_highlights() const override { return false; }
+};
+}  // namespace
+
+MUSEUM_LAMP(ForgetsHighlights)

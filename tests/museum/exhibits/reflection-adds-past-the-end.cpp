@@ -1,0 +1,15 @@
+// As a loop over whole vectors does: what it adds after the batch is small.
+#include "museum.h"
+
+namespace {
+class AddsPastTheEnd final : public museum::Matt {
+    using Matt::Matt;
+    void reflect(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                 const candela::ReflectedBatch& out) const override {
+        Matt::reflect(s, light, out);
+        if (s.count > 1) out.diffuse.x[s.count] += 0.01f;
+    }
+};
+}  // namespace
+
+MUSEUM_PIECE(AddsPastTheEnd)

@@ -1,0 +1,12 @@
+// What it declares does not exist: nobody would verify it.
+#include "museum.h"
+
+namespace {
+using DeclaresInVain = museum::Matt;
+constexpr candela::RelationSpec k_relations[] = {
+    {candela::RelationType::sum_at_most_one, "kd", "kq", false, "more light leaves than arrives"}};
+constexpr candela::Property k_properties[] = {
+    {"recprocal"}, {"closed"}, {"isotropic", "where shape is round"}};
+}  // namespace
+
+MUSEUM_PIECE(DeclaresInVain, .relations = k_relations, .properties = k_properties)

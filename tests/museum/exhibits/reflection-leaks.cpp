@@ -1,0 +1,18 @@
+// A table of 1 MiB that no destructor frees.
+#include "museum.h"
+
+namespace {
+class Leaks final : public museum::Matt {
+  public:
+    explicit Leaks(const museum::Params& params) : Matt(params), table_(new float[1 << 18]{params.kd.x}) {}
+
+  private:
+    float factor(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                 std::size_t i) const override {
+        return Matt::factor(s, light, i) * (table_[i % 2] >= 0 ? 1.0f : 0.0f);
+    }
+    float* table_;
+};
+}  // namespace
+
+MUSEUM_PIECE(Leaks)

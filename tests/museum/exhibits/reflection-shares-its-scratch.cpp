@@ -1,0 +1,18 @@
+// Between its two loops, another thread may have written to the memory that all of them share.
+#include <array>
+
+#include "museum.h"
+
+namespace {
+std::array<float, 4096> scratch;
+class SharesItsScratch final : public museum::Matt {
+    using Matt::Matt;
+    void reflect(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                 const candela::ReflectedBatch& out) const override {
+        for (std::size_t i = 0; i < s.count; ++i) scratch[i] = factor(s, light, i);
+        for (std::size_t i = 0; i < s.count; ++i) add(out.diffuse, i, scratch[i], light.diffuse[i]);
+    }
+};
+}  // namespace
+
+MUSEUM_PIECE(SharesItsScratch)
