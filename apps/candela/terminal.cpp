@@ -35,9 +35,9 @@ bool can_ask() { return is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO);
 
 bool ask(const std::string& question) {
     for (const char* before = "";; before = "Please answer y or n. ") {
+        open_line = OpenLine::question;  // who sees the question may answer with Ctrl-C at once
         std::cerr << before << question << " [Y/n] " << std::flush;
         std::string answer;
-        open_line = OpenLine::question;
         const bool is_answered = static_cast<bool>(std::getline(std::cin, answer));
         open_line = OpenLine::none;
         if (!is_answered) {
@@ -97,7 +97,7 @@ void ProgressBar::draw() {
     if (all == 0) return;
     const std::size_t filled = k_width * done_ / all;
     const std::string bar = std::string(filled, '#') + std::string(k_width - filled, '.');
+    open_line = OpenLine::bar;
     std::fputs(fmt::format("\r{} [{}] {:3} %", label_, bar, 100 * done_ / all).c_str(), stderr);
     std::fflush(stderr);
-    open_line = OpenLine::bar;
 }
