@@ -65,7 +65,8 @@ Accessor::Accessor(const Document& document, int index, int components)
     if (a.sparse.count < 0 || static_cast<std::size_t>(a.sparse.count) > count_)
         throw BadFile(fmt::format("has an accessor {} with more sparse elements than elements", index));
     sparse_count_ = static_cast<std::size_t>(a.sparse.count);
-    const auto offset = [&](int bytes_offset) {
+    // An int in tinygltf 2.8, a size_t since 2.9.
+    const auto offset = [&](std::int64_t bytes_offset) {
         if (bytes_offset < 0) throw BadFile(fmt::format("has an accessor {} with a negative offset", index));
         return static_cast<std::size_t>(bytes_offset);
     };

@@ -110,6 +110,27 @@ bool read_buffer(std::vector<unsigned char>* out, std::string*, const std::strin
     return true;
 }
 
+/// tinygltf 2.9 leaves its own in place, which read any file, where one is missing; 2.8 does not ask for
+/// sizes.
+template <class Callbacks>
+Callbacks callbacks_for(Files& files) {
+    Callbacks callbacks{};
+    callbacks.FileExists = [](const std::string&, void*) { return true; };
+    callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    callbacks.ReadWholeFile = read_buffer;
+    callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                  void*) { return false; };
+    // read_file() has limits of its own.
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+            *size = 0;
+            return true;
+        };
+    }
+    callbacks.user_data = &files;
+    return callbacks;
+}
+
 std::string first_line(std::string_view text) {
     std::string line;
     for (const char c : text.substr(0, text.find('\n'))) line += c >= ' ' && c <= '~' ? c : '?';
@@ -126,11 +147,7 @@ Document read_document(std::string_view bytes, const std::filesystem::path& fold
 
     Files files{folder, {}};
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({.FileExists = [](const std::string&, void*) { return true; },
-                           .ExpandFilePath = [](const std::string& path, void*) { return path; },
-                           .ReadWholeFile = read_buffer,
-                           .WriteWholeFile = nullptr,
-                           .user_data = &files});
+    loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(files));
     Document document;
     std::string problems, warnings;
     bool is_read = false;
