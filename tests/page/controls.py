@@ -1,6 +1,6 @@
 """Whether controls do what options of the command line do."""
 import scenes
-from generated import Generated, PageTest, options_for
+from generated import SMALL_WINDOW, Generated, PageTest, options_for
 
 
 def another(number, least, most):
@@ -13,6 +13,8 @@ def another(number, least, most):
 
 class Controls(PageTest):
     """Each control is driven as a person would, then all is reset."""
+
+    window = SMALL_WINDOW
 
     def settings(self):
         return self.browser.run("return [...document.querySelectorAll('.setting')].map((s) => s.dataset.path)")

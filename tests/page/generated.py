@@ -13,6 +13,9 @@ COMMAND = os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"]
 SCRATCH = pathlib.Path(os.environ.get("CANDELA_TEST_SCRATCH") or tempfile.mkdtemp(prefix="candela-page-")).absolute()
 ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), CANDELA_PLUGIN_PATH="")
 
+# For tests that ask for pictures and do not look at the screen, where most of the time would go into drawing them a second time.
+SMALL_WINDOW = (320, 240)
+
 MOST_DIFFERENT = 0.02  # of the pixels, those beside edges, may differ by more than two steps of 255
 TWO_STEPS = 2
 
@@ -65,10 +68,13 @@ def options_for(path, value):
 
 
 class PageTest(unittest.TestCase):
+    window = (1280, 800)
+
     @classmethod
     def setUpClass(cls):
         cls.browser = Browser(*DRAWS_BY_ITSELF)
         cls.addClassCleanup(cls.browser.close)
+        cls.browser.resize(*cls.window)
 
     def picture(self, generated):
         return self.browser.picture(*generated.size)

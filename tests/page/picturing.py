@@ -2,11 +2,13 @@
 import base64
 
 import scenes
-from generated import TWO_STEPS, Generated, PageTest
+from generated import SMALL_WINDOW, TWO_STEPS, Generated, PageTest
 from pictures import Picture
 
 
 class Picturing(PageTest):
+    window = SMALL_WINDOW
+
     def test_loads_and_is_right(self):
         for name, text in (("perspective", scenes.PERSPECTIVE), ("orthographic", scenes.ORTHOGRAPHIC)):
             generated = Generated(name, text)
