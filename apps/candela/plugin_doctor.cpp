@@ -53,10 +53,13 @@ std::string loading_problem(const candela::PluginFile& file) {
     return problem;
 }
 
-/// "refused: …" without the path, which is said already.
-std::string short_reason(std::string reason, const fs::path& library) {
-    const std::string begin = fmt::format("plugin '{}' is refused: ", library.string());
-    if (reason.starts_with(begin)) reason.erase(0, begin.size());
+/// "refused: …" without the path, which is said already: absolute if the library was to be loaded, or as the
+/// search path has it.
+std::string short_reason(const std::string& reason, const fs::path& library) {
+    for (const fs::path& path : {library, fs::absolute(library).lexically_normal()}) {
+        const std::string begin = fmt::format("plugin '{}' is refused: ", path.string());
+        if (reason.starts_with(begin)) return reason.substr(begin.size());
+    }
     return reason;
 }
 

@@ -94,6 +94,14 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
         folder.write(replaced(entry.path().filename().string(), values), replaced(*read, values));
     }
     folder.finish();
+    candela::Registry registry(candela::plugin_search_path({}));
+    if (const auto kind = candela::plugin_kind_named(words[0]);
+        kind && registry.find(*kind, words[1]) != nullptr)
+        std::cerr << fmt::format(
+            "candela: warning: there is a {0} plugin '{1}' already ({2}); wherever the new one is found "
+            "first, it "
+            "hides that\n",
+            words[0], words[1], candela::printable(registry.find(*kind, words[1])->library.string()));
     std::cout << fmt::format(
         "Made {0}. Next:\n  cd {0}\n  cmake -B build -DCMAKE_BUILD_TYPE=Release\n"
         "  cmake --build build && ctest --test-dir build\n",

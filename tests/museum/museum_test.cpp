@@ -266,5 +266,8 @@ TEST_CASE("a library under another name, or with a dependency that is missing, i
     fs::remove(needed);
     const Verdicts verdicts = judged(lonely);
     CHECK(verdicts.of("handshake") == "failed");
-    CHECK(verdicts.messages("handshake").find("libnobodyhasthis.so") != std::string::npos);
+    CHECK(verdicts.messages("handshake").find("libnobodyhasthis.so, which is not installed here") !=
+          std::string::npos);
+    CHECK(verdicts.messages("handshake").find("build it again") == std::string::npos);
+    CHECK(verdicts.messages("handshake").find("Bad file descriptor") == std::string::npos);
 }

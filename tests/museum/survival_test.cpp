@@ -22,6 +22,12 @@ CommandResult rendered(const std::vector<std::string>& use, const fs::path& pict
     return run_candela(words);
 }
 
+CommandSetup in_directory(const fs::path& directory) {
+    CommandSetup setup;
+    setup.directory = directory;
+    return setup;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -107,6 +113,33 @@ TEST_CASE("the doctor survives a plugin that traps, and names what is wrong with
         INFO(part);
         CHECK(result.out.find(part) != std::string::npos);
     }
+}
+
+TEST_CASE("the doctor says once that a plugin is refused, whether its folder's path is relative or not") {
+    const fs::path directory = scratch_directory();
+    fs::create_directory(directory / "plugins");
+    fs::copy_file(fs::path(CANDELA_TEST_MUSEUM) / "reflection-faultless.so",
+                  directory / "plugins" / "reflection-other.so");
+    std::string manifest = read_file(fs::path(CANDELA_TEST_MUSEUM) / "reflection-faultless.json");
+    const std::size_t at = manifest.find("\"faultless\"");
+    REQUIRE(at != std::string::npos);
+    write_file(directory / "plugins" / "reflection-other.json", manifest.replace(at, 11, "\"other\""));
+    const CommandResult result =
+        run_candela({"plugin", "doctor", "--plugin-dir", "plugins"}, in_directory(directory));
+    INFO(result.out);
+    CHECK(result.out.find("reflection-other.so            refused: its manifest disagrees") !=
+          std::string::npos);
+    CHECK(result.out.find("refused: plugin") == std::string::npos);
+}
+
+TEST_CASE("a new plugin that is called like one that is there will hide it, and that is said") {
+    const fs::path directory = scratch_directory();
+    const CommandResult hiding =
+        run_candela({"plugin", "new", "reflection", "lambert"}, in_directory(directory));
+    INFO(hiding.err);
+    CHECK(hiding.exit_code == 0);
+    CHECK(hiding.err.find("there is a reflection plugin 'lambert' already") != std::string::npos);
+    CHECK(run_candela({"plugin", "new", "reflection", "velvet"}, in_directory(directory)).err.empty());
 }
 
 TEST_CASE("plugins that every user can change are refused, unless one says otherwise") {

@@ -38,16 +38,25 @@ std::map<fs::path, Loaded>& loaded_libraries() {
     throw Error(ErrorCategory::failure, fmt::format("plugin '{}' is refused: {}", library.string(), reason));
 }
 
-/// The loader's message without the path that it repeats: "libfoo.so.1: cannot open shared object file: No
-/// such file …".
+/// The dynamic linker's message, which Boost.DLL wraps into its own and that of an unrelated system error,
+/// without the path that is said already: "undefined symbol: f", "libfoo.so.1: cannot open shared object
+/// file: No such file or directory".
 std::string loader_message(const boost::dll::fs::system_error& problem, const fs::path& library) {
     std::string text = problem.what();
-    for (const std::string& prefix :
-         {library.string() + ": ", std::string("boost::dll::shared_library::load() failed: ")}) {
-        if (const auto at = text.find(prefix); at != std::string::npos) text.erase(0, at + prefix.size());
+    constexpr std::string_view k_begin = "(dlerror system message: ";
+    if (const auto at = text.find(k_begin); at != std::string::npos) {
+        text.erase(0, at + k_begin.size());
+        if (const auto end = text.rfind("): "); end != std::string::npos) text.erase(end);
     }
-    if (const auto end = text.find(" [system:"); end != std::string::npos) text.erase(end);
+    const std::string path = library.string() + ": ";
+    if (text.starts_with(path)) text.erase(0, path.size());
     return text;
+}
+
+/// "libfoo.so.1", if that is what the dynamic linker does not find; empty otherwise.
+std::string missing_dependency(const std::string& message) {
+    const auto at = message.find(": cannot open shared object file: No such file");
+    return at == std::string::npos ? std::string() : message.substr(0, at);
 }
 
 boost::dll::shared_library open_library(const fs::path& library) {
@@ -55,8 +64,12 @@ boost::dll::shared_library open_library(const fs::path& library) {
         return boost::dll::shared_library(
             library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const boost::dll::fs::system_error& problem) {
-        refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it",
-                                    loader_message(problem, library)));
+        const std::string message = loader_message(problem, library);
+        if (const std::string missing = missing_dependency(message); !missing.empty())
+            refuse(library, fmt::format("it needs {}, which is not installed here; install it, or put it "
+                                        "where the plugin's RPATH looks for it",
+                                        missing));
+        refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it", message));
     }
 }
 
