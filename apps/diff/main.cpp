@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "command_line.h"
@@ -18,6 +20,7 @@
 #include "signals.h"
 
 namespace po = boost::program_options;
+namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
 
@@ -87,6 +90,21 @@ int verdict(double tolerance, const DifferenceStatistics& statistics) {
                     statistics.beyond == 1 ? " differs" : "s differ", tolerance, maximum_text(statistics)));
 }
 
+/// What is written must not replace what is read.
+void require_no_input(const CommandLine& line, const char* flag, std::vector<std::string> inputs) {
+    if (!line.has(flag)) return;
+    if (line.has("mask")) inputs.push_back(line.get<std::string>("mask"));
+    const auto output = line.get<std::string>(flag);
+    for (const std::string& input : inputs) {
+        std::error_code problem;
+        if (fs::equivalent(input, output, problem)) {
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("'{}' is one of the pictures that are compared; give --{} another name",
+                                    output, flag));
+        }
+    }
+}
+
 int run(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela diff A B [options]",
@@ -113,6 +131,7 @@ int run(const std::vector<std::string>& arguments) {
                     "candela diff needs two pictures: candela diff A B [options]");
     const double tolerance = tolerance_from(line);
     if (line.has("output")) require_heat_map_format(line.get<std::string>("output"));
+    for (const char* const flag : {"output", "decoded"}) require_no_input(line, flag, names);
 
     const Picture a = read_picture(names[0]), b = read_picture(names[1]);
     if (line.has("decoded")) write_ppm(line.get<std::string>("decoded"), b);

@@ -56,7 +56,7 @@ std::vector<Condition> conditions_of(const std::string& property_value) {
     if (property_value == "true") return {};
     const auto malformed = [&] {
         return std::invalid_argument(fmt::format(
-            "'{}'; it is \"true\", or such as \"where form is disc or ring and shininess is at least 1\"",
+            R"('{}'; it is "true", or such as "where form is disc or ring and shininess is at least 1")",
             property_value));
     };
     const std::vector<std::string> words = words_of(property_value);

@@ -54,7 +54,7 @@ std::string wrong_with(Takes takes, const std::string& value) {
         case Takes::attenuation:
             return value == "constant" || value == "by distance"
                        ? ""
-                       : fmt::format("'{}'; it is \"constant\" or \"by distance\"", value);
+                       : fmt::format(R"('{}'; it is "constant" or "by distance")", value);
         case Takes::an_integer: {
             int number = 0;
             const bool is_one = std::sscanf(value.c_str(), "%d%n", &number, &end) == 1 &&

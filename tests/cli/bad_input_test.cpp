@@ -469,3 +469,13 @@ TEST_CASE("a mistake in every table is found in one run, sorted by place, geomet
     }
     CHECK(count_of(result.err, " error: ") == 7);
 }
+
+TEST_CASE("glass in which light goes no distance is an error at its place") {
+    const CommandResult result = checked(
+        "version = 1\n[[object]]\ntype = \"sphere\"\nreflection = \"dielectric\"\n"
+        "[object.material]\ndepth = 1e-45\n");
+    INFO(result.err);
+    CHECK(result.exit_code == 3);
+    CHECK(result.err.find("scene.toml:6:9: error: 'depth': 1e-45 is outside its range: at least 1e-06") !=
+          std::string::npos);
+}

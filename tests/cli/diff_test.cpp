@@ -320,6 +320,19 @@ TEST_CASE("candela diff that is wrongly used says so, with what may have been me
     CHECK(holds(folder.diff({"--help"}).out, "Usage: candela diff A B [options]"));
 }
 
+TEST_CASE("no picture that is compared, and no mask, is replaced by what candela diff writes") {
+    const Folder folder = folder_with_pictures();
+    const std::string before = read_file(folder / "b.ppm"), mask = read_file(folder / "mask.ppm");
+    for (const char* const flag : {"--output", "--decoded"}) {
+        INFO(flag);
+        CHECK(holds(folder.error({"a.ppm", "b.ppm", flag, "./b.ppm"}, 2),
+                    "give " + std::string(flag) + " another name"));
+        folder.error({"a.ppm", "b.ppm", "--mask", "mask.ppm", flag, "mask.ppm"}, 2);
+    }
+    CHECK(read_file(folder / "b.ppm") == before);
+    CHECK(read_file(folder / "mask.ppm") == mask);
+}
+
 TEST_CASE("the heat-map is black where nothing differs, and brightest where most does") {
     const Folder folder;
     Numbers numbers(std::size_t{3} * 5 * 4, 40);

@@ -10,6 +10,7 @@ module;
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 export module candela.files;
 
@@ -58,6 +59,12 @@ class CANDELA_API OutputFile {
 /// than `most` bytes.
 CANDELA_API std::optional<std::string> read_text_file(const std::filesystem::path& path,
                                                       std::size_t most = std::string::npos);
+
+/// The names of what is in a folder, in no particular order, and no more than `most`; nothing if it cannot be
+/// read. Without memory it throws std::bad_alloc, where std::filesystem::directory_iterator ends the program
+/// (libstdc++ 12).
+CANDELA_API std::optional<std::vector<std::string>> names_in(const std::filesystem::path& folder,
+                                                             std::size_t most = std::string::npos);
 
 /// Writes a text through an OutputFile.
 CANDELA_API void write_text_file(const std::filesystem::path& path, std::string_view text,

@@ -236,14 +236,16 @@ void Registry::scan(PluginKind kind) {
     for (const fs::path& directory : search_path_) {
         std::error_code problem;
         std::set<std::string> names;
-        const fs::directory_iterator entries(directory, problem);
-        if (problem && fs::exists(directory, problem) && ::access(directory.c_str(), R_OK) == 0) {
+        const auto files = names_in(directory);
+        if (!files && fs::exists(directory, problem) && ::access(directory.c_str(), R_OK) == 0) {
             throw Error(ErrorCategory::failure,
                         fmt::format("the folder '{}' cannot be read", directory.string()));
         }
-        for (const fs::directory_entry& entry : entries) {
-            const std::string extension = entry.path().extension().string();
-            const std::string stem = entry.path().stem().string();
+        if (!files) continue;
+        for (const std::string& name : *files) {
+            const fs::path file(name);
+            const std::string extension = file.extension().string();
+            const std::string stem = file.stem().string();
             if ((extension == ".so" || extension == ".json") && stem.starts_with(prefix))
                 names.insert(stem.substr(prefix.size()));
         }

@@ -12,6 +12,7 @@ module;
 module candela.toml;
 
 import candela.diagnostics;
+import candela.files;
 import candela.text;
 
 namespace candela {
@@ -23,11 +24,7 @@ std::string file_suggestion(const std::filesystem::path& missing) {
     std::error_code problem;
     if (!fs::is_directory(folder, problem))
         return fmt::format("there is no folder '{}' either", folder.string());
-    std::vector<std::string> names;
-    for (fs::directory_iterator entry(folder, problem), end;
-         !problem && entry != end && names.size() < k_most; entry.increment(problem)) {
-        names.push_back(entry->path().filename().string());
-    }
+    const std::vector<std::string> names = names_in(folder, k_most).value_or(std::vector<std::string>());
     return suggestion(missing.filename().string(), names, (missing.parent_path() / "").string());
 }
 

@@ -14,7 +14,7 @@ constexpr auto k_fields = fields(
     real(&DielectricMaterial::ior, "ior", 1.5f, "index of refraction: water 1.33, glass 1.5, diamond 2.42")
         .range(1, 4),
     real(&DielectricMaterial::depth, "depth", 1, "distance after which white light has the object's colour")
-        .above(0)
+        .minimum(1e-6f)
         .unit("m"),
     integer(&DielectricMaterial::internal_reflections, "internal_reflections", 4,
             "number of internal reflections followed")
