@@ -2,7 +2,8 @@
 """Checks that imports and includes point down: api < base < host < scene < render < embedding < core < sdk, apps.
 
 Plugins, and the parts of the SDK that are built into plugins, include headers of api and of the SDK, and nothing else; any
-compiler builds them, so they import no module. Each module of api exports what its header declares, all of it.
+compiler builds them, so they import no module. Each module of api exports what its header declares, all of it. No two
+headers are installed under one name.
     storeys.py ROOT
 """
 import pathlib
@@ -86,7 +87,13 @@ def findings(root):
     for path, text in files.items():
         for name in re.findall(r"^export module (candela\.\w+);", text, re.MULTILINE):
             modules[name] = path
-    headers = {path.split("/include/")[1]: path for path in files if "/include/candela/" in path}
+    headers = {}
+    for path in files:
+        if "/include/candela/" not in path:
+            continue
+        first = headers.setdefault(path.split("/include/")[1], path)
+        if first != path:
+            yield f"{path}: {first} is installed under the same name"
     for path, text in files.items():
         for number, line in enumerate(text.splitlines(), 1):
             imported = re.match(r"\s*(?:export )?import (candela\.\w+)", line)
