@@ -16,7 +16,7 @@ from pathlib import Path
 
 LIMIT = 10  # seconds of processor time
 PATIENCE = 60  # seconds of any time, on a busy machine
-ADDRESS_SPACE = 16 << 30  # bytes
+address_space = str(16 << 30)  # bytes
 
 NUMBERS = [b"0", b"-1", b"1", b"255", b"256", b"65535", b"65536", b"2147483647", b"2147483648", b"4294967295",
            b"4294967296", b"18446744073709551615", b"99999999999999999999", b"1e9", b"1e38", b"1e39", b"1e-46", b"nan",
@@ -82,7 +82,7 @@ def unprintable(output: bytes) -> str:
 def run(command: list, directory: Path, codes: tuple, environment: dict = None):
     """The finished process, and what is wrong with every run that ends like this (an empty string: nothing)."""
     try:
-        done = subprocess.run(["prlimit", f"--cpu={LIMIT}", f"--as={ADDRESS_SPACE}", *command], cwd=directory,
+        done = subprocess.run(["prlimit", f"--cpu={LIMIT}", f"--as={address_space}", *command], cwd=directory,
                               capture_output=True, timeout=PATIENCE, stdin=subprocess.DEVNULL, check=False,
                               env=environment)
     except subprocess.TimeoutExpired:
@@ -99,6 +99,7 @@ def run(command: list, directory: Path, codes: tuple, environment: dict = None):
 def sweep(document: str, count: int, kinds: list, trial) -> int:
     """The program of a run: `trial(candela, directory, kind, chance, index)` says what is wrong with one mutant, or
     nothing, and leaves what it was made of in `directory`."""
+    global address_space
     parser = argparse.ArgumentParser(description=document, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("candela", type=lambda path: str(Path(path).resolve()))
     parser.add_argument("--count", type=int, default=count, help=f"mutants of each kind; default: {count}")
@@ -107,7 +108,10 @@ def sweep(document: str, count: int, kinds: list, trial) -> int:
     parser.add_argument("--kind", action="append", choices=kinds, help="may be repeated; default: all")
     parser.add_argument("--keep", type=Path, help="a folder for those that fail")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--address-space", default=address_space,
+                        help="bytes, or 'unlimited', as AddressSanitizer needs it; default: %(default)s")
     options = parser.parse_args()
+    address_space = options.address_space
 
     failed = 0
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
