@@ -3,13 +3,14 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
 import scenes
+from browser import WINDOW
 from generated import Generated, PageTest
 
 
 class Access(PageTest):
     def test_phone(self):
         generated = Generated("phone", scenes.PERSPECTIVE)
-        self.addCleanup(self.browser.resize, 1280, 800)
+        self.addCleanup(self.browser.resize, *WINDOW)
         for width, height in ((390, 844), (320, 568), (844, 390)):
             self.browser.resize(width, height, is_phone=True)
             self.browser.open(generated.address)

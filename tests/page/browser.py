@@ -10,6 +10,8 @@ from selenium.webdriver.common.by import By
 
 from pictures import Picture
 
+# Wide enough for the layout of desktops, and no larger: each pixel on the screen is drawn by the processor.
+WINDOW = (840, 400)
 DRAWS_BY_ITSELF = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 
 
@@ -21,7 +23,7 @@ class Browser:
         chrome.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=chrome)
         self.driver.set_script_timeout(120)
-        self.resize(1280, 800)
+        self.resize(*WINDOW)
 
     def close(self):
         self.driver.quit()

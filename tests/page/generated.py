@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from browser import DRAWS_BY_ITSELF, Browser, scene_of
+from browser import DRAWS_BY_ITSELF, WINDOW, Browser, scene_of
 from pictures import Picture
 
 COMMAND = os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"]
@@ -68,7 +68,7 @@ def options_for(path, value):
 
 
 class PageTest(unittest.TestCase):
-    window = (1280, 800)
+    window = WINDOW
 
     @classmethod
     def setUpClass(cls):

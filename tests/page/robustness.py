@@ -1,6 +1,6 @@
 """Names, data, shaders and devices that mean no good."""
 import scenes
-from browser import Browser, with_scene
+from browser import WINDOW, Browser, with_scene
 from generated import SCRATCH, Generated, PageTest
 
 
@@ -66,7 +66,7 @@ class Robustness(PageTest):
         lights = "".join(f'[[light]]\ntype = "point"\nposition = [{i / 400:.4f}, 2.0, 2.0]\nintensity = 0.004\n' for i in range(1000))
         text = scenes.PERSPECTIVE.replace("[[object]]", lights + "[[object]]", 1).replace("samples = 4", "samples = 1")
         generated = Generated("lights", text, "phong")
-        self.addCleanup(self.browser.resize, 1280, 800)
+        self.addCleanup(self.browser.resize, *WINDOW)
         self.browser.resize(200, 150)  # all of those lights take a while
         self.browser.open(generated.address)
         self.assert_alike(self.picture(generated), generated.render(), "a thousand lights")
