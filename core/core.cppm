@@ -13,6 +13,7 @@ export import candela.files;
 export import candela.film;
 export import candela.fragments;
 export import candela.geometry;
+export import candela.guard;
 export import candela.image;
 export import candela.library;
 export import candela.light;

@@ -13,6 +13,7 @@
 #include "helper.h"
 #include "output_folder.h"
 #include "plugin.h"
+#include "reporting.h"
 
 namespace fs = std::filesystem;
 using candela::Error;
@@ -87,21 +88,22 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
         throw Error(ErrorCategory::failure, fmt::format("'{}' is already there", target.string()));
     const auto values = names_of(words[1]);
     OutputFolder folder(target);
-    for (const fs::directory_entry& entry : fs::directory_iterator(source)) {
-        const auto read = candela::read_text_file(entry.path());
+    const auto templates = candela::names_in(source);
+    if (!templates)
+        throw Error(ErrorCategory::failure, fmt::format("the folder '{}' cannot be read", source.string()));
+    for (const std::string& name : *templates) {
+        const auto read = candela::read_text_file(source / name);
         if (!read)
-            throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", entry.path().string()));
-        folder.write(replaced(entry.path().filename().string(), values), replaced(*read, values));
+            throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", (source / name).string()));
+        folder.write(replaced(name, values), replaced(*read, values));
     }
     folder.finish();
     candela::Registry registry(candela::plugin_search_path({}));
-    if (const auto kind = candela::plugin_kind_named(words[0]);
-        kind && registry.find(*kind, words[1]) != nullptr)
-        std::cerr << fmt::format(
-            "candela: warning: there is a {0} plugin '{1}' already ({2}); wherever the new one is found "
-            "first, it "
-            "hides that\n",
-            words[0], words[1], candela::printable(registry.find(*kind, words[1])->library.string()));
+    const auto kind = candela::plugin_kind_named(words[0]);
+    if (const auto* const hidden = kind ? registry.find(*kind, words[1]) : nullptr)
+        warn(fmt::format(
+            "there is a {} plugin '{}' already ({}); wherever the new one is found first, it hides that",
+            words[0], words[1], hidden->library.string()));
     std::cout << fmt::format(
         "Made {0}. Next:\n  cd {0}\n  cmake -B build -DCMAKE_BUILD_TYPE=Release\n"
         "  cmake --build build && ctest --test-dir build\n",

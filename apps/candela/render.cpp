@@ -36,19 +36,6 @@ void require_no_file(const std::string& output) {
         throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and --no-clobber was given", output));
 }
 
-void require_no_input(const std::string& output, const candela::SceneDraft& draft) {
-    if (output == "-") return;
-    for (const fs::path& input : candela::input_files(draft)) {
-        std::error_code problem;
-        if (fs::equivalent(input, output, problem)) {
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("'{}' is one of the files that the scene is made from; give the picture "
-                                    "another name",
-                                    output));
-        }
-    }
-}
-
 int threads_from(const CommandLine& line) {
     if (!line.has("threads")) return 0;
     const int threads = line.get<int>("threads");
@@ -88,7 +75,9 @@ int run_render(const std::vector<std::string>& arguments) {
 
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
-    if (draft) require_no_input(output, *draft);
+    if (draft && output != "-")
+        require_no_input(output, candela::input_files(*draft), "the files that the scene is made from",
+                         "give the picture another name");
     const double read_ms = total.milliseconds();
     const Stopwatch compiling;
     const auto compiled = draft ? candela::compile(*draft, registry, diagnostics, threads) : std::nullopt;

@@ -75,8 +75,7 @@ namespace {
         constexpr std::string_view k_message = "candela: error: not enough memory\n";
         static_cast<void>(::write(STDERR_FILENO, k_message.data(), k_message.size()));
         ::_exit(static_cast<int>(ExitCode::failure));
-    } catch (...) {
-        std::abort();
+    } catch (...) {  // NOLINT(bugprone-empty-catch): ends as it would without this handler
     }
     std::abort();
 }

@@ -17,14 +17,13 @@ bool is_quiet();
 void say(const std::string& text);
 
 /// Says what `make` returns after the work is done. If there is no memory for that, it is not said: the
-/// result is whole all the same. Returns whether there was.
+/// result is whole all the same.
 template <class Make>
-bool say_afterwards(Make make) {
+void say_afterwards(Make make) {
+    if (is_quiet()) return;
     try {
-        if (!is_quiet()) say(make());
-        return true;
-    } catch (const std::bad_alloc&) {
-        return false;
+        say(make());
+    } catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch): the work is done
     }
 }
 

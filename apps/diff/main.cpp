@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "command_line.h"
@@ -20,7 +19,6 @@
 #include "signals.h"
 
 namespace po = boost::program_options;
-namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
 
@@ -90,21 +88,6 @@ int verdict(double tolerance, const DifferenceStatistics& statistics) {
                     statistics.beyond == 1 ? " differs" : "s differ", tolerance, maximum_text(statistics)));
 }
 
-/// What is written must not replace what is read.
-void require_no_input(const CommandLine& line, const char* flag, std::vector<std::string> inputs) {
-    if (!line.has(flag)) return;
-    if (line.has("mask")) inputs.push_back(line.get<std::string>("mask"));
-    const auto output = line.get<std::string>(flag);
-    for (const std::string& input : inputs) {
-        std::error_code problem;
-        if (fs::equivalent(input, output, problem)) {
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("'{}' is one of the pictures that are compared; give --{} another name",
-                                    output, flag));
-        }
-    }
-}
-
 int run(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela diff A B [options]",
@@ -131,7 +114,13 @@ int run(const std::vector<std::string>& arguments) {
                     "candela diff needs two pictures: candela diff A B [options]");
     const double tolerance = tolerance_from(line);
     if (line.has("output")) require_heat_map_format(line.get<std::string>("output"));
-    for (const char* const flag : {"output", "decoded"}) require_no_input(line, flag, names);
+    std::vector<std::filesystem::path> inputs(names.begin(), names.end());
+    if (line.has("mask")) inputs.emplace_back(line.get<std::string>("mask"));
+    for (const char* const flag : {"output", "decoded"}) {
+        if (line.has(flag))
+            require_no_input(line.get<std::string>(flag), inputs, "the pictures that are compared",
+                             fmt::format("give --{} another name", flag));
+    }
 
     const Picture a = read_picture(names[0]), b = read_picture(names[1]);
     if (line.has("decoded")) write_ppm(line.get<std::string>("decoded"), b);

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <span>
 
 using candela::PluginKind;
 using candela::Vec3;
 
 Arrays::Arrays(std::size_t arrays, std::size_t count, std::size_t shift)
-    : count_(count),
-      shift_(shift),
-      data_(arrays, std::vector<float>(2 * k_guard + count + shift, std::bit_cast<float>(k_poison))) {
+    : count_(count), shift_(shift), data_(arrays, std::vector<float>(2 * k_guard + count + shift)) {
+    for (std::vector<float>& array : data_) candela::fill_with_guard(array);
     fill(0);
 }
 
@@ -22,7 +22,9 @@ void Arrays::fill(float value) {
     for (std::size_t a = 0; a < arrays(); ++a) std::fill_n((*this)[a], count_, value);
 }
 
-void Arrays::poison() { fill(std::bit_cast<float>(k_poison)); }
+void Arrays::fill_with_guard() {
+    for (std::size_t a = 0; a < arrays(); ++a) candela::fill_with_guard({(*this)[a], count_});
+}
 
 void Arrays::surround_with(float value) {
     for (std::vector<float>& array : data_) {
@@ -39,11 +41,9 @@ Arrays Arrays::part(std::size_t first, std::size_t count, std::size_t shift) con
 }
 
 std::string Arrays::trespass() const {
-    for (const std::vector<float>& array : data_) {
-        const auto is_mark = [](float x) { return std::bit_cast<std::uint32_t>(x) == k_poison; };
-        const auto begin = array.begin() + static_cast<std::ptrdiff_t>(k_guard + shift_);
-        if (!std::all_of(array.begin(), begin, is_mark)) return "before";
-        if (!std::all_of(begin + static_cast<std::ptrdiff_t>(count_), array.end(), is_mark)) return "after";
+    for (const std::span<const float> array : data_) {
+        if (!candela::is_guard_intact(array.first(k_guard + shift_))) return "before";
+        if (!candela::is_guard_intact(array.subspan(k_guard + shift_ + count_))) return "after";
     }
     return {};
 }
@@ -261,7 +261,7 @@ Arrays turned(const Arrays& in) {
 
 Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift) {
     Arrays out(3 * call.outputs.size(), in.count(), shift);
-    if (!call.adds) out.poison();
+    if (!call.adds) out.fill_with_guard();
     call.run(in.count(), in, out);
     return out;
 }

@@ -1,18 +1,13 @@
 // The plugins that work on batches, seen alike: arrays of floats in, arrays of floats out.
 #pragma once
 
-#include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "subject.h"
-
-/// A signalling NaN. Whatever is computed from it has other bits, so that no arithmetic leaves it as it is.
-inline constexpr std::uint32_t k_poison = 0x7fa5'5a5a;
 
 /// Arrays of one length, with room before and after each that nobody may write to. What is read there is
 /// NaN.
@@ -38,10 +33,8 @@ class Arrays {
     /// Fills what lies before and after the arrays, instead of with NaN: for what reads it and hides that.
     void surround_with(float value);
     /// Fills the arrays with what only writing removes; is_written() finds it again.
-    void poison();
-    bool is_written(std::size_t array, std::size_t i) const {
-        return std::bit_cast<std::uint32_t>((*this)[array][i]) != k_poison;
-    }
+    void fill_with_guard();
+    bool is_written(std::size_t array, std::size_t i) const { return !candela::is_guard((*this)[array][i]); }
     /// Elements [first, first + count) of all arrays.
     Arrays part(std::size_t first, std::size_t count, std::size_t shift = 0) const;
     /// "before" or "after" where the room there was written to, or empty.

@@ -28,7 +28,7 @@ std::vector<Vec3> Facets::vertex_normals(const ShadingModel& model) const {
     Arrays points(3, count), faces(3, triangles), normals(3, count);
     std::vector<std::uint32_t> group(count);
     std::iota(group.begin(), group.end(), 0u);
-    normals.poison();
+    normals.fill_with_guard();
     for (std::size_t i = 0; i < count; ++i) points.vec3(0).set(i, position[i]);
     for (std::size_t t = 0; t < triangles; ++t) {
         const Vec3 a = position[indices[3 * t]], b = position[indices[3 * t + 1]],

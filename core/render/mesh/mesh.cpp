@@ -23,6 +23,7 @@ module;
 module candela.mesh;
 
 import candela.diagnostics;
+import candela.guard;
 import candela.memory;
 import candela.parallel;
 import candela.shape;
@@ -251,13 +252,10 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
         std::iota(each_its_own.begin(), each_its_own.end(), 0u);
     }
     Vec3Arrays normal;
-    // Signalling NaN, which no arithmetic leaves as it is.
     constexpr std::size_t k_guard_size = 16;
-    constexpr std::uint32_t k_guard_bits = 0x7fa5'5a5a;
     normal.resize(count + k_guard_size);
     for (AlignedVector<float>* const array : {&normal.x, &normal.y, &normal.z})
-        std::fill(array->begin() + static_cast<std::ptrdiff_t>(count), array->end(),
-                  std::bit_cast<float>(k_guard_bits));
+        fill_with_guard(std::span(*array).subspan(count));
     const MeshView view{.position = std::as_const(mesh.position).span(),
                         .indices = mesh.indices,
                         .face_normal = std::as_const(mesh.face_normal).span(),
@@ -269,8 +267,7 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
                                                : std::as_const(placed.authored_normal).span()};
     shading.vertex_normals(view, normal.span());
     for (const AlignedVector<float>* const array : {&normal.x, &normal.y, &normal.z}) {
-        if (std::any_of(array->begin() + static_cast<std::ptrdiff_t>(count), array->end(),
-                        [](float x) { return std::bit_cast<std::uint32_t>(x) != k_guard_bits; }))
+        if (!is_guard_intact(std::span(*array).subspan(count)))
             throw std::invalid_argument("it writes more vertex normals than there are vertices");
     }
     mesh.vertices.resize(count);

@@ -22,6 +22,7 @@ module candela.shade;
 
 import :surroundings;
 import candela.diagnostics;
+import candela.guard;
 import candela.library;
 import candela.light;
 import candela.raster;
@@ -107,10 +108,8 @@ float largest_of(ConstVec3Span v, std::size_t count) {
     return std::bit_cast<float>(bits);
 }
 
-/// A stretch after the batch arrays' last element that nobody may write to: signalling NaN, which no
-/// arithmetic leaves as it is, not even adding zero.
+/// The guard after the batch arrays' last element, in floats.
 constexpr std::size_t k_guard_size = 16;
-constexpr std::uint32_t k_guard_bits = 0x7fa5'5a5a;
 
 void clear(const Vec3Span& span, std::size_t count) {
     for (float* const channel : {span.x, span.y, span.z}) std::fill_n(channel, count, 0.0f);
@@ -171,21 +170,17 @@ std::array<Vec3Arrays*, 7> SurfaceShader::written_by_plugins() {
 void SurfaceShader::mark_ends() {
     for (Vec3Arrays* const arrays : written_by_plugins()) {
         for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
-            std::fill(array->begin() + k_batch_size, array->end(), std::bit_cast<float>(k_guard_bits));
+            fill_with_guard(std::span(*array).subspan(k_batch_size));
     }
 }
 
 bool SurfaceShader::are_ends_intact() {
-    // All of them, without an early exit: that is a vector loop.
-    std::uint32_t differing = 0;
+    bool intact = true;
     for (const Vec3Arrays* const arrays : written_by_plugins()) {
-        for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z}) {
-            const float* const end = array->data() + k_batch_size;
-            for (std::size_t i = 0; i < k_guard_size; ++i)
-                differing |= std::bit_cast<std::uint32_t>(end[i]) ^ k_guard_bits;
-        }
+        for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
+            intact &= is_guard_intact(std::span(*array).subspan<k_batch_size, k_guard_size>());
     }
-    return differing == 0;
+    return intact;
 }
 
 void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
