@@ -15,6 +15,10 @@
 #include "terminal.h"
 #include "verbs.h"
 
+import candela.film;
+import candela.render;
+import candela.simd;
+
 namespace po = boost::program_options;
 using candela::Error;
 using candela::ErrorCategory;

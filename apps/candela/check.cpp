@@ -17,6 +17,9 @@
 #include "terminal.h"
 #include "verbs.h"
 
+import candela.render;
+import candela.text;
+
 using candela::CompiledScene;
 using candela::Diagnostics;
 using candela::Scene;

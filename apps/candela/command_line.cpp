@@ -17,6 +17,9 @@
 #include "terminal.h"
 #include "wrapping.h"
 
+import candela.text;
+import candela.toml;
+
 namespace po = boost::program_options;
 using candela::Error;
 using candela::ErrorCategory;

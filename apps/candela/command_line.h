@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-import candela.core;
+import candela.diagnostics;
+import candela.registry;
+import candela.scene;
 
 /// A verb's options, its positional arguments and its help. Throws candela::Error (usage) with a suggestion
 /// for what it does not know.

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-import candela.core;
+import candela.diagnostics;
 
 constexpr std::size_t k_most_diagnostics_shown = 50;
 

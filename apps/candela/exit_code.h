@@ -1,7 +1,7 @@
 // Exit codes of the command and of the programs beside it.
 #pragma once
 
-import candela.core;
+import candela.diagnostics;
 
 enum class ExitCode : int { ok = 0, failure = 1, usage = 2, invalid_scene = 3, verification_failed = 4 };
 

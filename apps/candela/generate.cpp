@@ -14,6 +14,8 @@
 #include "terminal.h"
 #include "verbs.h"
 
+import candela.text;
+
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;

@@ -9,7 +9,7 @@
 #include "command_line.h"
 #include "targets.h"
 
-import candela.core;
+import candela.render;
 
 /// Adds --models.
 void add_models_option(CommandLine& line);

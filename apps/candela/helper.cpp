@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-import candela.core;
-
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;

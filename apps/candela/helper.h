@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+import candela.diagnostics;
+
 /// Where something is that is installed beside the command, relative to the prefix.
 std::filesystem::path beside_command(const char* relative);
 

@@ -11,6 +11,8 @@
 #include "verbs.h"
 #include "wrapping.h"
 
+import candela.text;
+
 using candela::Error;
 using candela::ErrorCategory;
 

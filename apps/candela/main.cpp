@@ -13,7 +13,8 @@
 #include "verbs.h"
 #include "wrapping.h"
 
-import candela.core;
+import candela.simd;
+import candela.text;
 
 namespace {
 

@@ -14,6 +14,8 @@
 #include "starter.h"
 #include "verbs.h"
 
+import candela.files;
+
 using candela::Error;
 using candela::ErrorCategory;
 

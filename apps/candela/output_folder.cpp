@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-import candela.core;
+import candela.files;
 
 namespace fs = std::filesystem;
 using candela::Error;

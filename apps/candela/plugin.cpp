@@ -12,6 +12,8 @@
 #include "helper.h"
 #include "verbs.h"
 
+import candela.text;
+
 using candela::Error;
 using candela::ErrorCategory;
 

@@ -16,6 +16,9 @@
 #include "exit_code.h"
 #include "plugin.h"
 
+import candela.library;
+import candela.text;
+
 namespace fs = std::filesystem;
 
 namespace {

@@ -15,6 +15,9 @@
 #include "plugin.h"
 #include "reporting.h"
 
+import candela.files;
+import candela.text;
+
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;

@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 
-import candela.core;
-
 class PrintableStreams::Filter final : public std::streambuf {
   public:
     explicit Filter(std::streambuf& to) : to_(to) {}

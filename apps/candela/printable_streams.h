@@ -4,6 +4,8 @@
 #include <iosfwd>
 #include <memory>
 
+import candela.text;
+
 /// While one of these lives, std::cout and std::cerr pass everything through candela::printable(): valid
 /// UTF-8, and nothing that a terminal obeys. Line breaks are kept. What has colours is written by
 /// print_styled().

@@ -14,7 +14,11 @@
 #include "terminal.h"
 #include "verbs.h"
 
+import candela.files;
+import candela.film;
 import candela.parallel;
+import candela.render;
+import candela.simd;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -17,6 +17,8 @@
 #include "printable_streams.h"
 #include "terminal.h"
 
+import candela.files;
+
 namespace {
 
 bool quiet = false;

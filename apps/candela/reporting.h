@@ -7,7 +7,7 @@
 
 #include "exit_code.h"
 
-import candela.core;
+import candela.registry;
 
 /// From now on nothing but errors is printed on stderr (--quiet).
 void be_quiet();

@@ -10,6 +10,7 @@
 #include "verbs.h"
 
 import candela.schema;
+import candela.text;
 
 namespace po = boost::program_options;
 using candela::Error;

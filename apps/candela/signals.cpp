@@ -9,7 +9,7 @@
 #include "temporary_folder.h"
 #include "terminal.h"
 
-import candela.core;
+import candela.files;
 
 namespace {
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+import candela.library;
+import candela.text;
+
 using candela::Error;
 using candela::ErrorCategory;
 using candela::PluginKind;

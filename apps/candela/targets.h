@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-import candela.core;
+import candela.diagnostics;
+import candela.exported_scene;
+import candela.registry;
 
 /// A target whose plugin is loaded. What the plugin throws becomes candela::Error that names it.
 class LoadedTarget {

@@ -20,8 +20,6 @@
 
 #include "directory_entries.h"
 
-import candela.core;
-
 namespace fs = std::filesystem;
 
 namespace {

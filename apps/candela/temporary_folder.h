@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+import candela.diagnostics;
+
 /// A new folder, removed with all it contains when this is, or when a signal ends the process.
 class TemporaryFolder {
   public:

@@ -28,6 +28,9 @@
 #include "verify/edges.h"
 #include "verify/report.h"
 
+import candela.files;
+import candela.text;
+
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-import candela.core;
+import candela.text;
 
 namespace {
 

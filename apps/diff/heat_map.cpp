@@ -17,7 +17,9 @@
 
 #include "picture_comparison/differences.h"
 
-import candela.core;
+import candela.files;
+import candela.memory;
+import candela.text;
 
 namespace fs = std::filesystem;
 using candela::Error;

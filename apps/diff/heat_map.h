@@ -5,6 +5,8 @@
 
 #include "picture_comparison/picture.h"
 
+import candela.diagnostics;
+
 /// Throws candela::Error (usage) where `file` does not end in a format that a heat-map can be written in.
 void require_heat_map_format(const std::filesystem::path& file);
 

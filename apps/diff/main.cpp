@@ -18,6 +18,8 @@
 #include "reporting.h"
 #include "signals.h"
 
+import candela.files;
+
 namespace po = boost::program_options;
 using candela::Error;
 using candela::ErrorCategory;

@@ -17,7 +17,7 @@
 #include <system_error>
 #include <vector>
 
-import candela.core;
+import candela.memory;
 import candela.toml;
 
 namespace fs = std::filesystem;

@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-import candela.diagnostics;
-
 using Json = nlohmann::ordered_json;
 
 namespace {

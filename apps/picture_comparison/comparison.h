@@ -6,6 +6,8 @@
 
 #include "picture_comparison/differences.h"
 
+import candela.diagnostics;
+
 struct Comparison {
     int width = 0, height = 0;
     Differences differences{};

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-import candela.core;
+import candela.memory;
 
 namespace {
 

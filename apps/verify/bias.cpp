@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+import candela.files;
+
 using candela::Error;
 using candela::ErrorCategory;
 

@@ -8,6 +8,9 @@
 
 #include "verify/edges.h"
 
+import candela.color;
+import candela.diagnostics;
+
 namespace verify {
 
 /// Candela's picture, and what is known about it. Rows from the top, no padding.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-import candela.core;
+import candela.process;
 
 using candela::Error;
 using candela::ErrorCategory;

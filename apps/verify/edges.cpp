@@ -12,6 +12,12 @@
 #include <utility>
 #include <vector>
 
+import candela.light;
+import candela.raster;
+import candela.scene;
+import candela.shade;
+import candela.transform;
+
 using candela::Observer;
 using candela::Projection;
 using candela::Vec3;

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-import candela.core;
+import candela.film;
+import candela.render;
 
 namespace verify {
 

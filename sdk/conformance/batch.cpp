@@ -9,6 +9,10 @@
 #include <random>
 #include <span>
 
+import candela.light;
+import candela.reflection;
+import candela.shading;
+
 using candela::PluginKind;
 using candela::Vec3;
 

@@ -9,6 +9,9 @@
 
 #include "subject.h"
 
+import candela.guard;
+import candela.math;
+
 /// Arrays of one length, with room before and after each that nobody may write to. What is read there is
 /// NaN.
 class Arrays {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-import candela.core;
+import candela.parameters;
 
 /// One parameter's part of it.
 struct Condition {

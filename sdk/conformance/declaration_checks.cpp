@@ -14,6 +14,8 @@
 #include "conditions.h"
 #include "subject.h"
 
+import candela.text;
+
 using candela::Manifest;
 using candela::PluginKind;
 

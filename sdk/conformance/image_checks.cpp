@@ -20,6 +20,9 @@
 #include "kernel_program.h"
 #include "subject.h"
 
+import candela.image;
+import candela.registry;
+
 namespace fs = std::filesystem;
 using candela::FileFormat;
 using candela::ImageFormat;

@@ -14,6 +14,9 @@
 #include "kernel_program.h"
 #include "programs.h"
 
+import candela.mesh;
+import candela.shape;
+
 using candela::PluginKind;
 using candela::Vec3;
 

@@ -10,6 +10,8 @@
 
 #include "programs.h"
 
+import candela.light;
+
 namespace fs = std::filesystem;
 using candela::Parameter;
 using candela::ParamType;

@@ -7,6 +7,8 @@
 
 #include "batch.h"
 
+import candela.light;
+
 using candela::Vec3;
 
 namespace {

@@ -8,6 +8,8 @@
 
 #include "batch.h"
 
+import candela.reflection;
+
 using candela::ReflectionModel;
 using candela::Vec3;
 

@@ -10,6 +10,8 @@
 
 #include "batch.h"
 
+import candela.shading;
+
 using candela::ShadingModel;
 using candela::Vec3;
 

@@ -11,6 +11,9 @@
 
 #include "subject.h"
 
+import candela.mesh;
+import candela.shape;
+
 using candela::Mesh;
 using candela::Vec3;
 

@@ -14,6 +14,13 @@
 #include <stdexcept>
 #include <variant>
 
+import candela.image;
+import candela.library;
+import candela.light;
+import candela.reflection;
+import candela.shape;
+import candela.target;
+
 using candela::Parameter;
 using candela::ParamType;
 using candela::Vec3;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-import candela.core;
+import candela.manifest;
 
 /// Values that somebody has given for parameters, by name, as they would stand in a scene; texts and words
 /// without quotes.

@@ -17,6 +17,12 @@
 #include "kernel_program.h"
 #include "subject.h"
 
+import candela.diagnostics;
+import candela.exported_scene;
+import candela.files;
+import candela.registry;
+import candela.scene;
+
 namespace fs = std::filesystem;
 using candela::ExportedFile;
 using candela::Target;
