@@ -169,3 +169,13 @@ candela::SceneRequest scene_request_from(const CommandLine& line) {
     if (can_ask() && request.streams.empty()) request.ask = ask;
     return request;
 }
+
+void require_no_input(const std::string& output, const std::vector<std::filesystem::path>& inputs,
+                      const std::string& inputs_are, const std::string& remedy) {
+    for (const std::filesystem::path& input : inputs) {
+        std::error_code problem;
+        if (std::filesystem::equivalent(input, output, problem))
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("'{}' is one of {}; {}", output, inputs_are, remedy));
+    }
+}

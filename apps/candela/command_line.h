@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/program_options.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -48,3 +49,8 @@ candela::Registry registry_from(const CommandLine& line);
 /// Adds what says how a scene is read: SCENE..., --shading, --set and so on.
 void add_scene_options(CommandLine& line);
 candela::SceneRequest scene_request_from(const CommandLine& line);
+
+/// Throws Error (bad_request) where `output` is the file of one of `inputs`, by whatever path: "'a.png' is
+/// one of `inputs_are`; `remedy`".
+void require_no_input(const std::string& output, const std::vector<std::filesystem::path>& inputs,
+                      const std::string& inputs_are, const std::string& remedy);
