@@ -17,6 +17,7 @@
 #include "crease.h"
 #include "derivatives.h"
 #include "file_bytes.h"
+#include "orientation.h"
 #include "readers.h"
 #include "surface.h"
 
@@ -108,8 +109,8 @@ class FileMesh final : public candela::Shape {
   private:
     void write(mesh::Surface surface, const candela::MeshRequest& request, candela::MeshSink& sink) const {
         mesh::Corners corners(surface);
-        const std::uint64_t open = mesh::open_edges(surface, corners);
-        if (open == 0 && mesh::turn_outwards(surface)) corners = mesh::Corners(surface);
+        const mesh::OpenEdges open = mesh::open_edges(surface, corners);
+        if (mesh::turn_outwards(surface, corners, open)) corners = mesh::Corners(surface);
         mesh::SplitVertices split;
         if (!has_all_normals(surface)) split = mesh::split_at_creases(surface, corners, crease_angle_);
         const mesh::Array<std::uint32_t>& indices = split.indices.empty() ? surface.indices : split.indices;
@@ -123,8 +124,8 @@ class FileMesh final : public candela::Shape {
             // make no better tangents.
             .has_derivatives = request.derivatives,
             .has_smooth_groups = !split.group.empty(),
-            .closedness = open == 0 ? candela::Closedness::closed : candela::Closedness::open,
-            .open_edges = open};
+            .closedness = open.count == 0 ? candela::Closedness::closed : candela::Closedness::open,
+            .open_edges = open.count};
         const candela::MeshSpans to = sink.allocate(layout);
         copy(surface.position, split.source, layout.vertices, to.position);
         if (layout.has_normals) copy(surface.normal, split.source, layout.vertices, to.normal);
