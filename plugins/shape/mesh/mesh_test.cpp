@@ -493,6 +493,40 @@ TEST_CASE("shape/mesh: a pipe, a folder and a device are refused, and nobody wai
                       Catch::Matchers::ContainsSubstring("names 'a.bin', which is not a regular file"));
 }
 
+TEST_CASE(
+    "shape/mesh: a glTF file names files in its folder or below, others only where the scene allows it") {
+    const auto directory = scratch_directory();
+    std::filesystem::create_directories(directory / "models");
+    const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::string bytes(reinterpret_cast<const char*>(corners.data()), sizeof corners);
+    write_file(directory / "outside.bin", bytes);
+    write_file(directory / "models" / "inside.bin", bytes);
+    std::filesystem::remove(directory / "models" / "link.bin");
+    std::filesystem::create_symlink("../outside.bin", directory / "models" / "link.bin");
+    const auto naming = [&](const std::string& uri) {
+        return write_file(directory / "models" / "p.gltf", R"({"asset": {"version": "2.0"},
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}],
+            "scenes": [{"nodes": [0]}], "scene": 0,
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                           "min": [0, 0, 0], "max": [1, 1, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": ")" + uri + "\"}]}")
+            .string();
+    };
+    const auto triangles = [](const std::string& file, bool allowed) {
+        return built(*instance<Shape>("mesh", {{"file", file}, {"allow_outside", allowed}})).triangle_count();
+    };
+    CHECK(triangles(naming("inside.bin"), false) == 1);
+    for (const std::string& uri :
+         {std::string("../outside.bin"), std::string("link.bin"), (directory / "outside.bin").string()}) {
+        INFO(uri);
+        CHECK_THROWS_WITH(triangles(naming(uri), false),
+                          Catch::Matchers::ContainsSubstring("not in its own folder or below") &&
+                              Catch::Matchers::ContainsSubstring("allow_outside = true"));
+        CHECK(triangles(naming(uri), true) == 1);
+    }
+}
+
 TEST_CASE("shape/mesh: the number of threads changes nothing") {
     const Mesh sphere = built(*instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{300}}}));
     const auto file = write_file(scratch_directory() / "many.obj", soup_of(sphere));
