@@ -50,6 +50,7 @@ int run_generate(const std::vector<std::string>& arguments) {
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));
     const auto exported = export_for(target, *scene, line, registry);
     const auto files = target.files_of(exported.scene());
+    require_no_input_in(directory, names_of(files), *scene, "output");
     write_program(files, directory);
     say_afterwards([&] {
         std::string text;

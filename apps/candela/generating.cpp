@@ -40,10 +40,12 @@ std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::R
     auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
     if (!compiled) return std::nullopt;
     const std::vector<std::string> files = line.all("scene");
+    std::vector<fs::path> inputs = candela::input_files(*draft);
     return SceneToExport{
         .title = files.empty() ? "The default scene" : fs::path(files.front()).stem().string(),
         .scene = std::move(draft->scene),
-        .compiled = std::move(*compiled)};
+        .compiled = std::move(*compiled),
+        .inputs = std::move(inputs)};
 }
 
 candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport& scene,
@@ -66,6 +68,19 @@ candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport&
         if (problem.category() != ErrorCategory::bad_request) throw;
         throw Error(problem.category(), fmt::format("--models: {}", problem.what()), problem.help());
     }
+}
+
+std::vector<fs::path> names_of(const std::vector<candela::ExportedFile>& files) {
+    std::vector<fs::path> names;
+    for (const candela::ExportedFile& file : files) names.emplace_back(file.name);
+    return names;
+}
+
+void require_no_input_in(const fs::path& folder, const std::vector<fs::path>& names,
+                         const SceneToExport& scene, const std::string& option) {
+    for (const fs::path& name : names)
+        require_no_input((folder / name).string(), scene.inputs, "the files that the scene is made from",
+                         fmt::format("give another folder with --{}", option));
 }
 
 void write_program(const std::vector<candela::ExportedFile>& files, const fs::path& directory) {

@@ -30,6 +30,19 @@ fs::path existing_part_of(const fs::path& target) {
     }
 }
 
+/// Moves every file below `from` to the same place below `to`.
+void move_files(const fs::path& from, const fs::path& to) {
+    const auto names = candela::names_in(from);
+    if (!names) throw fs::filesystem_error("", from, std::make_error_code(std::errc::io_error));
+    fs::create_directories(to);
+    for (const std::string& name : *names) {
+        if (fs::is_directory(fs::symlink_status(from / name)))
+            move_files(from / name, to / name);
+        else
+            fs::rename(from / name, to / name);
+    }
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& target)
@@ -49,10 +62,9 @@ void OutputFolder::write(const fs::path& name, std::string_view content) {
             reason.replace(at, file.string().size(), (target_ / name).string());
         throw Error(error.category(), reason, error.help());
     }
-    names_.push_back(name);
 }
 
-void OutputFolder::finish() try {
+void OutputFolder::finish(const std::vector<fs::path>& outdated) try {
     const WithoutInterruption during_this;
     if (!fs::exists(target_)) {
         const fs::path target = fs::absolute(target_ / "").lexically_normal().parent_path();
@@ -60,8 +72,8 @@ void OutputFolder::finish() try {
         fs::rename(beside_.path(), target);
         return beside_.release();
     }
-    for (const fs::path& name : names_) fs::create_directories((target_ / name).parent_path());
-    for (const fs::path& name : names_) fs::rename(beside_.path() / name, target_ / name);
+    for (const fs::path& name : outdated) fs::remove(target_ / name);
+    move_files(beside_.path(), target_);
 } catch (const fs::filesystem_error& problem) {
     fail(target_, problem.code().message());
 }

@@ -17,11 +17,13 @@ class OutputFolder {
 
     /// `name` is relative, and may be in folders of its own. Throws candela::Error (failure).
     void write(const std::filesystem::path& name, std::string_view content);
-    /// Moves all of them. Call it once, after the last write(). Throws candela::Error (failure).
-    void finish();
+    /// Where the files are until finish(), for whoever else makes some.
+    const std::filesystem::path& draft() const { return beside_.path(); }
+    /// Moves all of them, and removes the files of these names that are older. Call it once, at the end.
+    /// Throws candela::Error (failure).
+    void finish(const std::vector<std::filesystem::path>& outdated = {});
 
   private:
     std::filesystem::path target_;
     TemporaryFolder beside_;
-    std::vector<std::filesystem::path> names_;
 };

@@ -18,6 +18,7 @@
 #include "exit_code.h"
 #include "generating.h"
 #include "helper.h"
+#include "output_folder.h"
 #include "reporting.h"
 #include "targets.h"
 #include "temporary_folder.h"
@@ -38,38 +39,58 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// Where programs are built and drawn: the folder of the report, or one that is gone when this is. What
-/// programs leave in the folder for temporary files is gone with it, too.
+/// Where programs are built and drawn. A report comes into being beside its folder, so that an old one is
+/// whole until a new one replaces it. What programs leave in the folder for temporary files is gone when this
+/// is.
 class Workplace {
   public:
     explicit Workplace(const std::optional<std::string>& report)
-        : temporary_(fs::temp_directory_path(), "candela-"), path_(temporary_.path()) {
+        : temporary_(fs::temp_directory_path(), "candela-") {
         ::setenv("TMPDIR", temporary_.path().c_str(), 1);
         inherit_orphans();
         if (!report) return;
-        path_ = *report;
-        const WithoutInterruption during_this;
-        std::error_code problem;
-        const bool is_new = fs::create_directories(path_, problem);
-        if (!fs::is_directory(path_))
-            throw Error(ErrorCategory::failure,
-                        fmt::format("the folder '{}' cannot be made", path_.string()));
-        if (is_new) new_report_.emplace(path_);
+        report_ = *report;
+        draft_.emplace(report_);
     }
-    Workplace(const Workplace&) = delete;
-    Workplace& operator=(const Workplace&) = delete;
-    /// A report is kept, also of what went wrong; only a signal takes it away.
-    ~Workplace() {
-        if (new_report_) new_report_->release();
-    }
-    const fs::path& path() const { return path_; }
+    const fs::path& path() const { return draft_ ? draft_->draft() : temporary_.path(); }
     /// For files that are not part of the report.
     fs::path scratch(const std::string& name) const { return temporary_.path() / name; }
 
+    /// Puts the report in its place, and takes away what is left there of another of these targets.
+    void finish(const std::vector<LoadedTarget>& targets) {
+        if (!draft_) return;
+        std::vector<fs::path> outdated = pictures_of(targets);
+        outdated.emplace_back("index.html");
+        for (const LoadedTarget& target : targets) {
+            // CMake works in no folder that has been moved, unless it forgets where that was.
+            const fs::path cache = fs::path(target.name()) / "build" / "CMakeCache.txt";
+            std::error_code none;
+            fs::remove(draft_->draft() / cache, none);
+            outdated.push_back(cache);
+        }
+        draft_->finish(outdated);
+    }
+    /// A message of something that went wrong in the draft, about the place where it will be.
+    std::string in_place(std::string message) const {
+        if (!draft_) return message;
+        const std::string draft = draft_->draft().string();
+        for (std::size_t at = 0; (at = message.find(draft, at)) != std::string::npos;)
+            message.replace(at, draft.size(), report_.string());
+        return message;
+    }
+
+    /// The names of a report's pictures.
+    static std::vector<fs::path> pictures_of(const std::vector<LoadedTarget>& targets) {
+        std::vector<fs::path> names{"reference.png", "edges.png"};
+        for (const LoadedTarget& target : targets)
+            for (const char* const end : {".png", "-difference.png"}) names.emplace_back(target.name() + end);
+        return names;
+    }
+
   private:
     TemporaryFolder temporary_;
-    fs::path path_;
-    std::optional<TemporaryFolder> new_report_;
+    fs::path report_;
+    std::optional<OutputFolder> draft_;
 };
 
 std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registry& registry) {
@@ -156,19 +177,48 @@ verify::Verdict verdict_on(const std::string& name, const verify::Expectation& e
     return verdict;
 }
 
-/// So that nothing of an earlier report is taken for this one's.
-void remove_report(const fs::path& folder, const std::vector<LoadedTarget>& targets) {
-    std::vector<std::string> names{"index.html", "reference.png", "edges.png"};
-    for (const LoadedTarget& target : targets)
-        for (const char* const end : {".png", "-difference.png"}) names.push_back(target.name() + end);
-    for (const std::string& name : names) {
-        std::error_code problem;
-        fs::remove(folder / name, problem);
-        if (problem)
-            throw Error(ErrorCategory::failure,
-                        fmt::format("'{}', of an earlier report, cannot be removed: {}",
-                                    (folder / name).string(), problem.message()));
+struct Verification {
+    std::vector<LoadedTarget> targets;
+    std::vector<candela::SceneExport> exports;  // one for each target
+    std::optional<fs::path> program;            // made earlier
+    verify::Limits limits;
+    fs::path comparing;
+};
+
+std::vector<verify::Verdict> verdicts_on(const Verification& what, candela::CompiledScene& scene,
+                                         const Workplace& workplace, candela::Registry& registry) {
+    const fs::path& folder = workplace.path();
+    std::vector<verify::Verdict> verdicts;
+    ProgressBar bar("verifying");
+    const std::size_t steps = 1 + 3 * what.targets.size();
+    std::size_t done = 0;
+    const auto step = [&] { bar.update(++done, steps); };
+    const verify::Expectation expected = expectation_of(scene, what.limits.maximum, folder, registry);
+    step();
+    for (std::size_t i = 0; i < what.targets.size(); ++i) {
+        const LoadedTarget& target = what.targets[i];
+        const std::string& name = target.name();
+        const fs::path program = what.program.value_or(folder / name);
+        if (!what.program) write_program(target.files_of(what.exports[i].scene()), program);
+        target.build(program);
+        step();
+        target.draw(program, folder / (name + ".png"));
+        step();
+        verdicts.push_back(verdict_on(name, expected, workplace, what.comparing));
+        step();
     }
+    return verdicts;
+}
+
+/// Nothing of a report, nor of the programs in it, may replace what the scene is made from.
+void require_no_input_in_report(const std::string& report, const Verification& what,
+                                const SceneToExport& scene) {
+    std::vector<fs::path> names = Workplace::pictures_of(what.targets);
+    names.emplace_back("index.html");
+    for (std::size_t i = 0; i < what.targets.size() && !what.program; ++i)
+        for (const fs::path& name : names_of(what.targets[i].files_of(what.exports[i].scene())))
+            names.push_back(what.targets[i].name() / name);
+    require_no_input_in(report, names, scene, "report");
 }
 
 }  // namespace
@@ -199,51 +249,43 @@ int run_verify(const std::vector<std::string>& arguments) {
     if (!line.parse(arguments)) return 0;
     const fs::path comparing = comparing_program();  // before anything is built for it
     candela::Registry registry = registry_from(line);
-    const std::vector<LoadedTarget> chosen = targets_from(line, registry);
+    std::vector<LoadedTarget> chosen = targets_from(line, registry);
     const verify::Limits limits = limits_from(line);
 
     candela::Diagnostics diagnostics;
     auto scene = scene_to_export(line, registry, diagnostics);
     report(diagnostics);
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));
-    std::vector<candela::SceneExport> exports;
-    for (const LoadedTarget& target : chosen) exports.push_back(export_for(target, *scene, line, registry));
+    Verification what{
+        .targets = std::move(chosen), .exports = {}, .program = {}, .limits = limits, .comparing = comparing};
+    for (const LoadedTarget& target : what.targets)
+        what.exports.push_back(export_for(target, *scene, line, registry));
+    if (line.has("program")) what.program = line.get<std::string>("program");
+    std::optional<std::string> report_folder;
+    if (line.has("report")) {
+        report_folder = line.get<std::string>("report");
+        require_no_input_in_report(*report_folder, what, *scene);
+    }
 
-    const Workplace workplace(line.has("report") ? std::optional(line.get<std::string>("report"))
-                                                 : std::nullopt);
-    const fs::path& folder = workplace.path();
-    remove_report(folder, chosen);
+    Workplace workplace(report_folder);
     std::vector<verify::Verdict> verdicts;
-    {
-        ProgressBar bar("verifying");
-        const std::size_t steps = 1 + 3 * chosen.size();
-        std::size_t done = 0;
-        const auto step = [&] { bar.update(++done, steps); };
-        const verify::Expectation expected =
-            expectation_of(scene->compiled, limits.maximum, folder, registry);
-        step();
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            const LoadedTarget& target = chosen[i];
-            const std::string& name = target.name();
-            const fs::path program =
-                line.has("program") ? fs::path(line.get<std::string>("program")) : folder / name;
-            if (!line.has("program")) write_program(target.files_of(exports[i].scene()), program);
-            target.build(program);
-            step();
-            target.draw(program, folder / (name + ".png"));
-            step();
-            verdicts.push_back(verdict_on(name, expected, workplace, comparing));
-            step();
-        }
+    try {
+        verdicts = verdicts_on(what, scene->compiled, workplace, registry);
+    } catch (const Error& problem) {
+        // A report is kept, also of what went wrong.
+        workplace.finish(what.targets);
+        throw Error(problem.category(), workplace.in_place(problem.what()), problem.help());
     }
     std::cout << (line.has("json") ? candela::printable_json(verify::json_of(verdicts, limits))
                                    : verify::table_of(verdicts, limits));
     bool all_match = true;
     for (const verify::Verdict& v : verdicts)
         all_match = all_match && v.outcome(limits) == verify::Outcome::match;
-    if (line.has("report")) {
-        candela::write_text_file(folder / "index.html", verify::report_page(scene->title, verdicts, limits));
-        say(fmt::format("report: {}\n", (folder / "index.html").string()));
+    if (report_folder) {
+        candela::write_text_file(workplace.path() / "index.html",
+                                 verify::report_page(scene->title, verdicts, limits));
+        workplace.finish(what.targets);
+        say(fmt::format("report: {}\n", (fs::path(*report_folder) / "index.html").string()));
     }
     return static_cast<int>(all_match ? ExitCode::ok : ExitCode::verification_failed);
 }

@@ -13,11 +13,15 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "descendants.h"
+#include "temporary_folder.h"
 
 namespace {
 
@@ -41,8 +45,20 @@ double seconds_since(Clock::time_point begin) {
     ::_exit(0);
 }
 
+/// A folder for the temporary files of a plugin, and of what it starts. Where there can be none, whoever
+/// needs one says so.
+void give_temporary_files(std::optional<TemporaryFolder>& folder) {
+    try {
+        folder.emplace(std::filesystem::temp_directory_path(), "candela-check-");
+        ::setenv("TMPDIR", folder->path().c_str(), 1);
+    } catch (const std::runtime_error&) {
+        folder.reset();
+    }
+}
+
 /// The process between the kit and the plugin: it has what the plugin starts as its descendants, and ends all
-/// of them when the plugin has ended, when the kit asks for it (SIGTERM), and when the kit is gone.
+/// of them, and removes their temporary files, when the plugin has ended, when the kit asks for it (SIGTERM),
+/// and when the kit is gone.
 [[noreturn]] void be_the_guardian(pid_t kit, int report, const std::function<void(Findings&)>& work) {
     sigset_t awaited, usual;
     ::sigemptyset(&awaited);
@@ -54,6 +70,8 @@ double seconds_since(Clock::time_point begin) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != kit) ::_exit(1);
     const pid_t guardian = ::getpid();
+    std::optional<TemporaryFolder> temporary;
+    give_temporary_files(temporary);
     const pid_t worker = ::fork();
     if (worker < 0) ::_exit(1);
     if (worker == 0) {
@@ -73,6 +91,7 @@ double seconds_since(Clock::time_point begin) {
         }
         if (!has_ended && signal != SIGTERM) continue;
         end_descendants();
+        temporary.reset();
         if (has_ended) Findings(report).add("ended", std::to_string(status));
         ::_exit(0);
     }

@@ -18,7 +18,8 @@ class Findings {
 };
 
 /// Runs `work` in a child with a process group of its own, standard output and error thrown away; ends it
-/// after `seconds`. Whatever it started has ended when this returns, and soon after this process is killed.
+/// after `seconds`. Whatever it started has ended when this returns, and soon after this process is killed;
+/// its temporary files are gone then, too.
 Outcome run_in_child(const std::string& group, double seconds, const std::function<void(Findings&)>& work);
 
 /// Runs `work` in this process, where a debugger sees it; without a limit.

@@ -119,9 +119,9 @@ TEST_CASE("R11: each way of not being readable has its own message and exit code
     fs::create_directory(d / "folder");
     expect(check({"folder"}, d), 1, {"folder: error: this is a directory; a scene is a file"});
     write_file(d / "empty.toml", "");
-    expect(check({"empty.toml"}, d), 3, {"empty.toml: error: the file is empty"});
+    expect(check({"empty.toml"}, d), 3, {"empty.toml:1:1: error: the file is empty"});
     write_file(d / "blank.toml", " \n\t\n");
-    expect(check({"blank.toml"}, d), 3, {"blank.toml: error: the file is empty"});
+    expect(check({"blank.toml"}, d), 3, {"blank.toml:1:1: error: the file is empty"});
     write_file(d / "picture.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
     expect(check({"picture.png"}, d), 3,
            {"picture.png:3:1: error: this is a binary file; a scene is text (TOML)"});
@@ -134,12 +134,12 @@ TEST_CASE("R11: each way of not being readable has its own message and exit code
     write_file(d / "huge.toml", "");
     fs::resize_file(d / "huge.toml", 100'000'000);
     expect(check({"huge.toml"}, d), 1,
-           {"huge.toml: error: the file is too large: 100000000 bytes, where a scene may have"});
+           {"huge.toml:1:1: error: the file is too large: 100000000 bytes, where a scene may have"});
     fs::create_symlink("gone.toml", d / "link.toml");
     expect(check({"link.toml"}, d), 1, {"link.toml: error: there is no such file"});
     // All files are looked at.
     expect(check({"scnee.toml", "empty.toml", "folder"}, d), 3,
-           {"scnee.toml: error", "empty.toml: error", "folder: error"});
+           {"scnee.toml: error", "empty.toml:1:1: error", "folder: error"});
 }
 
 TEST_CASE("R11: a file without the right to read it says so") {
@@ -148,14 +148,14 @@ TEST_CASE("R11: a file without the right to read it says so") {
     fs::permissions(file, fs::perms::none);
     if (::geteuid() != 0) {
         expect(check({"secret.toml"}, d), 1,
-               {"secret.toml: error: the file cannot be opened: Permission denied"});
+               {"secret.toml:1:1: error: the file cannot be opened: Permission denied"});
         return;
     }
     // To root nothing is forbidden; what the process gives up it can no longer do.
     const CommandResult result =
         run_program({"setpriv", "--bounding-set=-dac_override,-dac_read_search", "--inh-caps=-all", "--",
                      CANDELA_TEST_COMMAND, "check", file.string()});
-    expect(result, 1, {"secret.toml: error: the file cannot be opened: Permission denied"});
+    expect(result, 1, {"secret.toml:1:1: error: the file cannot be opened: Permission denied"});
 }
 
 TEST_CASE("R11: mesh files that are broken, empty or without triangles each have their own message") {

@@ -65,7 +65,7 @@ TEST_CASE("what is wrong in a scene from a pipe is said with its line") {
     CHECK(wrong.exit_code == 3);
     CHECK(holds(wrong.err, "standard input:16:8: error: no shape plugin is called 'cub'"));
     CHECK(holds(wrong.err, "   16 | type = \"cub\""));
-    CHECK(holds(in(d, {"check", "-"}, "").err, "standard input: error: the file is empty"));
+    CHECK(holds(in(d, {"check", "-"}, "").err, "standard input:1:1: error: the file is empty"));
     CHECK(holds(in(d, {"check", "-", "-"}, k_scene).err,
                 "standard input: error: 'standard input' is read twice"));
     CHECK(holds(in(d, {"check", "-"}, std::string("a\0", 2)).err,

@@ -277,6 +277,18 @@ object = [{type = "cube", size = 0.8, rotation = [0, 45, 0], color = [139, 85, 2
 )");
 }
 
+TEST_CASE("verify: where N.H is 1 but for rounding, a highlight of 0 degrees is none in any program") {
+    // Light and observer are in the same direction, and the middle of the sphere faces both.
+    expect_match("none.toml", R"(version = 1
+observer = {position = [2.1, 1.3, 2.9], look_at = [0, 0, 0], projection = "orthographic", height = 3}
+image = {width = 160, height = 120, color_management = "none"}
+shading = {model = "phong"}
+reflection = {model = "toon"}
+light = [{type = "directional", direction = [-2.1, -1.3, -2.9], intensity = 0.6}]
+object = [{type = "sphere", radius = 1, segments = 64, color = [139, 85, 246], material = {bands = 1, highlight = 0}}]
+)");
+}
+
 TEST_CASE("verify: a spot's cone and a highlight's rim are as exact in shaders as elsewhere") {
     expect_match("cone.toml", R"(version = 1
 observer = {position = [-0.21, 1.37, 4.5], look_at = [0, 0, 0], fov = 42}

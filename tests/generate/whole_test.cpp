@@ -25,6 +25,13 @@ std::map<std::string, std::string> contents_of(const fs::path& folder) {
     return contents;
 }
 
+/// How much else is in the folder that `folder` is in.
+int files_beside(const fs::path& folder) {
+    int count = -1;
+    for (const auto& entry : fs::directory_iterator(folder.parent_path())) count += entry.exists() ? 1 : 0;
+    return count;
+}
+
 /// In a child: as on a disk that has no room for what is large.
 CommandSetup with_room_for(rlim_t bytes) {
     CommandSetup setup;
@@ -122,4 +129,77 @@ TEST_CASE("verify: interrupted at any moment, it leaves nothing behind", "[whole
     }
     fs::remove_all(temporary);
     CHECK(interrupted >= 6);
+}
+
+TEST_CASE("verify: interrupted at any moment, an old report stays whole, and what else is in its folder") {
+    const fs::path report = scratch_directory() / "report";
+    const auto words = [&](const std::string& color) {
+        return std::vector<std::string>{CANDELA_TEST_COMMAND,
+                                        "verify",
+                                        "--width",
+                                        "160",
+                                        "--height",
+                                        "120",
+                                        "--target",
+                                        "cpp",
+                                        "--set",
+                                        "object.cube.color=" + color,
+                                        "--report",
+                                        report.string()};
+    };
+    REQUIRE(run_program(words("[40,90,235]")).exit_code == 0);
+    write_file(report / "notes.txt", "mine");
+    const auto before = contents_of(report);
+    int interrupted = 0;
+    for (int i = 0; i < 6; ++i) {
+        RunningProgram program(words("[235,90,40]"));
+        std::this_thread::sleep_for(std::chrono::milliseconds(60 + 200 * i));
+        program.send(SIGTERM);
+        const CommandResult result = program.wait();
+        INFO("trial " << i << "\n" << result.out << result.err);
+        if (result.exit_code == 0) break;
+        REQUIRE(result.exit_code == 128 + SIGTERM);
+        ++interrupted;
+        const bool is_untouched = contents_of(report) == before;
+        CHECK(is_untouched);
+        CHECK(files_beside(report) == 0);
+    }
+    CHECK(interrupted >= 1);
+    const CommandResult finished = run_program(words("[235,90,40]"));
+    INFO(finished.out << finished.err);
+    REQUIRE(finished.exit_code == 0);
+    const auto after = contents_of(report);
+    CHECK(after.at("notes.txt") == "mine");
+    const bool is_new = after.at("reference.png") != before.at("reference.png") &&
+                        after.at("cpp.png") != before.at("cpp.png");
+    CHECK(is_new);
+    // What was built elsewhere can be built where it is now.
+    std::vector<std::string> again = words("[235,90,40]");
+    again.insert(again.end(), {"--program", (report / "cpp").string()});
+    const CommandResult built = run_program(again);
+    INFO(built.out << built.err);
+    CHECK(built.exit_code == 0);
+}
+
+TEST_CASE("verify and generate replace nothing that the scene is made from, whatever its name") {
+    const fs::path folder = scratch_directory() / "folder";
+    fs::create_directories(folder / "cpp");
+    const auto refused = [&](const fs::path& scene, const std::vector<std::string>& words) {
+        REQUIRE(run_candela({"new", scene.string()}).exit_code == 0);
+        const std::string before = read_file(scene);
+        const CommandResult result = run_candela(words);
+        INFO(result.out << result.err);
+        CHECK(result.exit_code == 2);
+        CHECK(result.err.find("'" + scene.string() +
+                              "' is one of the files that the scene is made from; give "
+                              "another folder with --") != std::string::npos);
+        const bool is_untouched = read_file(scene) == before;
+        CHECK(is_untouched);
+        fs::remove(scene);
+    };
+    const fs::path beside = folder / "scene.cpp", below = folder / "cpp" / "scene.cpp",
+                   page = folder / "index.html";
+    refused(beside, {"generate", beside.string(), "--target", "cpp", "-o", folder.string()});
+    refused(below, {"verify", below.string(), "--target", "cpp", "--report", folder.string()});
+    refused(page, {"verify", page.string(), "--target", "cpp", "--report", folder.string()});
 }

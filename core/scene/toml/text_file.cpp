@@ -86,9 +86,12 @@ std::string too_large(const std::string& size, std::uintmax_t bytes_left) {
 
 std::optional<std::string> text_of_file(const fs::path& file, const std::string& shown_name,
                                         std::uintmax_t& bytes_left, Diagnostics& diagnostics) {
-    const SourcePlace place{shown_name, 0, 0, 0};
     const auto fail = [&](const std::string& message, const std::string& hint = {}) {
-        diagnostics.failure(place, message, hint);
+        diagnostics.failure({shown_name, 0, 0, 0}, message, hint);
+        return std::nullopt;
+    };
+    const auto fail_at_begin = [&](const std::string& message) {
+        diagnostics.failure(place_at({}, 0, shown_name), message);
         return std::nullopt;
     };
     std::error_code problem;
@@ -101,18 +104,19 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     if (status.type() != fs::file_type::regular)
         return fail("this is not a regular file (a pipe or a device?)");
     const std::uintmax_t size = fs::file_size(file, problem);
-    if (!problem && size > bytes_left) return fail(too_large(fmt::to_string(size), bytes_left));
+    if (!problem && size > bytes_left) return fail_at_begin(too_large(fmt::to_string(size), bytes_left));
     const Descriptor descriptor(file);
     if (!descriptor.is_open())
-        return fail(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
+        return fail_at_begin(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
     auto text = descriptor.read(bytes_left);
-    if (!text) return fail(fmt::format("the file cannot be read: {}", std::strerror(errno)));
+    if (!text) return fail_at_begin(fmt::format("the file cannot be read: {}", std::strerror(errno)));
     return text_of_bytes(std::move(*text), shown_name, bytes_left, diagnostics);
 }
 
 std::optional<std::string> text_of_bytes(std::string text, const std::string& shown_name,
                                          std::uintmax_t& bytes_left, Diagnostics& diagnostics) {
-    const SourcePlace place{shown_name, 0, 0, 0};
+    // What is wrong with a file as a whole is shown at its beginning, where an editor can open it.
+    const SourcePlace place = place_at({}, 0, shown_name);
     const auto no_scene = [&](const std::string& message, const std::string& hint = {}) {
         diagnostics.error(place, message, hint);
         return std::nullopt;

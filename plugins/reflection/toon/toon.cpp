@@ -28,7 +28,7 @@ CANDELA_REFLECTION_PLUGIN(
      .summary = "Brightness in steps and a highlight with a hard edge, as in cartoons.",
      .formula = "I_a = ka C_o I_ambient\n"
                 "I_d = kd C_o I_L ceil(bands max(N.L, 0)) / bands\n"
-                "I_s = ks I_L  where N.L > 0 and N.H >= cos(highlight), else 0",
+                "I_s = ks I_L  where N.L > 0 and N.H > cos(highlight), else 0",
      .reference =
          "Lake, Marshall, Harris, Blackstein (2000), Stylized rendering techniques for scalable real-time 3D "
          "animation, NPAR, 13-20",

@@ -52,3 +52,15 @@ TEST_CASE("reflection/toon's highlight ends where the half vector is `highlight`
     CHECK(seen(*model, 50, -29.8).specular == Vec3{});
     CHECK(seen(*model, 95, -85).specular == Vec3{});
 }
+
+TEST_CASE("reflection/toon has no highlight of 0 degrees, and one of a hundredth of a degree has its size") {
+    const auto none = instance<ReflectionModel>("toon", {{"ks", 0.6}, {"highlight", 0.0}});
+    const auto tiny = instance<ReflectionModel>("toon", {{"ks", 0.6}, {"highlight", 0.01}});
+    for (double degrees = 0; degrees < 89; degrees += 0.5) {
+        INFO(degrees << " degrees");
+        // The half vector is N, to the last bits.
+        CHECK(seen(*none, degrees, -degrees).specular == Vec3{});
+        CHECK(seen(*tiny, degrees + 0.009, -degrees + 0.009).specular != Vec3{});
+        CHECK(seen(*tiny, degrees + 0.011, -degrees + 0.011).specular == Vec3{});
+    }
+}

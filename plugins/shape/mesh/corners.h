@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "surface.h"
 
@@ -29,13 +30,11 @@ class Corners {
     Array<std::uint32_t> corners_;
 };
 
-/// The number of edges that are not shared by two triangles that agree on which side is outside, as the
-/// renderer counts them.
-std::uint64_t open_edges(const Surface& surface, const Corners& corners);
-
-/// If `surface`, which is closed, encloses a negative volume: turns its triangles round, and its normals
-/// where they were meant for the other side, says so in `surface.notes`, and returns true. Its corners then
-/// lie elsewhere.
-bool turn_outwards(Surface& surface);
+/// Edges that are not shared by two triangles that agree on which side is outside.
+struct OpenEdges {
+    std::uint64_t count = 0;            // as the renderer counts them
+    std::vector<std::uint32_t> places;  // one end of each, in any order
+};
+OpenEdges open_edges(const Surface& surface, const Corners& corners);
 
 }  // namespace mesh

@@ -60,12 +60,18 @@ Array<char> read_file(const std::filesystem::path& file) {
     return bytes;
 }
 
-std::filesystem::path require_below(const std::filesystem::path& folder, const std::filesystem::path& file) {
+std::filesystem::path part_named(const std::filesystem::path& file, const std::filesystem::path& folder,
+                                 Reach reach) {
+    if (reach == Reach::anywhere) return folder / file;
     const std::filesystem::path root = std::filesystem::weakly_canonical(folder.empty() ? "." : folder);
     std::filesystem::path real = std::filesystem::weakly_canonical(folder / file);
     const auto [end, unused] = std::ranges::mismatch(root, real);
     if (end != root.end())
-        throw BadFile(fmt::format("names '{}', which is not in its own folder or below", file.string()));
+        throw BadFile(
+            fmt::format("names '{}', which is not in its own folder or below; if that is as it should be, "
+                        "give the object "
+                        "allow_outside = true",
+                        file.string()));
     return real;
 }
 

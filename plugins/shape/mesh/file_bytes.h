@@ -12,8 +12,13 @@ namespace mesh {
 /// ends the process). Throws BadFile if it is no regular file or cannot be read; a pipe is not waited for.
 Array<char> read_file(const std::filesystem::path& file);
 
-/// `file`, if it lies in `folder` or below it once links are resolved; throws BadFile otherwise.
-std::filesystem::path require_below(const std::filesystem::path& folder, const std::filesystem::path& file);
+/// Which files a file may name as parts of itself.
+enum class Reach : bool { its_folder, anywhere };
+
+/// The path of `file`, a name in a file in `folder`. Throws BadFile if it lies, once links are resolved,
+/// where `reach` does not allow.
+std::filesystem::path part_named(const std::filesystem::path& file, const std::filesystem::path& folder,
+                                 Reach reach);
 
 inline std::string_view text_of(const Array<char>& bytes) { return {bytes.data(), bytes.size()}; }
 

@@ -288,8 +288,8 @@ class Reader {
 
 }  // namespace gltf
 
-Surface read_gltf(std::string_view bytes, const std::filesystem::path& folder) {
-    return gltf::Reader(gltf::read_document(bytes, folder)).read();
+Surface read_gltf(std::string_view bytes, const std::filesystem::path& folder, Reach reach) {
+    return gltf::Reader(gltf::read_document(bytes, folder, reach)).read();
 }
 
 }  // namespace mesh

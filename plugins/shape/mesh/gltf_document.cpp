@@ -90,13 +90,14 @@ std::string container_of(const std::string& json, std::string_view binary) {
 /// The files that tinygltf may look at.
 struct Files {
     std::filesystem::path folder;
-    std::string problem;  // the first
+    Reach reach;
+    std::string problem{};  // the first
 };
 
 bool read_buffer(std::vector<unsigned char>* out, std::string*, const std::string& name, void* of) {
     auto& files = *static_cast<Files*>(of);
     try {
-        const std::filesystem::path path = require_below(files.folder, name);
+        const std::filesystem::path path = part_named(name, files.folder, files.reach);
         try {
             const Array<char> bytes = read_file(path);
             out->assign(bytes.begin(), bytes.end());
@@ -139,13 +140,13 @@ std::string first_line(std::string_view text) {
 
 }  // namespace
 
-Document read_document(std::string_view bytes, const std::filesystem::path& folder) {
+Document read_document(std::string_view bytes, const std::filesystem::path& folder, Reach reach) {
     Chunks chunks{.json = bytes, .binary = {}};
     const bool is_binary = bytes.starts_with("glTF");
     if (is_binary) chunks = chunks_of(bytes);
     Geometry geometry = geometry_of(chunks.json, chunks.has_binary);
 
-    Files files{folder, {}};
+    Files files{folder, reach};
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(files));
     Document document;

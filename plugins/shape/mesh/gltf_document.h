@@ -18,6 +18,8 @@
 #include <string_view>
 #include <vector>
 
+#include "file_bytes.h"
+
 namespace mesh::gltf {
 
 struct Document {
@@ -26,7 +28,7 @@ struct Document {
     std::size_t bytes = 0;            // of the file and of its buffers
 };
 
-/// Buffers outside the file are read if they lie in `folder` or below it. Throws BadFile.
-Document read_document(std::string_view bytes, const std::filesystem::path& folder);
+/// Buffers outside the file are read from `folder`, and as far from it as `reach` allows. Throws BadFile.
+Document read_document(std::string_view bytes, const std::filesystem::path& folder, Reach reach);
 
 }  // namespace mesh::gltf

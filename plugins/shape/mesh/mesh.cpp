@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <numeric>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "crease.h"
 #include "derivatives.h"
 #include "file_bytes.h"
+#include "orientation.h"
 #include "readers.h"
 #include "surface.h"
 
@@ -27,6 +29,7 @@ namespace {
 struct MeshShape {
     const char* file;
     float crease_angle;  // radians
+    std::int32_t allow_outside;
 };
 
 enum class Format { obj, ply, stl, gltf };
@@ -42,7 +45,7 @@ Format format_of(const std::filesystem::path& file) {
     throw mesh::BadFile("has not the extension of a mesh: .obj, .ply, .stl, .gltf or .glb");
 }
 
-mesh::Surface surface_of(const std::filesystem::path& file) {
+mesh::Surface surface_of(const std::filesystem::path& file, mesh::Reach reach) {
     const Format format = format_of(file);
     const mesh::Array<char> bytes = mesh::read_file(file);
     mesh::Surface surface;
@@ -57,7 +60,7 @@ mesh::Surface surface_of(const std::filesystem::path& file) {
             surface = mesh::read_stl(mesh::text_of(bytes));
             break;
         case Format::gltf:
-            surface = mesh::read_gltf(mesh::text_of(bytes), file.parent_path());
+            surface = mesh::read_gltf(mesh::text_of(bytes), file.parent_path(), reach);
             break;
     }
     if (surface.triangles() == 0) throw mesh::BadFile("has no faces, and so no triangles");
@@ -95,11 +98,13 @@ void copy(const mesh::Vectors& from, const mesh::Array<std::uint32_t>& source, s
 class FileMesh final : public candela::Shape {
   public:
     explicit FileMesh(const MeshShape& shape)
-        : file_(shape.file != nullptr ? shape.file : ""), crease_angle_(shape.crease_angle) {}
+        : file_(shape.file != nullptr ? shape.file : ""),
+          crease_angle_(shape.crease_angle),
+          reach_(shape.allow_outside != 0 ? mesh::Reach::anywhere : mesh::Reach::its_folder) {}
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         try {
-            write(surface_of(file_), request, sink);
+            write(surface_of(file_, reach_), request, sink);
         } catch (const mesh::BadFile& problem) {
             throw std::runtime_error(fmt::format("'{}' {}", file_, problem.what()));
         }
@@ -108,8 +113,8 @@ class FileMesh final : public candela::Shape {
   private:
     void write(mesh::Surface surface, const candela::MeshRequest& request, candela::MeshSink& sink) const {
         mesh::Corners corners(surface);
-        const std::uint64_t open = mesh::open_edges(surface, corners);
-        if (open == 0 && mesh::turn_outwards(surface)) corners = mesh::Corners(surface);
+        const mesh::OpenEdges open = mesh::open_edges(surface, corners);
+        if (mesh::turn_outwards(surface, corners, open)) corners = mesh::Corners(surface);
         mesh::SplitVertices split;
         if (!has_all_normals(surface)) split = mesh::split_at_creases(surface, corners, crease_angle_);
         const mesh::Array<std::uint32_t>& indices = split.indices.empty() ? surface.indices : split.indices;
@@ -123,8 +128,8 @@ class FileMesh final : public candela::Shape {
             // make no better tangents.
             .has_derivatives = request.derivatives,
             .has_smooth_groups = !split.group.empty(),
-            .closedness = open == 0 ? candela::Closedness::closed : candela::Closedness::open,
-            .open_edges = open};
+            .closedness = open.count == 0 ? candela::Closedness::closed : candela::Closedness::open,
+            .open_edges = open.count};
         const candela::MeshSpans to = sink.allocate(layout);
         copy(surface.position, split.source, layout.vertices, to.position);
         if (layout.has_normals) copy(surface.normal, split.source, layout.vertices, to.normal);
@@ -144,6 +149,7 @@ class FileMesh final : public candela::Shape {
 
     std::string file_;
     double crease_angle_;
+    mesh::Reach reach_;
 };
 
 constexpr auto k_fields = fields(
@@ -151,7 +157,9 @@ constexpr auto k_fields = fields(
     angle(&MeshShape::crease_angle, "crease_angle", 40,
           "where the file has no normals and no smoothing groups, edges are hard if the angle between the "
           "normals of their faces is larger; 180: none")
-        .range(0, 180));
+        .range(0, 180),
+    boolean(&MeshShape::allow_outside, "allow_outside", false,
+            "whether a glTF file may name buffers outside its folder"));
 
 }  // namespace
 

@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "candela/parallel.h"
 #include "support/command.h"
@@ -397,6 +399,76 @@ TEST_CASE(
         CHECK(dot(normal_of_corner(kept, corner), kept.position.span()[kept.indices[corner]]) > 0);
 }
 
+namespace {
+
+/// A tetrahedron around `x`; numbered from `first` on.
+std::string tetrahedron(double x, double size, int first, bool inside_out) {
+    std::string text;
+    for (const auto& [a, b, c] :
+         {std::array{1, 1, 1}, std::array{-1, -1, 1}, std::array{-1, 1, -1}, std::array{1, -1, -1}})
+        text += fmt::format("v {} {} {}\n", x + size * a, size * b, size * c);
+    for (auto [a, b, c] :
+         {std::array{1, 2, 4}, std::array{1, 3, 2}, std::array{1, 4, 3}, std::array{4, 2, 3}}) {
+        if (inside_out) std::swap(b, c);
+        text += fmt::format("f {} {} {}\n", first + a, first + b, first + c);
+    }
+    return text;
+}
+
+/// Six times the volume that each four triangles enclose.
+std::vector<double> volumes_of_four(const Mesh& mesh) {
+    std::vector<double> volumes(mesh.triangle_count() / 4);
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const auto at = [&](std::size_t k) { return mesh.position.span()[mesh.indices[3 * t + k]]; };
+        volumes[t / 4] += static_cast<double>(dot(at(0), cross(at(1), at(2))));
+    }
+    return volumes;
+}
+
+}  // namespace
+
+TEST_CASE("shape/mesh: of several parts, those that are wound inside out are turned round, and counted") {
+    const std::string right = tetrahedron(0, 1, 0, false), wrong = tetrahedron(5, 1, 4, true);
+    auto said = warnings_about("two.obj", right + wrong);
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].ends_with(
+        "has 2 parts, 1 of which is closed but wound inside out, so its triangles are turned round"));
+    for (const double volume : volumes_of_four(mesh_of_text("two.obj", right + wrong))) CHECK(volume > 0);
+
+    // However little they enclose beside the others.
+    const std::string large = tetrahedron(0, 10, 0, false), small = tetrahedron(50, 0.1, 4, true);
+    CHECK(warnings_about("small.obj", large + small + tetrahedron(60, 0.1, 8, true))
+              .at(0)
+              .find("has 3 parts, 2 of which are closed but wound inside out, so their triangles") !=
+          std::string::npos);
+
+    // Beside a part that is open.
+    const std::string open = tetrahedron(0, 1, 0, false).substr(0, right.rfind('f'));
+    said = warnings_about("open.obj", open + wrong);
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].find("has 2 parts, 1 of which is closed but wound") != std::string::npos);
+}
+
+TEST_CASE("shape/mesh: a cavity stays as it is wound, and turns with what it is in") {
+    const std::string hollow = tetrahedron(0, 3, 0, false) + tetrahedron(0, 0.5, 4, true);
+    CHECK(warnings_about("hollow.obj", hollow).empty());
+    const auto volumes = volumes_of_four(mesh_of_text("hollow.obj", hollow));
+    CHECK(volumes[0] > 0);
+    CHECK(volumes[1] < 0);
+
+    const std::string turned = tetrahedron(0, 3, 0, true) + tetrahedron(0, 0.5, 4, false);
+    CHECK(warnings_about("turned.obj", turned).size() == 1);
+    const auto after = volumes_of_four(mesh_of_text("turned.obj", turned));
+    CHECK(after[0] > 0);
+    CHECK(after[1] < 0);
+
+    // What one ray goes through is not what contains another.
+    std::string row;
+    for (int i = 0; i < 200; ++i) row += tetrahedron(3.0 * i, 1, 4 * i, i % 3 == 0);
+    CHECK(warnings_about("row.obj", row).at(0).find("has 200 parts, 67 of which are closed but wound") !=
+          std::string::npos);
+}
+
 TEST_CASE("shape/mesh: a pipe, a folder and a device are refused, and nobody waits for them") {
     const auto directory = scratch_directory();
     const auto pipe = directory / "pipe.ply";
@@ -419,6 +491,40 @@ TEST_CASE("shape/mesh: a pipe, a folder and a device are refused, and nobody wai
         "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "a.bin"}]})");
     CHECK_THROWS_WITH(mesh_of(gltf),
                       Catch::Matchers::ContainsSubstring("names 'a.bin', which is not a regular file"));
+}
+
+TEST_CASE(
+    "shape/mesh: a glTF file names files in its folder or below, others only where the scene allows it") {
+    const auto directory = scratch_directory();
+    std::filesystem::create_directories(directory / "models");
+    const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::string bytes(reinterpret_cast<const char*>(corners.data()), sizeof corners);
+    write_file(directory / "outside.bin", bytes);
+    write_file(directory / "models" / "inside.bin", bytes);
+    std::filesystem::remove(directory / "models" / "link.bin");
+    std::filesystem::create_symlink("../outside.bin", directory / "models" / "link.bin");
+    const auto naming = [&](const std::string& uri) {
+        return write_file(directory / "models" / "p.gltf", R"({"asset": {"version": "2.0"},
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}],
+            "scenes": [{"nodes": [0]}], "scene": 0,
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                           "min": [0, 0, 0], "max": [1, 1, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": ")" + uri + "\"}]}")
+            .string();
+    };
+    const auto triangles = [](const std::string& file, bool allowed) {
+        return built(*instance<Shape>("mesh", {{"file", file}, {"allow_outside", allowed}})).triangle_count();
+    };
+    CHECK(triangles(naming("inside.bin"), false) == 1);
+    for (const std::string& uri :
+         {std::string("../outside.bin"), std::string("link.bin"), (directory / "outside.bin").string()}) {
+        INFO(uri);
+        CHECK_THROWS_WITH(triangles(naming(uri), false),
+                          Catch::Matchers::ContainsSubstring("not in its own folder or below") &&
+                              Catch::Matchers::ContainsSubstring("allow_outside = true"));
+        CHECK(triangles(naming(uri), true) == 1);
+    }
 }
 
 TEST_CASE("shape/mesh: the number of threads changes nothing") {

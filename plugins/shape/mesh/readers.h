@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "file_bytes.h"
 #include "surface.h"
 
 namespace mesh {
@@ -18,7 +19,8 @@ Surface read_stl(std::string_view bytes);
 /// Wavefront OBJ: polygons, no curves. Material libraries are not opened.
 Surface read_obj(std::string_view text);
 
-/// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder` or below.
-Surface read_gltf(std::string_view bytes, const std::filesystem::path& folder);
+/// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder`, and as far from
+/// it as `reach` allows.
+Surface read_gltf(std::string_view bytes, const std::filesystem::path& folder, Reach reach);
 
 }  // namespace mesh

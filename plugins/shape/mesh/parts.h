@@ -1,0 +1,33 @@
+// The connected parts of a mesh.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "corners.h"
+#include "surface.h"
+
+namespace mesh {
+
+/// What triangles connect, place by place.
+class Parts {
+  public:
+    Parts(const Surface& surface, const Corners& corners);
+
+    std::size_t count() const { return count_; }
+    /// From 0, in the order of their first places.
+    std::uint32_t of_place(std::uint32_t place) const { return part_[place]; }
+
+  private:
+    Array<std::uint32_t> part_;  // per place
+    std::size_t count_ = 0;
+};
+
+/// For each part the parts that it lies in, found from where a ray from one of its places leaves them. Parts
+/// that are not `closed` contain nothing.
+std::vector<std::vector<std::uint32_t>> containers_of(const Surface& surface, const Corners& corners,
+                                                      const Parts& parts, const std::vector<bool>& closed);
+
+}  // namespace mesh
