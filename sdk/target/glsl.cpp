@@ -24,7 +24,9 @@ namespace {
 constexpr const char* k_preamble =
     "#define KERNEL\n"
     "// GLSL leaves open what becomes of the zero vector; here it stays zero.\n"
+    "vec2 unit_or_zero(vec2 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
     "vec3 unit_or_zero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
+    "vec4 unit_or_zero(vec4 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
     "#define normalize unit_or_zero\n\n";
 
 /// "point_light": what names that have to do with a model's lights begin with.

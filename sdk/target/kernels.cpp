@@ -20,22 +20,6 @@ namespace candela::target {
 
 namespace {
 
-std::string without_comments(const std::string& text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size();) {
-        if (text.compare(i, 2, "//") == 0) {
-            i = std::min(text.find('\n', i), text.size());
-        } else if (text.compare(i, 2, "/*") == 0) {
-            const std::size_t end = text.find("*/", i + 2);
-            i = end == std::string::npos ? text.size() : end + 2;
-            result += ' ';
-        } else {
-            result += text[i++];
-        }
-    }
-    return result;
-}
-
 std::vector<std::smatch> all_matches(const std::string& text, const std::regex& pattern) {
     return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
 }
@@ -98,6 +82,22 @@ std::vector<Paragraph> paragraphs_of(const std::string& text) {
 }
 
 }  // namespace
+
+std::string without_comments(const std::string& text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+        if (text.compare(i, 2, "//") == 0) {
+            i = std::min(text.find('\n', i), text.size());
+        } else if (text.compare(i, 2, "/*") == 0) {
+            const std::size_t end = text.find("*/", i + 2);
+            i = end == std::string::npos ? text.size() : end + 2;
+            result += ' ';
+        } else {
+            result += text[i++];
+        }
+    }
+    return result;
+}
 
 std::string_view kernel_prelude() { return candela_target_prelude; }
 

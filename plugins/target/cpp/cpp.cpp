@@ -18,9 +18,9 @@
 #include "candela/target/text_template.h"
 #include "candela/target_plugin.h"
 #include "objects.h"
+#include "vectors.h"
 
 CANDELA_EMBED(candela_cpp_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
-CANDELA_EMBED(candela_cpp_vectors, CANDELA_SOURCE_DIR "/templates/vectors.h");
 CANDELA_EMBED(candela_cpp_cmake, CANDELA_SOURCE_DIR "/templates/CMakeLists.txt");
 CANDELA_EMBED(candela_cpp_readme, CANDELA_SOURCE_DIR "/templates/README.md");
 
@@ -40,8 +40,9 @@ class CppWriter {
         const std::string glue =
             lights() + loops() + reflection() + shading() + objects_.shapes() + objects_.statements() + text;
         std::string kernels = model_kernels();
+        const std::string library = vectors_for(kernels);
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
-        const std::string vectors = needed_parts(candela_cpp_vectors, kernels + glue);
+        const std::string vectors = needed_parts(library, kernels + glue);
         const bool is_srgb = scene_.image.color_management == ColorEncoding::srgb;
         const ExportedImage& image = scene_.image;
         const ExportedObserver& observer = scene_.observer;

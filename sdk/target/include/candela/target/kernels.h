@@ -32,6 +32,9 @@ std::vector<ExportedModel> models_of(const ExportedScene& scene);
 /// program: neither C++ nor GLSL would tell the two apart.
 void require_different_names(const ExportedScene& scene);
 
+/// A kernel's text, or any other C++ or GLSL, without comments.
+std::string without_comments(const std::string& text);
+
 /// The paragraphs of `library` (parted by empty lines) that declare something which `users`, or a paragraph
 /// that is needed itself, speak of, and those that declare nothing.
 std::string needed_parts(std::string_view library, const std::string& users);
