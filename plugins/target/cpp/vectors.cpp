@@ -55,6 +55,12 @@ constexpr std::string_view k_swizzle =
     "    operator Part() const { return Part(reinterpret_cast<const Whole*>(this)->*components...); }\n"
     "};\n\n";
 
+/// The program itself interpolates texture coordinates, whether or not a kernel has vectors of two.
+bool is_of_program(const std::string& line) {
+    return line.starts_with("inline vec2 operator+(vec2 a, vec2 b)") ||
+           line.starts_with("inline vec2 operator*(float s, vec2 a)");
+}
+
 /// Operators that assign are needed where one is written.
 bool assigns_in_vain(const std::string& line, const std::string& code) {
     static const std::regex k_assigning(R"(^inline .*operator([-+*/]=))");
@@ -87,7 +93,7 @@ std::string vectors_for(const std::string& kernels) {
         const bool is_in_vain = std::ranges::any_of(
             unused, [&](const std::string& type) { return current != type && is_spoken_of(type, line); });
         if (line.starts_with("};")) current.clear();
-        if (is_in_vain || assigns_in_vain(line, code)) continue;
+        if ((is_in_vain && !is_of_program(line)) || assigns_in_vain(line, code)) continue;
         if (line.find(k_place_of_swizzles) == std::string::npos) {
             text += line + '\n';
         } else if (current.starts_with("vec")) {

@@ -5,8 +5,8 @@
 
 namespace candela::cpp_target {
 
-/// The library of vectors, in paragraphs of which a program takes those that it needs: without overloads for
-/// types that `kernels` do not speak of, and with the swizzles that they read.
+/// The library of vectors, in paragraphs of which a program takes those that it needs: without overloads, a
+/// line each, for types that `kernels` do not speak of, and with the swizzles that they read.
 std::string vectors_for(const std::string& kernels);
 
 }  // namespace candela::cpp_target

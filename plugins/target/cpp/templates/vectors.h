@@ -51,7 +51,7 @@ inline vec2 operator*(vec2 a, float s) { return a * vec2(s); }
 inline vec2 operator/(vec2 a, float s) { return a / vec2(s); }
 inline vec2 operator+(float s, vec2 a) { return vec2(s) + a; }
 inline vec2 operator-(float s, vec2 a) { return vec2(s) - a; }
-inline vec2 operator*(float s, vec2 a) { return vec2(s) * a; }
+inline vec2 operator*(float s, vec2 a) { return vec2(s * a.x, s * a.y); }
 inline vec2 operator/(float s, vec2 a) { return vec2(s) / a; }
 inline vec2 operator-(vec2 a) { return vec2(-a.x, -a.y); }
 inline vec4 operator+(vec4 a, vec4 b) { return vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w); }
@@ -304,12 +304,8 @@ inline vec3 operator*(const mat3& m, vec3 v) { return m[0] * v.x + m[1] * v.y + 
 inline vec3 operator*(vec3 v, const mat3& m) { return vec3(dot(v, m[0]), dot(v, m[1]), dot(v, m[2])); }
 inline mat3 operator*(const mat3& a, const mat3& b) { return mat3(a * b[0], a * b[1], a * b[2]); }
 
-inline mat3 transpose(const mat3& m) {
-    return mat3(vec3(m[0].x, m[1].x, m[2].x), vec3(m[0].y, m[1].y, m[2].y), vec3(m[0].z, m[1].z, m[2].z));
-}
+inline mat3 transpose(const mat3& m) { return mat3(vec3(m[0].x, m[1].x, m[2].x), vec3(m[0].y, m[1].y, m[2].y), vec3(m[0].z, m[1].z, m[2].z)); }
 
 inline float determinant(const mat3& m) { return dot(m[0], cross(m[1], m[2])); }
 
-inline mat3 inverse(const mat3& m) {
-    return (1.0f / determinant(m)) * transpose(mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])));
-}
+inline mat3 inverse(const mat3& m) { return (1.0f / determinant(m)) * transpose(mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]))); }
