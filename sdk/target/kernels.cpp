@@ -117,12 +117,30 @@ std::string call(const ExportedModel& model, std::string_view name, std::string_
                        takes_them && !arguments.empty() ? ", " : "", arguments);
 }
 
+std::string constants_type(const ExportedModel& model) {
+    const KernelText& kernel = model.plugin->kernel;
+    if (!has_function(model, "prepare")) return kernel.parameters;
+    const std::regex declaration(fmt::format(R"(\bKERNEL\s+(\w+)\s+{}_prepare\s*\()", kernel.prefix));
+    const std::string code = without_comments(kernel.text);
+    std::smatch found;
+    if (!std::regex_search(code, found, declaration))
+        throw std::runtime_error(fmt::format("the kernel of {} does not say what {}_prepare returns",
+                                             id_of(model), kernel.prefix));
+    return found[1];
+}
+
+std::string prepared(const ExportedModel& model, const std::string& parameters) {
+    return has_function(model, "prepare")
+               ? fmt::format("{}_prepare({})", model.plugin->kernel.prefix, parameters)
+               : parameters;
+}
+
 std::string struct_text(const ExportedModel& model, const ExportedValues& values) {
     const PluginDescriptor& plugin = *model.plugin;
     std::vector<std::string> members;
     for (const std::size_t i : plugin.kernel.members)
         members.push_back(member_text(plugin.parameters[i], values.delivered[i]));
-    return fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", "));
+    return prepared(model, fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", ")));
 }
 
 std::string id_of(const ExportedModel& model) {
