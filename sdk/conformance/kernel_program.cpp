@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string_view>
 
 #include "programs.h"
 
@@ -109,9 +111,15 @@ constexpr const char* k_calls_file = "the kit's calls of it";
 std::string source() {
     const candela::KernelText& kernel = subject().kernel;
     const std::string parameters = kernel.parameters;
-    const std::string filled = parameters.empty()
-                                   ? std::string("const int m = 0; (void)m; (void)p; (void)sample;")
-                                   : parameters + " m; (void)p; (void)sample;\n" + members_from_parameters();
+    const bool is_prepared = std::ranges::any_of(
+        kernel.functions,
+        [](const candela::KernelFunction& function) { return std::string_view(function.name) == "prepare"; });
+    const std::string constants = is_prepared ? fmt::format("{}_prepare(m)", kernel.prefix) : "m";
+    const std::string filled =
+        parameters.empty()
+            ? std::string("const int m = 0; (void)m; (void)p; (void)sample;")
+            : fmt::format("(void)p; (void)sample; const auto m = [&] {{ {} m;\n{} return {}; }}();",
+                          parameters, members_from_parameters(), constants);
     const std::string text = fmt::format(
         "#include \"candela/kernel.h\"\n"
         "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"

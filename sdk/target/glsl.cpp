@@ -8,6 +8,7 @@
 
 #include "candela/embed.h"
 #include "candela/target/kernels.h"
+#include "candela/target/text_template.h"
 
 CANDELA_EMBED(candela_target_trigonometry, CANDELA_TARGET_TEMPLATES "/trigonometry.glsl");
 CANDELA_EMBED(candela_target_lit, CANDELA_TARGET_TEMPLATES "/lit.glsl");
@@ -24,7 +25,9 @@ namespace {
 constexpr const char* k_preamble =
     "#define KERNEL\n"
     "// GLSL leaves open what becomes of the zero vector; here it stays zero.\n"
+    "vec2 unit_or_zero(vec2 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
     "vec3 unit_or_zero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
+    "vec4 unit_or_zero(vec4 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
     "#define normalize unit_or_zero\n\n";
 
 /// "point_light": what names that have to do with a model's lights begin with.
@@ -78,7 +81,7 @@ LightLoop loop_over(const ExportedModel& model, const LightBlock& block) {
         loop.declarations += fmt::format(
             "{0} {1}(int i) {{\n    int at = {2}{3} * i;\n    return {0}({4});\n}}\n", type, read,
             block.first == 0 ? "" : fmt::format("{} + ", block.first), block.size, fmt::join(members, ", "));
-        body = fmt::format("        {} light = {}(i);\n", type, read);
+        body = fmt::format("        {} light = {};\n", constants_type(model), prepared(model, read + "(i)"));
     }
     constexpr const char* k_sum =
         "{0}Reflected reflected = reflect_light(s, incident.to_light);\n"
@@ -122,21 +125,46 @@ std::string uniform_of(const ExportedModel& model, const char* name) {
                                  : "";
 }
 
+/// What is made of the parameters is made once for each vertex or pixel, before its lights are gone through.
+std::string preparation_of(const ExportedModel& model, const char* name, const char* macro) {
+    if (!has_function(model, "prepare")) return "";
+    return fmt::format(
+        "{0} {1}_constants;\nvoid prepare_{1}() {{ {1}_constants = {2}; }}\n#define PREPARED_{3}\n",
+        constants_type(model), name, prepared(model, name), macro);
+}
+
+/// Where light is evaluated, in a program that has no such models too.
+std::string calls_of_preparations(const ExportedScene& scene) {
+    const auto call_of = [](const auto& models, const char* name, const char* macro) {
+        const bool is_there = std::ranges::any_of(
+            models, [](const ExportedModel& model) { return has_function(model, "prepare"); });
+        return is_there ? fmt::format("#ifdef PREPARED_{}\n    prepare_{}();\n#endif\n", macro, name)
+                        : std::string();
+    };
+    return call_of(scene.shadings, "shading", "SHADING") + call_of(scene.reflections, "material", "MATERIAL");
+}
+
+std::string constants_name(const ExportedModel& model, const std::string& name) {
+    return has_function(model, "prepare") ? name + "_constants" : name;
+}
+
 std::string reflection_text(const ExportedReflection& model) {
     return fmt::format(
-        "{}\n{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
+        "{}\n{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
         "vec3 reflect_ambient(Surface s) {{ return {}; }}\n",
         model.plugin->kernel.text, uniform_of(model, "material"),
-        model.needs_tangent ? "#define NEEDS_TANGENT\n" : "",
-        call(model, "reflect", "material", "s, to_light"), call(model, "reflect_ambient", "material", "s"));
+        preparation_of(model, "material", "MATERIAL"), model.needs_tangent ? "#define NEEDS_TANGENT\n" : "",
+        call(model, "reflect", constants_name(model, "material"), "s, to_light"),
+        call(model, "reflect_ambient", constants_name(model, "material"), "s"));
 }
 
 std::string shading_text(const ExportedShading& model) {
     constexpr const char* k_rates[] = {"#define INTENSITY_RATE flat\n", "#define INTENSITY_RATE\n",
                                        "#define LIT_AT_FRAGMENT\n"};
-    return fmt::format("{}\n{}{}vec3 shading_normal(ShadingPoint p) {{ return {}; }}\n",
+    return fmt::format("{}\n{}{}{}vec3 shading_normal(ShadingPoint p) {{ return {}; }}\n",
                        model.plugin->kernel.text, uniform_of(model, "shading"),
-                       k_rates[static_cast<int>(model.rate)], call(model, "normal", "shading", "p"));
+                       preparation_of(model, "shading", "SHADING"), k_rates[static_cast<int>(model.rate)],
+                       call(model, "normal", constants_name(model, "shading"), "p"));
 }
 
 }  // namespace
@@ -144,7 +172,7 @@ std::string shading_text(const ExportedShading& model) {
 GlslParts glsl_of(const ExportedScene& scene) {
     require_different_names(scene);
     GlslParts parts;
-    const std::string lit = candela_target_lit;
+    const std::string lit = filled(candela_target_lit, {{"PREPARATION", calls_of_preparations(scene)}});
     parts.lights = lights_text(scene);
     for (const auto& model : scene.reflections) parts.reflections.push_back(reflection_text(model));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));

@@ -20,22 +20,6 @@ namespace candela::target {
 
 namespace {
 
-std::string without_comments(const std::string& text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size();) {
-        if (text.compare(i, 2, "//") == 0) {
-            i = std::min(text.find('\n', i), text.size());
-        } else if (text.compare(i, 2, "/*") == 0) {
-            const std::size_t end = text.find("*/", i + 2);
-            i = end == std::string::npos ? text.size() : end + 2;
-            result += ' ';
-        } else {
-            result += text[i++];
-        }
-    }
-    return result;
-}
-
 std::vector<std::smatch> all_matches(const std::string& text, const std::regex& pattern) {
     return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
 }
@@ -99,6 +83,22 @@ std::vector<Paragraph> paragraphs_of(const std::string& text) {
 
 }  // namespace
 
+std::string without_comments(const std::string& text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+        if (text.compare(i, 2, "//") == 0) {
+            i = std::min(text.find('\n', i), text.size());
+        } else if (text.compare(i, 2, "/*") == 0) {
+            const std::size_t end = text.find("*/", i + 2);
+            i = end == std::string::npos ? text.size() : end + 2;
+            result += ' ';
+        } else {
+            result += text[i++];
+        }
+    }
+    return result;
+}
+
 std::string_view kernel_prelude() { return candela_target_prelude; }
 
 bool has_parameters(const ExportedModel& model) {
@@ -117,12 +117,30 @@ std::string call(const ExportedModel& model, std::string_view name, std::string_
                        takes_them && !arguments.empty() ? ", " : "", arguments);
 }
 
+std::string constants_type(const ExportedModel& model) {
+    const KernelText& kernel = model.plugin->kernel;
+    if (!has_function(model, "prepare")) return kernel.parameters;
+    const std::regex declaration(fmt::format(R"(\bKERNEL\s+(\w+)\s+{}_prepare\s*\()", kernel.prefix));
+    const std::string code = without_comments(kernel.text);
+    std::smatch found;
+    if (!std::regex_search(code, found, declaration))
+        throw std::runtime_error(fmt::format("the kernel of {} does not say what {}_prepare returns",
+                                             id_of(model), kernel.prefix));
+    return found[1];
+}
+
+std::string prepared(const ExportedModel& model, const std::string& parameters) {
+    return has_function(model, "prepare")
+               ? fmt::format("{}_prepare({})", model.plugin->kernel.prefix, parameters)
+               : parameters;
+}
+
 std::string struct_text(const ExportedModel& model, const ExportedValues& values) {
     const PluginDescriptor& plugin = *model.plugin;
     std::vector<std::string> members;
     for (const std::size_t i : plugin.kernel.members)
         members.push_back(member_text(plugin.parameters[i], values.delivered[i]));
-    return fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", "));
+    return prepared(model, fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", ")));
 }
 
 std::string id_of(const ExportedModel& model) {

@@ -15,7 +15,8 @@ SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
 # What is compiled into plugins, as opposed to the SDK's programs.
 SDK_OF_PLUGINS = ("sdk/include/", "sdk/target/", "sdk/templates/")
 # Headers of api without a module: macros, kernels, templates of their own, and what only tests of plugins include.
-HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "instances.h", "kernel.h", "multiversion.h"}
+HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "instances.h", "kernel.h", "kernel_functions.h",
+                 "kernel_vectors.h", "multiversion.h", "swizzles.h"}
 # A declaration at the beginning of a line, as clang-format puts what is in a namespace: a type, a function, a constant.
 DECLARATION = re.compile(
     r"^(?:template <.*> )?(?:enum class |struct |class )(?:CANDELA_API )?(?P<type>\w+)[^;\n]*\{(?:.*\};)?$"

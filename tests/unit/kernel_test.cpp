@@ -101,6 +101,7 @@ TEST_CASE("kernel rounding follows GLSL") {
         INFO(x);
         CHECK(k::floor(x) == std::floor(x));
         CHECK(k::ceil(x) == std::ceil(x));
+        CHECK(k::trunc(x) == std::trunc(x));
         CHECK(k::fract(x) == x - std::floor(x));
     }
     CHECK(k::mod(7.5f, 2.0f) == 1.5f);
@@ -118,4 +119,57 @@ TEST_CASE("kernel vectors: reflect is T1 with the incident direction, normalize 
     CHECK(zero.x == 0.0f);
     CHECK(std::abs(k::length(k::normalize(k::vec3(1e-10f, 2e-10f, -3e-10f))) - 1.0f) < 1e-6f);
     CHECK(k::cross(k::vec3(1.0f, 0.0f, 0.0f), k::vec3(0.0f, 1.0f, 0.0f)).z == 1.0f);
+}
+
+namespace {
+
+void check_equal(k::vec4 a, k::vec4 b) {
+    CHECK(a.x == b.x);
+    CHECK(a.y == b.y);
+    CHECK(a.z == b.z);
+    CHECK(a.w == b.w);
+}
+
+}  // namespace
+
+TEST_CASE("kernel functions of vectors are those of numbers, component by component") {
+    const k::vec4 a(-1.75f, 0.25f, 2.5f, 0.0f), b(0.5f, 0.75f, 2.0f, 1.0f);
+    check_equal(k::floor(a), k::vec4(-2.0f, 0.0f, 2.0f, 0.0f));
+    check_equal(k::trunc(a), k::vec4(-1.0f, 0.0f, 2.0f, 0.0f));
+    check_equal(k::fract(a), k::vec4(0.25f, 0.25f, 0.5f, 0.0f));
+    check_equal(k::sign(a), k::vec4(-1.0f, 1.0f, 1.0f, 0.0f));
+    check_equal(k::step(b, a), k::vec4(0.0f, 0.0f, 1.0f, 0.0f));
+    check_equal(k::step(0.25f, a), k::vec4(0.0f, 1.0f, 1.0f, 0.0f));
+    check_equal(k::mod(a, 2.0f), k::vec4(0.25f, 0.25f, 0.5f, 0.0f));
+    check_equal(k::max(a, 0.0f), k::vec4(0.0f, 0.25f, 2.5f, 0.0f));
+    check_equal(k::clamp(a, k::vec4(0.0f), b), k::vec4(0.0f, 0.25f, 2.0f, 0.0f));
+    check_equal(k::mix(a, b, k::vec4(0.0f, 1.0f, 0.5f, 1.0f)), k::vec4(-1.75f, 0.75f, 2.25f, 1.0f));
+    check_equal(k::sin(a), k::vec4(k::sin(-1.75f), k::sin(0.25f), k::sin(2.5f), 0.0f));
+    check_equal(k::smoothstep(0.0f, 1.0f, a), k::vec4(0.0f, k::smoothstep(0.0f, 1.0f, 0.25f), 1.0f, 0.0f));
+    CHECK(k::length(k::vec4(2.0f, 4.0f, 5.0f, 6.0f)) == 9.0f);
+    CHECK(std::abs(k::length(k::normalize(k::vec2(3.0f, -4.0f))) - 1.0f) < 1e-6f);
+}
+
+TEST_CASE("kernel swizzles read the components that they name, and take no room") {
+    const k::vec4 v(1.0f, 2.0f, 3.0f, 4.0f);
+    const k::vec3 three = v.wyx;
+    check_equal(v.wzyx, k::vec4(4.0f, 3.0f, 2.0f, 1.0f));
+    check_equal(k::vec4(three.zy, three.yz), k::vec4(1.0f, 2.0f, 2.0f, 1.0f));
+    check_equal(k::vec4(2.0f * v.xyz, 0.0f), k::vec4(2.0f, 4.0f, 6.0f, 0.0f));
+    CHECK(k::dot(v.xy, v.zw) == 11.0f);
+    CHECK((v + v).yx.operator k::vec2().x == 4.0f);
+    STATIC_CHECK(sizeof(k::vec2) == 8);
+    STATIC_CHECK(sizeof(k::vec3) == 12);
+    STATIC_CHECK(sizeof(k::vec4) == 16);
+    STATIC_CHECK(sizeof(k::mat3) == 36);
+}
+
+TEST_CASE("kernel matrices have columns, as in GLSL") {
+    const k::mat3 m(k::vec3(1.0f, 2.0f, 3.0f), k::vec3(0.0f, 1.0f, 4.0f), k::vec3(5.0f, 6.0f, 0.0f));
+    check_equal(k::vec4(m * k::vec3(1.0f, 10.0f, 100.0f), 0.0f), k::vec4(501.0f, 612.0f, 43.0f, 0.0f));
+    check_equal(k::vec4(k::vec3(1.0f, 10.0f, 100.0f) * m, 0.0f), k::vec4(321.0f, 410.0f, 65.0f, 0.0f));
+    check_equal(k::vec4(k::transpose(m)[0], m[2].y), k::vec4(1.0f, 0.0f, 5.0f, 6.0f));
+    CHECK(k::determinant(m) == 1.0f);
+    const k::mat3 one = m * k::inverse(m);
+    check_equal(k::vec4(one[1], one[2].z), k::vec4(0.0f, 1.0f, 0.0f, 1.0f));
 }

@@ -18,9 +18,9 @@
 #include "candela/target/text_template.h"
 #include "candela/target_plugin.h"
 #include "objects.h"
+#include "vectors.h"
 
 CANDELA_EMBED(candela_cpp_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
-CANDELA_EMBED(candela_cpp_vectors, CANDELA_SOURCE_DIR "/templates/vectors.h");
 CANDELA_EMBED(candela_cpp_cmake, CANDELA_SOURCE_DIR "/templates/CMakeLists.txt");
 CANDELA_EMBED(candela_cpp_readme, CANDELA_SOURCE_DIR "/templates/README.md");
 
@@ -40,8 +40,9 @@ class CppWriter {
         const std::string glue =
             lights() + loops() + reflection() + shading() + objects_.shapes() + objects_.statements() + text;
         std::string kernels = model_kernels();
+        const std::string library = vectors_for(kernels);
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
-        const std::string vectors = needed_parts(candela_cpp_vectors, kernels + glue);
+        const std::string vectors = needed_parts(library, kernels + glue);
         const bool is_srgb = scene_.image.color_management == ColorEncoding::srgb;
         const ExportedImage& image = scene_.image;
         const ExportedObserver& observer = scene_.observer;
@@ -150,8 +151,8 @@ class CppWriter {
                         fmt::format("    {},  // {}\n", struct_text(model, light.values), tame(light.label));
             }
             text += has_parameters(model)
-                        ? fmt::format("const std::vector<{}> k_{}_lights = {{\n{}}};\n\n", kernel.parameters,
-                                      kernel.prefix, entries)
+                        ? fmt::format("const std::vector<{}> k_{}_lights = {{\n{}}};\n\n",
+                                      constants_type(model), kernel.prefix, entries)
                         : fmt::format("const int k_{}_lights = {};\n\n", kernel.prefix, count);
         }
         return text;
@@ -162,7 +163,7 @@ class CppWriter {
         for (const ExportedModel& model : scene_.light_models) {
             const KernelText& kernel = model.plugin->kernel;
             text += has_parameters(model)
-                        ? fmt::format("    for (const {}& light : k_{}_lights) {{\n", kernel.parameters,
+                        ? fmt::format("    for (const {}& light : k_{}_lights) {{\n", constants_type(model),
                                       kernel.prefix)
                         : fmt::format("    for (int n = 0; n < k_{}_lights; ++n) {{\n", kernel.prefix);
             const std::string add =
@@ -213,8 +214,7 @@ class CppWriter {
         if (scene_.shadings.size() > 1) text += "    Shading shading{};\n";
         if (scene_.reflections.size() > 1) text += "    Reflection reflection{};\n";
         const auto add = [&](const ExportedModel& model, const std::string& name) {
-            if (has_parameters(model))
-                text += fmt::format("    {} {}{{}};\n", model.plugin->kernel.parameters, name);
+            if (has_parameters(model)) text += fmt::format("    {} {}{{}};\n", constants_type(model), name);
         };
         for (const auto& model : scene_.reflections) add(model, material_member(model));
         for (const auto& model : scene_.shadings) add(model, shading_member(model));

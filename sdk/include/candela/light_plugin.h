@@ -126,20 +126,24 @@ class KernelAmbientLight final : public Light {
 }  // namespace candela::sdk
 
 /// A plugin from the kernel function `prefix_illuminate`; `Params` is its first argument.
-#define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                                    \
-    CANDELA_KERNEL_PLUGIN(light, (candela::sdk::KernelLight<Params, &candela::kernel::prefix##_illuminate>), \
+#define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                      \
+    CANDELA_KERNEL_PLUGIN(light,                                                               \
+                          (candela::sdk::KernelLight<CANDELA_KERNEL_CONSTANTS(prefix, Params), \
+                                                     &candela::kernel::prefix##_illuminate>),  \
                           prefix, Params, fields, __VA_ARGS__)
 
 /// A plugin from the kernel functions `prefix_illuminate` and `prefix_sample_count` of a source with several
 /// samples; `Params` is their first argument.
-#define CANDELA_SAMPLED_LIGHT_PLUGIN(prefix, Params, fields, ...)                                          \
-    CANDELA_KERNEL_PLUGIN(light,                                                                           \
-                          (candela::sdk::KernelSampledLight<Params, &candela::kernel::prefix##_illuminate, \
-                                                            &candela::kernel::prefix##_sample_count>),     \
+#define CANDELA_SAMPLED_LIGHT_PLUGIN(prefix, Params, fields, ...)                                      \
+    CANDELA_KERNEL_PLUGIN(light,                                                                       \
+                          (candela::sdk::KernelSampledLight<CANDELA_KERNEL_CONSTANTS(prefix, Params),  \
+                                                            &candela::kernel::prefix##_illuminate,     \
+                                                            &candela::kernel::prefix##_sample_count>), \
                           prefix, Params, fields, __VA_ARGS__)
 
 /// A plugin from the kernel function `prefix_illuminate_ambient`; `Params` is its first argument.
-#define CANDELA_AMBIENT_LIGHT_PLUGIN(prefix, Params, fields, ...)                                         \
-    CANDELA_KERNEL_PLUGIN(                                                                                \
-        light, (candela::sdk::KernelAmbientLight<Params, &candela::kernel::prefix##_illuminate_ambient>), \
-        prefix, Params, fields, __VA_ARGS__)
+#define CANDELA_AMBIENT_LIGHT_PLUGIN(prefix, Params, fields, ...)                                            \
+    CANDELA_KERNEL_PLUGIN(light,                                                                             \
+                          (candela::sdk::KernelAmbientLight<CANDELA_KERNEL_CONSTANTS(prefix, Params),        \
+                                                            &candela::kernel::prefix##_illuminate_ambient>), \
+                          prefix, Params, fields, __VA_ARGS__)

@@ -230,9 +230,25 @@ std::array<std::size_t, count> by_member(const std::array<Field<Params>, count>&
     return order;
 }
 
+/// The functions of `Model`, and before them x_prepare, where the kernel has it.
+template <class Model, bool is_prepared>
+std::span<const KernelFunction> kernel_functions() {
+    if constexpr (is_prepared) {
+        static constexpr auto all = [] {
+            std::array<KernelFunction, std::size(Model::k_kernel_functions) + 1> functions{};
+            functions[0] = {"prepare", true};
+            std::ranges::copy(Model::k_kernel_functions, functions.begin() + 1);
+            return functions;
+        }();
+        return all;
+    } else {
+        return Model::k_kernel_functions;
+    }
+}
+
 /// What a descriptor says of the kernel behind `Model`, which lists its functions in `k_kernel_functions`;
 /// `parameters` is the name of `Params`, as its author wrote it.
-template <class Model, class Params, std::size_t count>
+template <class Model, class Params, bool is_prepared, std::size_t count>
 KernelText kernel_text(const char* prefix, const char* parameters,
                        const std::array<Field<Params>, count>& fields) {
     static const std::array<std::size_t, count> members = by_member(fields);
@@ -242,7 +258,7 @@ KernelText kernel_text(const char* prefix, const char* parameters,
     return {.text = k_kernel_text,
             .prefix = prefix,
             .parameters = takes_none ? "" : parameters + (colon == qualified.npos ? 0 : colon + 1),
-            .functions = Model::k_kernel_functions,
+            .functions = kernel_functions<Model, is_prepared>(),
             .members = members};
 }
 
@@ -275,7 +291,7 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 /// Exports a plugin of `kind_` whose instances are created by `new Model(params)`, with `params` filled
 /// according to `fields_`, an array of candela::sdk::Field. The rest is a candela::sdk::About.
 #define CANDELA_PLUGIN(kind_, Model, fields_, ...) \
-    CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::KernelText{}, __VA_ARGS__)
+    CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, std::identity(), candela::KernelText{}, __VA_ARGS__)
 
 #ifdef CANDELA_KERNEL_FILE
 // The assembler reads the file, as no C++ of today can.
@@ -287,19 +303,40 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 #define CANDELA_EMBED_KERNEL
 #endif
 
-/// The same for a plugin made of kernel functions: `prefix_` begins their names, `Params_` is their first
-/// argument, `Model` lists them in a static member `k_kernel_functions`.
-#define CANDELA_KERNEL_PLUGIN(kind_, Model, prefix_, Params_, fields_, ...)                              \
-    CANDELA_EMBED_KERNEL                                                                                 \
-    static_assert(candela::sdk::fill_all_members<Params_>(fields_),                                      \
-                  "each member of a kernel's struct is one of the plugin's parameters");                 \
-    CANDELA_EXPORT_PLUGIN(                                                                               \
-        kind_, Model, fields_,                                                                           \
-        (candela::sdk::kernel_text<std::remove_pointer_t<decltype(new Model(std::declval<Params_>()))>>( \
-            #prefix_, #Params_, fields_)),                                                               \
+/// What the functions of a kernel get first, within CANDELA_KERNEL_PLUGIN: the result of
+/// `prefix_prepare(Params_)` where there is that function, else `Params_`.
+#define CANDELA_KERNEL_CONSTANTS(prefix_, Params_) \
+    decltype(prefix_##_preparation::run(std::declval<const Params_&>()))
+
+/// The same for a plugin made of kernel functions: `prefix_` begins their names, `Params_`, or what
+/// `prefix_prepare` makes of it, is their first argument, `Model` lists them in a static member
+/// `k_kernel_functions`. The name `prefix_prepare` is looked up by its argument, as it need not exist.
+#define CANDELA_KERNEL_PLUGIN(kind_, Model, prefix_, Params_, fields_, ...)                                  \
+    CANDELA_EMBED_KERNEL                                                                                     \
+    namespace {                                                                                              \
+    struct prefix_##_preparation {                                                                           \
+        template <class Params>                                                                              \
+        static constexpr bool is_there = requires(const Params& params) { prefix_##_prepare(params); };      \
+        template <class Params>                                                                              \
+        static auto run(const Params& params) {                                                              \
+            if constexpr (is_there<Params>) {                                                                \
+                return prefix_##_prepare(params);                                                            \
+            } else {                                                                                         \
+                return params;                                                                               \
+            }                                                                                                \
+        }                                                                                                    \
+    };                                                                                                       \
+    }                                                                                                        \
+    static_assert(candela::sdk::fill_all_members<Params_>(fields_),                                          \
+                  "each member of a kernel's struct is one of the plugin's parameters");                     \
+    CANDELA_EXPORT_PLUGIN(                                                                                   \
+        kind_, Model, fields_, prefix_##_preparation::run,                                                   \
+        (candela::sdk::kernel_text<                                                                          \
+            std::remove_pointer_t<decltype(new Model(prefix_##_preparation::run(std::declval<Params_>())))>, \
+            Params_, prefix_##_preparation::is_there<Params_>>(#prefix_, #Params_, fields_)),                \
         __VA_ARGS__)
 
-#define CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, kernel_, ...)                            \
+#define CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, prepare_, kernel_, ...)                  \
     extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }        \
     extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {  \
         static constexpr auto specs = candela::sdk::specs_of(fields_);                        \
@@ -318,7 +355,7 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
             .formats = about.formats,                                                         \
             .kernel = kernel_,                                                                \
             .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* { \
-                return new Model(candela::sdk::params_from(fields_, values));                 \
+                return new Model(prepare_(candela::sdk::params_from(fields_, values)));       \
             }};                                                                               \
         return &descriptor;                                                                   \
     }

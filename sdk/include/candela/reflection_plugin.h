@@ -105,18 +105,20 @@ class KernelReflection final : public ReflectionModel {
 
 }  // namespace candela::sdk
 
-/// A plugin from the kernel functions `prefix_reflect` and `prefix_reflect_ambient`; `Material` is their
-/// first argument.
+/// A plugin from the kernel functions `prefix_reflect` and `prefix_reflect_ambient`; `Material`, or what
+/// `prefix_prepare` makes of it, is their first argument.
 #define CANDELA_REFLECTION_PLUGIN(prefix, Material, fields, ...)                                        \
     CANDELA_KERNEL_PLUGIN(reflection,                                                                   \
-                          (candela::sdk::KernelReflection<Material, &candela::kernel::prefix##_reflect, \
+                          (candela::sdk::KernelReflection<CANDELA_KERNEL_CONSTANTS(prefix, Material),   \
+                                                          &candela::kernel::prefix##_reflect,           \
                                                           &candela::kernel::prefix##_reflect_ambient>), \
                           prefix, Material, fields, __VA_ARGS__)
 
 /// The same for a model that reads Surface::tangent.
-#define CANDELA_ANISOTROPIC_REFLECTION_PLUGIN(prefix, Material, fields, ...)                            \
-    CANDELA_KERNEL_PLUGIN(reflection,                                                                   \
-                          (candela::sdk::KernelReflection<Material, &candela::kernel::prefix##_reflect, \
-                                                          &candela::kernel::prefix##_reflect_ambient,   \
-                                                          candela::sdk::Tangent::needed>),              \
-                          prefix, Material, fields, __VA_ARGS__)
+#define CANDELA_ANISOTROPIC_REFLECTION_PLUGIN(prefix, Material, fields, ...)                \
+    CANDELA_KERNEL_PLUGIN(                                                                  \
+        reflection,                                                                         \
+        (candela::sdk::KernelReflection<                                                    \
+            CANDELA_KERNEL_CONSTANTS(prefix, Material), &candela::kernel::prefix##_reflect, \
+            &candela::kernel::prefix##_reflect_ambient, candela::sdk::Tangent::needed>),    \
+        prefix, Material, fields, __VA_ARGS__)

@@ -168,16 +168,18 @@ class WeightedShading final : public KernelShading<Params, rate, normal, needs> 
 }  // namespace candela::sdk
 
 /// A plugin from the kernel function `prefix_normal`; `rate` is face, vertex or fragment.
-#define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
-    CANDELA_KERNEL_PLUGIN(shading,                                                          \
-                          (candela::sdk::KernelShading<Params, candela::ShadingRate::rate,  \
-                                                       &candela::kernel::prefix##_normal>), \
-                          prefix, Params, fields, __VA_ARGS__)
+#define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                                          \
+    CANDELA_KERNEL_PLUGIN(                                                                                 \
+        shading,                                                                                           \
+        (candela::sdk::KernelShading<CANDELA_KERNEL_CONSTANTS(prefix, Params), candela::ShadingRate::rate, \
+                                     &candela::kernel::prefix##_normal>),                                  \
+        prefix, Params, fields, __VA_ARGS__)
 
 /// The same with vertex normals weighted by the kernel function `prefix_corner_weight`.
-#define CANDELA_WEIGHTED_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                           \
-    CANDELA_KERNEL_PLUGIN(shading,                                                                   \
-                          (candela::sdk::WeightedShading<Params, candela::ShadingRate::rate,         \
-                                                         &candela::kernel::prefix##_normal,          \
-                                                         &candela::kernel::prefix##_corner_weight>), \
-                          prefix, Params, fields, __VA_ARGS__)
+#define CANDELA_WEIGHTED_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                                   \
+    CANDELA_KERNEL_PLUGIN(                                                                                   \
+        shading,                                                                                             \
+        (candela::sdk::WeightedShading<CANDELA_KERNEL_CONSTANTS(prefix, Params), candela::ShadingRate::rate, \
+                                       &candela::kernel::prefix##_normal,                                    \
+                                       &candela::kernel::prefix##_corner_weight>),                           \
+        prefix, Params, fields, __VA_ARGS__)

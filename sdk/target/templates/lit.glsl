@@ -5,6 +5,7 @@ uniform vec3 object_color;
 
 // The intensity that a place of a surface sends to the observer. `facing`: -1 where an open surface is seen from behind.
 vec3 intensity_at(vec3 place, ShadingPoint point, float facing) {
+@PREPARATION@
     Surface s;
     s.normal = facing * shading_normal(point);
     s.to_observer = is_orthographic ? towards_observer : normalize(eye - place);

@@ -18,6 +18,14 @@ float exact_acos(float x) {
     return x < 0.0 ? 3.14159265 - of_a : of_a;
 }
 float exact_asin(float x) { return 1.57079633 - exact_acos(x); }
+#define OF_VECTORS(f) \
+    vec2 f(vec2 v) { return vec2(f(v.x), f(v.y)); } \
+    vec3 f(vec3 v) { return vec3(f(v.x), f(v.y), f(v.z)); } \
+    vec4 f(vec4 v) { return vec4(f(v.x), f(v.y), f(v.z), f(v.w)); }
+OF_VECTORS(exact_sin)
+OF_VECTORS(exact_cos)
+OF_VECTORS(exact_acos)
+OF_VECTORS(exact_asin)
 #define sin exact_sin
 #define cos exact_cos
 #define acos exact_acos

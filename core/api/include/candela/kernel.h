@@ -1,10 +1,10 @@
 // The kernel language in C++: the part of GLSL that a <name>.kernel file may use.
 //
-// A kernel is in the common subset of C++ and GLSL: structs of float, int, vec2 and vec3; functions marked
-// KERNEL that take and return values; locals, ternaries, arithmetic; float literals written 0.5f; and the
-// functions below, which have GLSL's names and meanings. Every function is inlined into the batch loop that
-// calls it and written so that the compiler vectorises that loop: no branches, no calls, no errno, and no
-// results in the denormal range.
+// A kernel is in the common subset of C++ and GLSL: structs of float, int, vec2, vec3, vec4 and mat3;
+// functions marked KERNEL that take and return values; locals, ternaries, arithmetic; reading swizzles such
+// as v.zyx; float literals written 0.5f; and the functions below, which have GLSL's names and meanings. Every
+// function is inlined into the batch loop that calls it and written so that the compiler vectorises that
+// loop: no branches, no calls, no errno, and no results in the denormal range.
 //
 // Include kernels inside `namespace candela::kernel { ... }`, where the names resolve to these functions.
 #pragma once
@@ -13,77 +13,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "candela/kernel_vectors.h"
+
 // A kernel function has its kind's arguments, whether or not the model uses them all.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 #define KERNEL [[gnu::always_inline, maybe_unused]] static inline
-#define CANDELA_KERNEL_INLINE [[gnu::always_inline]] inline
 
 namespace candela::kernel {
-
-struct vec2 {
-    float x, y;
-    vec2() = default;
-    CANDELA_KERNEL_INLINE constexpr explicit vec2(float s) : x(s), y(s) {}
-    CANDELA_KERNEL_INLINE constexpr vec2(float in_x, float in_y) : x(in_x), y(in_y) {}
-    // NOLINTNEXTLINE(modernize-use-equals-default)
-    CANDELA_KERNEL_INLINE constexpr vec2(const vec2& v) : x(v.x), y(v.y) {}
-    // NOLINTNEXTLINE(modernize-use-equals-default)
-    CANDELA_KERNEL_INLINE constexpr vec2& operator=(const vec2& v) {
-        x = v.x;
-        y = v.y;
-        return *this;
-    }
-};
-
-struct vec3 {
-    float x, y, z;
-    vec3() = default;
-    CANDELA_KERNEL_INLINE constexpr explicit vec3(float s) : x(s), y(s), z(s) {}
-    CANDELA_KERNEL_INLINE constexpr vec3(float in_x, float in_y, float in_z) : x(in_x), y(in_y), z(in_z) {}
-    // Spelled out because an implicit copy is a memcpy, which keeps `condition ? a : b` from becoming a
-    // vector blend.
-    // NOLINTNEXTLINE(modernize-use-equals-default)
-    CANDELA_KERNEL_INLINE constexpr vec3(const vec3& v) : x(v.x), y(v.y), z(v.z) {}
-    // NOLINTNEXTLINE(modernize-use-equals-default)
-    CANDELA_KERNEL_INLINE constexpr vec3& operator=(const vec3& v) {
-        x = v.x;
-        y = v.y;
-        z = v.z;
-        return *this;
-    }
-};
-
-#define CANDELA_VEC3_OPERATOR(op)                                                                 \
-    CANDELA_KERNEL_INLINE constexpr vec3 operator op(vec3 a, vec3 b) {                            \
-        return vec3(a.x op b.x, a.y op b.y, a.z op b.z);                                          \
-    }                                                                                             \
-    CANDELA_KERNEL_INLINE constexpr vec3 operator op(vec3 a, float s) {                           \
-        return vec3(a.x op s, a.y op s, a.z op s);                                                \
-    }                                                                                             \
-    CANDELA_KERNEL_INLINE constexpr vec3 operator op(float s, vec3 a) {                           \
-        return vec3(s op a.x, s op a.y, s op a.z);                                                \
-    }                                                                                             \
-    CANDELA_KERNEL_INLINE constexpr vec3& operator op##=(vec3 & a, vec3 b) { return a = a op b; } \
-    CANDELA_KERNEL_INLINE constexpr vec3& operator op##=(vec3 & a, float s) { return a = a op s; }
-CANDELA_VEC3_OPERATOR(+)
-CANDELA_VEC3_OPERATOR(-)
-CANDELA_VEC3_OPERATOR(*)
-CANDELA_VEC3_OPERATOR(/)
-#undef CANDELA_VEC3_OPERATOR
-CANDELA_KERNEL_INLINE constexpr vec3 operator-(vec3 a) { return vec3(-a.x, -a.y, -a.z); }
-
-#define CANDELA_VEC2_OPERATOR(op)                                                                          \
-    CANDELA_KERNEL_INLINE constexpr vec2 operator op(vec2 a, vec2 b) {                                     \
-        return vec2(a.x op b.x, a.y op b.y);                                                               \
-    }                                                                                                      \
-    CANDELA_KERNEL_INLINE constexpr vec2 operator op(vec2 a, float s) { return vec2(a.x op s, a.y op s); } \
-    CANDELA_KERNEL_INLINE constexpr vec2 operator op(float s, vec2 a) { return vec2(s op a.x, s op a.y); }
-CANDELA_VEC2_OPERATOR(+)
-CANDELA_VEC2_OPERATOR(-)
-CANDELA_VEC2_OPERATOR(*)
-CANDELA_VEC2_OPERATOR(/)
-#undef CANDELA_VEC2_OPERATOR
 
 // Comparison and rounding.
 
@@ -111,6 +48,8 @@ CANDELA_KERNEL_INLINE float floor(float x) {
     return abs(x) < 4194304.0f ? rounded : x;
 }
 CANDELA_KERNEL_INLINE float ceil(float x) { return -floor(-x); }
+/// Towards zero.
+CANDELA_KERNEL_INLINE float trunc(float x) { return x < 0.0f ? ceil(x) : floor(x); }
 CANDELA_KERNEL_INLINE float fract(float x) { return x - floor(x); }
 CANDELA_KERNEL_INLINE float mod(float x, float y) { return x - y * floor(x / y); }
 
@@ -250,44 +189,11 @@ CANDELA_KERNEL_INLINE float atan(float y, float x) {
     return of_quotient + (x < 0.0f ? (y < 0.0f ? -3.14159265f : 3.14159265f) : 0.0f);
 }
 
-// Vectors.
+}  // namespace candela::kernel
 
-CANDELA_KERNEL_INLINE constexpr float dot(vec2 a, vec2 b) { return a.x * b.x + a.y * b.y; }
-CANDELA_KERNEL_INLINE float length(vec2 a) { return sqrt(dot(a, a)); }
+#include "candela/kernel_functions.h"
 
-CANDELA_KERNEL_INLINE constexpr float dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-CANDELA_KERNEL_INLINE constexpr vec3 cross(vec3 a, vec3 b) {
-    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
-CANDELA_KERNEL_INLINE float length(vec3 a) { return sqrt(dot(a, a)); }
-CANDELA_KERNEL_INLINE float distance(vec3 a, vec3 b) { return length(a - b); }
-/// The unit vector along `a`. GLSL leaves the zero vector undefined; here it stays zero.
-CANDELA_KERNEL_INLINE vec3 normalize(vec3 a) { return a * inversesqrt(max(dot(a, a), 1.0e-36f)); }
-CANDELA_KERNEL_INLINE constexpr vec3 reflect(vec3 incident, vec3 normal) {
-    return incident - 2.0f * dot(normal, incident) * normal;
-}
-/// Snell's law; zero beyond the critical angle. `eta`: n_1 / n_2; `normal` points to the side the light comes
-/// from.
-CANDELA_KERNEL_INLINE vec3 refract(vec3 incident, vec3 normal, float eta) {
-    const float cosine = dot(normal, incident);
-    const float k = 1.0f - eta * eta * (1.0f - cosine * cosine);
-    const vec3 refracted = eta * incident - (eta * cosine + sqrt(max(k, 0.0f))) * normal;
-    return k < 0.0f ? vec3(0.0f) : refracted;
-}
-CANDELA_KERNEL_INLINE constexpr vec3 min(vec3 a, vec3 b) {
-    return vec3(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z));
-}
-CANDELA_KERNEL_INLINE constexpr vec3 max(vec3 a, vec3 b) {
-    return vec3(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z));
-}
-CANDELA_KERNEL_INLINE constexpr vec3 clamp(vec3 a, float low, float high) {
-    return vec3(clamp(a.x, low, high), clamp(a.y, low, high), clamp(a.z, low, high));
-}
-CANDELA_KERNEL_INLINE constexpr vec3 mix(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
-CANDELA_KERNEL_INLINE vec3 abs(vec3 a) { return vec3(abs(a.x), abs(a.y), abs(a.z)); }
-CANDELA_KERNEL_INLINE vec3 exp(vec3 a) { return vec3(exp(a.x), exp(a.y), exp(a.z)); }
-CANDELA_KERNEL_INLINE vec3 sqrt(vec3 a) { return vec3(sqrt(a.x), sqrt(a.y), sqrt(a.z)); }
-CANDELA_KERNEL_INLINE vec3 pow(vec3 a, vec3 b) { return vec3(pow(a.x, b.x), pow(a.y, b.y), pow(a.z, b.z)); }
+namespace candela::kernel {
 
 // GLSL constructs structs with parentheses, which clang knows from version 16 on. A struct of a kernel's own
 // has to be filled member by member for older ones.

@@ -17,10 +17,14 @@ std::string_view kernel_prelude();
 bool has_parameters(const ExportedModel& model);
 /// Whether its kernel has the function <prefix>_<name>.
 bool has_function(const ExportedModel& model, std::string_view name);
-/// A call of that function: with the parameters as `parameters` where it takes them, then `arguments`.
+/// The type of what its functions get: the struct of its parameters, or what <prefix>_prepare makes of it.
+std::string constants_type(const ExportedModel& model);
+/// The constants as an expression, from one for the parameters: "x_prepare(material)", or the same.
+std::string prepared(const ExportedModel& model, const std::string& parameters);
+/// A call of that function: with the constants as `parameters` where it takes them, then `arguments`.
 std::string call(const ExportedModel& model, std::string_view name, std::string_view parameters,
                  std::string_view arguments);
-/// The struct of a model's parameters with these values: "PhongMaterial{vec3(0.1f), ...}".
+/// The struct of a model's parameters with these values: "PhongMaterial{vec3(0.1f), ...}", prepared.
 std::string struct_text(const ExportedModel& model, const ExportedValues& values);
 
 /// "reflection/phong".
@@ -31,6 +35,9 @@ std::vector<ExportedModel> models_of(const ExportedScene& scene);
 /// Throws std::runtime_error where two kernels declare the same name, with which they cannot stand in one
 /// program: neither C++ nor GLSL would tell the two apart.
 void require_different_names(const ExportedScene& scene);
+
+/// A kernel's text, or any other C++ or GLSL, without comments.
+std::string without_comments(const std::string& text);
 
 /// The paragraphs of `library` (parted by empty lines) that declare something which `users`, or a paragraph
 /// that is needed itself, speak of, and those that declare nothing.
