@@ -11,20 +11,24 @@
 #   LIBRARIES  what else is linked
 #   VERSION    of the plugin; the project's by default
 #   CONFORMANCE_VALUES  parameters' values for "conforms", such as a file that the plugin needs: file=/full/path
-include_guard(GLOBAL)
+
+# Once a folder, not once a build: what is set here is not seen in a folder beside, which finds Candela for itself.
+include_guard()
 
 set(CANDELA_PLUGIN_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 # How batch loops are compiled, in plugins and in the core: wide vectors where the function's own target has them. (That
 # square roots set no errno must be the same for all who import a module, so candela::api says that.)
-add_library(candela_batch_flags INTERFACE)
-target_compile_options(candela_batch_flags INTERFACE
-    $<$<NOT:$<CONFIG:Debug>>:-O3>
-    # Without optimisation nothing is vectorised, which clang would report for every loop.
-    $<$<AND:$<CXX_COMPILER_ID:Clang>,$<CONFIG:Debug>>:-Wno-pass-failed>
-    # As clang does unasked: otherwise g++ turns no condition within a loop into a blend.
-    $<$<CXX_COMPILER_ID:GNU>:-fno-trapping-math>
-    $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-mprefer-vector-width=512>)
+if(NOT TARGET candela_batch_flags)
+    add_library(candela_batch_flags INTERFACE)
+    target_compile_options(candela_batch_flags INTERFACE
+        $<$<NOT:$<CONFIG:Debug>>:-O3>
+        # Without optimisation nothing is vectorised, which clang would report for every loop.
+        $<$<AND:$<CXX_COMPILER_ID:Clang>,$<CONFIG:Debug>>:-Wno-pass-failed>
+        # As clang does unasked: otherwise g++ turns no condition within a loop into a blend.
+        $<$<CXX_COMPILER_ID:GNU>:-fno-trapping-math>
+        $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-mprefer-vector-width=512>)
+endif()
 
 # What limits the harm of a memory error, in Candela's own code and in plugins, which share its process.
 set(CANDELA_HARDENING_COMPILE_OPTIONS
