@@ -28,11 +28,14 @@ def output_of(*words, **options):
     return subprocess.run(words, check=True, capture_output=True, text=True, **options).stdout
 
 
-def without_precompiled_headers(words):
-    """The headers themselves instead: a precompiled one can be read by one version of clang only."""
+def without_precompiled_headers(words, is_module_unit):
+    """The headers themselves instead: a precompiled one can be read by one version of clang only. In a unit of a module, nothing may
+    stand before its first line, and it includes what it uses."""
     kept, rest = [], list(words)
     while rest:
         if rest[:2] == ["-Xclang", "-include-pch"]:
+            del rest[:4]
+        elif is_module_unit and rest[:3] == ["-Xclang", "-include", "-Xclang"]:
             del rest[:4]
         elif rest[0] in ("-Winvalid-pch", "-fpch-instantiate-templates"):
             del rest[0]
@@ -48,7 +51,8 @@ class Unit:
         self.directory = pathlib.Path(entry["directory"])
         self.source = pathlib.Path(entry["file"])
         self.object = entry["output"]
-        words = without_precompiled_headers(shlex.split(entry["command"]))
+        is_module_unit = bool(re.search(r"^(export )?module\b", self.source.read_text(errors="replace"), re.MULTILINE))
+        words = without_precompiled_headers(shlex.split(entry["command"]), is_module_unit)
         self.compiler = words[0]
         modmaps = [word[1:] for word in words if word.startswith("@")]
         of_modules = [option for name in modmaps for option in (self.directory / name).read_text().split()]

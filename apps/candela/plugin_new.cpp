@@ -65,15 +65,16 @@ void check_name(const std::string& name) {
 int run_plugin_new(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela plugin new KIND NAME [DIR]",
-        "Creates a plugin project: kernel, source, CMakeLists.txt, test and README, in DIR (or\n"
-        "NAME). KIND is light, reflection, shading or shape. It builds and passes its tests as it stands.");
+        "Creates a plugin project: source, kernel where the kind has one, CMakeLists.txt, test and README,\n"
+        "in DIR (or NAME). KIND is light, reflection, shading, shape, image or target. It builds and passes\n"
+        "its tests as it stands.");
     line.positional("arguments", 3);
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> words = line.all("arguments");
     if (words.size() < 2)
         throw Error(ErrorCategory::bad_request,
                     "candela plugin new needs a kind and a name, such as: reflection cel");
-    const std::vector<std::string> kinds{"light", "reflection", "shading", "shape"};
+    const std::vector<std::string> kinds{"light", "reflection", "shading", "shape", "image", "target"};
     if (std::ranges::find(kinds, words[0]) == kinds.end()) {
         const std::string meant = candela::suggestion(words[0], kinds);
         throw Error(ErrorCategory::bad_request,

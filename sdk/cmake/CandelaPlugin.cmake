@@ -1,5 +1,5 @@
 # candela_add_plugin(<kind>/<name> SOURCES <file>... [KERNEL <file>] [EMBED <file>...] [LIBRARIES <target>...]
-#                    [VERSION <x.y.z>] [CONFORMANCE_VALUES <parameter>=<value>...])
+#                    [DATA <dir>] [VERSION <x.y.z>] [CONFORMANCE_VALUES <parameter>=<value>...])
 #
 # A plugin: <kind>-<name>.so and, made from it, <kind>-<name>.json. Kind is light, reflection, shading, shape,
 # image or target.
@@ -8,23 +8,29 @@
 #   SOURCES    what is compiled; one of the files ends with the macro of its kind (candela/<kind>_plugin.h)
 #   KERNEL     the model's formulas in the kernel language; its text is embedded for the program generator
 #   EMBED      files that the sources embed, with CANDELA_EMBED(variable, CANDELA_SOURCE_DIR "/...") (candela/embed.h)
-#   LIBRARIES  what else is linked
+#   LIBRARIES  what else is linked; shared libraries of the project are found beside the plugin, wherever both are moved to
+#   DATA       a folder of the plugin's own files, copied beside the library as the folder <kind>-<name>, which
+#              candela::sdk::data_folder() finds (candela/plugin_files.h)
 #   VERSION    of the plugin; the project's by default
 #   CONFORMANCE_VALUES  parameters' values for "conforms", such as a file that the plugin needs: file=/full/path
-include_guard(GLOBAL)
+
+# Once a folder, not once a build: what is set here is not seen in a folder beside, which finds Candela for itself.
+include_guard()
 
 set(CANDELA_PLUGIN_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 # How batch loops are compiled, in plugins and in the core: wide vectors where the function's own target has them. (That
 # square roots set no errno must be the same for all who import a module, so candela::api says that.)
-add_library(candela_batch_flags INTERFACE)
-target_compile_options(candela_batch_flags INTERFACE
-    $<$<NOT:$<CONFIG:Debug>>:-O3>
-    # Without optimisation nothing is vectorised, which clang would report for every loop.
-    $<$<AND:$<CXX_COMPILER_ID:Clang>,$<CONFIG:Debug>>:-Wno-pass-failed>
-    # As clang does unasked: otherwise g++ turns no condition within a loop into a blend.
-    $<$<CXX_COMPILER_ID:GNU>:-fno-trapping-math>
-    $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-mprefer-vector-width=512>)
+if(NOT TARGET candela_batch_flags)
+    add_library(candela_batch_flags INTERFACE)
+    target_compile_options(candela_batch_flags INTERFACE
+        $<$<NOT:$<CONFIG:Debug>>:-O3>
+        # Without optimisation nothing is vectorised, which clang would report for every loop.
+        $<$<AND:$<CXX_COMPILER_ID:Clang>,$<CONFIG:Debug>>:-Wno-pass-failed>
+        # As clang does unasked: otherwise g++ turns no condition within a loop into a blend.
+        $<$<CXX_COMPILER_ID:GNU>:-fno-trapping-math>
+        $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-mprefer-vector-width=512>)
+endif()
 
 # What limits the harm of a memory error, in Candela's own code and in plugins, which share its process.
 set(CANDELA_HARDENING_COMPILE_OPTIONS
@@ -33,7 +39,7 @@ set(CANDELA_HARDENING_COMPILE_OPTIONS
 set(CANDELA_HARDENING_LINK_OPTIONS -Wl,-z,relro -Wl,-z,now)
 
 function(candela_add_plugin id)
-    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION" "SOURCES;EMBED;LIBRARIES;CONFORMANCE_VALUES")
+    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION;DATA" "SOURCES;EMBED;LIBRARIES;CONFORMANCE_VALUES")
     if(PLUGIN_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "candela_add_plugin(${id}): unknown arguments ${PLUGIN_UNPARSED_ARGUMENTS}")
     endif()
@@ -59,6 +65,13 @@ function(candela_add_plugin id)
         CXX_STANDARD_REQUIRED ON CXX_SCAN_FOR_MODULES OFF
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON
         LINK_DEPENDS "${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map;$<TARGET_FILE:candela::manifest>")
+    if(NOT TARGET candela_core)
+        # Shared libraries of its own are beside it, also where both are copied from the build folder; others are where they
+        # were linked. Linked as installed: else CMake makes room for the other path with a colon, and after that the loader
+        # looks for every library in the current folder.
+        set_target_properties(${target} PROPERTIES
+            BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/../..;$ORIGIN" INSTALL_RPATH_USE_LINK_PATH ON)
+    endif()
     if(DEFINED CANDELA_PLUGIN_OUTPUT_DIRECTORY)
         set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CANDELA_PLUGIN_OUTPUT_DIRECTORY})
     endif()
@@ -102,6 +115,24 @@ function(candela_add_plugin id)
         VERBATIM)
     set_target_properties(${target} PROPERTIES CANDELA_MANIFEST ${file}.json)
 
+    if(PLUGIN_DATA)
+        cmake_path(ABSOLUTE_PATH PLUGIN_DATA NORMALIZE OUTPUT_VARIABLE data)
+        file(GLOB_RECURSE files CONFIGURE_DEPENDS "${data}/*")
+        if(NOT files)
+            message(FATAL_ERROR "candela_add_plugin(${id}): there are no files in ${data}, the folder of DATA")
+        endif()
+        # With a mark of its own: that files have changed links nothing, and what is gone there is gone here.
+        set(mark ${CMAKE_CURRENT_BINARY_DIR}/${file}.data)
+        add_custom_command(OUTPUT ${mark} DEPENDS ${files}
+            COMMAND ${CMAKE_COMMAND} -E rm -rf $<TARGET_FILE_DIR:${target}>/${file}
+            COMMAND ${CMAKE_COMMAND} -E copy_directory ${data} $<TARGET_FILE_DIR:${target}>/${file}
+            COMMAND ${CMAKE_COMMAND} -E touch ${mark}
+            VERBATIM)
+        add_custom_target(${target}_data ALL DEPENDS ${mark})
+        add_dependencies(${target} ${target}_data)
+        set_target_properties(${target} PROPERTIES CANDELA_DATA ${file})
+    endif()
+
     # A test of all that a host relies on.
     if(TARGET candela::conformance AND (CANDELA_CONFORMANCE_TESTS OR NOT DEFINED CANDELA_CONFORMANCE_TESTS))
         list(TRANSFORM PLUGIN_CONFORMANCE_VALUES PREPEND --set=)
@@ -111,8 +142,8 @@ function(candela_add_plugin id)
     endif()
 endfunction()
 
-# candela_install_plugin(<kind>/<name> [DESTINATION <dir>] [COMPONENT <name>]): the library and its manifest, into
-# lib/candela/plugins.
+# candela_install_plugin(<kind>/<name> [DESTINATION <dir>] [COMPONENT <name>]): the library, its manifest and its folder of
+# files, into lib/candela/plugins. Shared libraries of its own are to be installed there as well.
 function(candela_install_plugin id)
     cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "DESTINATION;COMPONENT" "")
     string(REPLACE "/" "_" suffix ${id})
@@ -120,7 +151,9 @@ function(candela_install_plugin id)
     if(NOT PLUGIN_DESTINATION)
         set(PLUGIN_DESTINATION lib/candela/plugins)
     endif()
-    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../..")
+    if(TARGET candela_core)
+        set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../..")
+    endif()
     get_target_property(manifest ${target} CANDELA_MANIFEST)
     set(component)
     if(PLUGIN_COMPONENT)
@@ -128,6 +161,10 @@ function(candela_install_plugin id)
     endif()
     install(TARGETS ${target} LIBRARY DESTINATION ${PLUGIN_DESTINATION} ${component})
     install(FILES $<TARGET_FILE_DIR:${target}>/${manifest} DESTINATION ${PLUGIN_DESTINATION} ${component})
+    get_target_property(data ${target} CANDELA_DATA)
+    if(data)
+        install(DIRECTORY $<TARGET_FILE_DIR:${target}>/${data} DESTINATION ${PLUGIN_DESTINATION} ${component})
+    endif()
 endfunction()
 
 # candela_add_plugin_test(<kind>/<name> SOURCES <file>... [LIBRARIES <target>...]): tests with Catch2, which find the folder of

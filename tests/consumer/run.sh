@@ -79,6 +79,32 @@ code=0
 expect "$scratch/out" "there is no target 'csw'; did you mean 'csv'? (possible: cpp, csv, opengl, webgl)" "candela generate"
 "$candela" plugin test "$csv/target-csv.so" >"$scratch/out" || { cat "$scratch/out" >&2; fail "the target does not conform"; }
 
+say "a plugin with a library and files of its own finds both, wherever the three are moved to"
+cp -r "$here/companion" "$scratch/companion"
+"$cmake" -G Ninja -S "$scratch/companion" -B "$scratch/companion/build" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 ||
+    { cat "$scratch/configure.log" >&2; fail "configuring the plugin with companions"; }
+"$cmake" --build "$scratch/companion/build" >"$scratch/build.log" 2>&1 || { cat "$scratch/build.log" >&2; fail "building it"; }
+readelf -d "$scratch/companion/build/reflection-companion.so" >"$scratch/out"
+if grep -E 'R(UN)?PATH.*(\[:|::|:\])' "$scratch/out" >&2; then fail "the loader would look into the current folder"; fi
+mkdir "$scratch/copied"
+cp -r "$scratch"/companion/build/{*.so,*.json,reflection-companion} "$scratch/copied"
+"$cmake" --install "$scratch/companion/build" --prefix "$scratch/elsewhere" >"$scratch/out"
+rm -r "$scratch/companion"
+mv "$scratch/copied" "$scratch/moved"
+mv "$scratch/elsewhere" "$scratch/installed"
+for plugins in "$scratch/moved" "$scratch/installed/lib/candela/plugins"; do
+    "$candela" plugin test "$plugins/reflection-companion.so" >"$scratch/out" || { cat "$scratch/out" >&2; fail "it does not conform in $plugins"; }
+    "$candela" render --plugin-dir "$plugins" --reflection companion -o "$scratch/companion.ppm" 2>"$scratch/out" ||
+        { cat "$scratch/out" >&2; fail "it does not render in $plugins"; }
+done
+rm "$scratch/moved/reflection-companion/share.txt"
+if "$candela" render --plugin-dir "$scratch/moved" --reflection companion -o "$scratch/no.ppm" 2>"$scratch/out"; then
+    fail "the files of another folder are used"
+fi
+expect "$scratch/out" "moved/reflection-companion/share.txt" "candela render"
+rm -r "$scratch/moved" "$scratch/installed"
+
 say "by directory flag, and wrong values are explained"
 unset CANDELA_PLUGIN_PATH
 "$candela" render --plugin-dir "$scratch/plugins" --reflection cel -o "$scratch/flag.ppm" 2>"$scratch/out"

@@ -21,7 +21,7 @@ else
     prefix=$scratch/prefix
     kinds=()
 fi
-[ ${#kinds[@]} -gt 0 ] || kinds=(light reflection shading shape)
+[ ${#kinds[@]} -gt 0 ] || kinds=(light reflection shading shape image target)
 export PATH=$prefix/bin:$PATH HOME=$scratch/home XDG_DATA_HOME=$scratch/home/data
 mkdir -p "$HOME"
 cd "$scratch"
@@ -47,10 +47,14 @@ for kind in "${kinds[@]}"; do
     plugins=$(candela plugin doctor)
     grep -q "in use: $kind/$name 0.1.0" <<<"$plugins" || fail "the doctor does not know $name"
     case $kind in
-        # The default cube's size is no parameter of another shape.
-        shape) printf 'version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[[light]]\ntype = "point"\nposition = [2, 2, 3]\n[[object]]\ntype = "%s"\n' "$name" >shape.toml
-               quiet candela render shape.toml --defaults -o "$name.png" ;;
+        # Its own scene: the default cube's size is no parameter of another shape.
+        shape) quiet candela render "$name/scene.toml" -o "$name.png" ;;
         light) quiet candela render --set "light.lamp.type=$name" -o "$name.png" ;;
+        image) quiet candela render -o "$name.$name"
+               quiet candela render --set "image.environment=$name.$name" -o "$name.png" ;;
+        target) quiet candela generate --target "$name" -o "$name.files"
+                [ "$(grep -c '^f ' "$name.files/scene.obj")" -eq 12 ] || fail "a cube has twelve triangles"
+                cp "$name.files/scene.obj" "$name.png" ;;
         *) quiet candela render "--$kind" "$name" -o "$name.png" ;;
     esac
     if grep -q warning "$scratch/log"; then cat "$scratch/log" >&2; fail "rendering with $name warns"; fi

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# With an installed Candela alone: the plugins of docs/examples/plugins are built as its documentation installs them, tested, put to
+# the conformance kit, rendered, and verified on all targets.
+#   examples.sh BUILD_DIR SCRATCH_DIR CMAKE CXX
+set -euo pipefail
+build=$1 scratch=$2 cmake=$3 cxx=$4
+say() { printf '== %s\n' "$*"; }
+fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
+quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
+
+rm -rf "$scratch"
+mkdir -p "$scratch/home"
+"$cmake" --install "$build" --prefix "$scratch/first" >/dev/null
+mv "$scratch/first" "$scratch/prefix"
+prefix=$scratch/prefix
+export PATH=$prefix/bin:$PATH HOME=$scratch/home XDG_DATA_HOME=$scratch/home/data
+cp -rL "$prefix/share/doc/candela-dev/examples/plugins" "$scratch/plugins" || fail "the examples are not installed"
+cd "$scratch/plugins"
+names=(*/CMakeLists.txt)
+names=("${names[@]%/*}")
+[ ${#names[@]} -ge 12 ] || fail "there are ${#names[@]} examples; twelve are promised"
+
+say "one build of all, one test of its own and the kit for each: ${names[*]}"
+quiet "$cmake" -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
+quiet "$cmake" --build build
+(cd build && quiet "$(dirname "$cmake")/ctest" -j2 --output-on-failure)
+[ "$(grep -c ' Passed ' "$scratch/log")" -eq $((2 * ${#names[@]})) ] || { cat "$scratch/log" >&2; fail "not two tests for each"; }
+
+say "one of them as a project of its own, which its README shows"
+(cd qoi && sed -n "/^cmake -B/,/^candela render/p" README.md >run.sh)
+(cd qoi && CXX=$cxx CMAKE_PREFIX_PATH=$prefix quiet bash -e run.sh)
+[ "$(head -c 4 qoi/picture.qoi)" = qoif ] || fail "no QOI picture was rendered"
+
+say "each is listed, described, and renders"
+for name in "${names[@]}"; do
+    library=$(basename build/plugins/*-"$name".so .so)
+    quiet candela describe "${library%-"$name"}/$name" --plugin-dir build/plugins
+    # The last command of its README renders with it.
+    sed -n '/^candela render/,/^```/p' "$name/README.md" | grep -v '^```' | sed 's|--plugin-dir build|--plugin-dir ../build/plugins|' \
+        >"$scratch/render.sh"
+    (cd "$name" && quiet bash -e "$scratch/render.sh")
+done
+
+say "together they make a picture, which generated programs make as well"
+quiet candela render gallery.toml --plugin-dir build/plugins -o gallery.png
+for name in "${names[@]}"; do
+    case $name in
+        qoi | ies) ;;  # in no scene that programs are generated from
+        *) grep -q "\"$name\"" gallery.toml || fail "$name is not in gallery.toml" ;;
+    esac
+done
+for target in cpp opengl webgl; do
+    quiet candela verify gallery.toml --target $target --plugin-dir build/plugins --width 160 --height 80
+    grep -q match "$scratch/log" || { cat "$scratch/log" >&2; fail "$target was not verified"; }
+done
+
+say "a light without a kernel is refused by generate, which names it"
+code=0
+candela generate --target cpp --plugin-dir build/plugins --set light.lamp.type=ies --set 'light.lamp.direction=[0,-1,-1]' \
+    --set light.lamp.file=ies/downlight.ies -o "$scratch/program" >"$scratch/log" 2>&1 || code=$?
+{ [ "$code" -ne 0 ] && grep -q 'ies' "$scratch/log"; } || { cat "$scratch/log" >&2; fail "a light without a kernel was generated"; }
+say "all well"
