@@ -135,7 +135,7 @@ int run_check(const std::vector<std::string>& arguments) {
     // missing.
     request.ask = nullptr;
     const auto draft = candela::draft_scene(request, registry, diagnostics);
-    const auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
+    const auto compiled = draft ? compile_scene(*draft, registry, diagnostics) : std::nullopt;
     if (line.has("json")) {
         print_json(compiled, draft ? &draft->scene : nullptr, diagnostics);
     } else {

@@ -37,7 +37,7 @@ void add_models_option(CommandLine& line) {
 std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::Registry& registry,
                                              candela::Diagnostics& diagnostics) {
     auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
-    auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
+    auto compiled = draft ? compile_scene(*draft, registry, diagnostics) : std::nullopt;
     if (!compiled) return std::nullopt;
     const std::vector<std::string> files = line.all("scene");
     std::vector<fs::path> inputs = candela::input_files(*draft);

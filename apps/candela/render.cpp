@@ -84,7 +84,7 @@ int run_render(const std::vector<std::string>& arguments) {
                          "give the picture another name");
     const double read_ms = total.milliseconds();
     const Stopwatch compiling;
-    const auto compiled = draft ? candela::compile(*draft, registry, diagnostics, threads) : std::nullopt;
+    const auto compiled = draft ? compile_scene(*draft, registry, diagnostics, threads) : std::nullopt;
     const double compile_ms = compiling.milliseconds();
     report(diagnostics);
     if (!compiled) return static_cast<int>(exit_code_of(diagnostics));

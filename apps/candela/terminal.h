@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -31,6 +32,10 @@ class ProgressBar {
 
     /// Any thread.
     void update(std::size_t done, std::size_t all);
+    /// update(), for who is to be given it.
+    std::function<void(std::size_t done, std::size_t all)> updater() {
+        return [this](std::size_t done, std::size_t all) { update(done, all); };
+    }
 
   private:
     void draw();

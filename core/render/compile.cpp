@@ -36,8 +36,9 @@ namespace {
 
 class Compiler {
   public:
-    Compiler(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics)
-        : scene_(draft.scene), registry_(registry), diagnostics_(diagnostics) {
+    Compiler(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics, const Progress& progress)
+        : scene_(draft.scene), registry_(registry), diagnostics_(diagnostics), progress_(progress) {
+        tell();
         compiled_.observer = scene_.observer;
         compiled_.image = scene_.image;
         if (draft.is_complete) make_models();
@@ -54,7 +55,10 @@ class Compiler {
         with_threads(
             threads,
             [&] {
-                for (std::size_t i = 0; i < scene_.objects.size(); ++i) finish(i);
+                for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+                    finish(i);
+                    count_step();
+                }
             },
             k_milliseconds * triangles);
         if (diagnostics_.has_errors()) return std::nullopt;
@@ -62,6 +66,15 @@ class Compiler {
     }
 
   private:
+    void tell() const {
+        constexpr std::size_t k_steps = 3;  // that each object takes
+        if (progress_) progress_(steps_done_, k_steps * scene_.objects.size());
+    }
+    void count_step() {
+        ++steps_done_;
+        tell();
+    }
+
     template <class Work>
     void guarded(const std::string& whose, const SourcePlace& place, Work work) {
         try {
@@ -130,6 +143,7 @@ class Compiler {
                                    {.uv = needs.uv, .derivatives = needs.derivatives}, object.transform);
             });
             if (placed_[i]) say_once(object, placed_[i]->warnings);
+            count_step();
         }
     }
 
@@ -148,7 +162,7 @@ class Compiler {
             const Mesh& mesh = placed_[i]->mesh;
             surfaces[i] = {mesh.position.span(), mesh.vertex_count(), mesh.indices, mesh.closed};
         }
-        check_constraints(draft, surfaces, diagnostics_);
+        check_constraints(draft, surfaces, diagnostics_, [this] { count_step(); });
     }
 
     void finish(std::size_t i) {
@@ -174,6 +188,8 @@ class Compiler {
     const Scene& scene_;
     Registry& registry_;
     Diagnostics& diagnostics_;
+    const Progress& progress_;
+    std::size_t steps_done_ = 0;
     CompiledScene compiled_;
     std::vector<std::optional<PlacedShape>> placed_;
     std::set<std::string> said_;
@@ -182,8 +198,8 @@ class Compiler {
 }  // namespace
 
 std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
-                                     int threads) {
-    return Compiler(draft, registry, diagnostics).take(threads);
+                                     int threads, const Progress& progress) {
+    return Compiler(draft, registry, diagnostics, progress).take(threads);
 }
 
 std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics,

@@ -227,6 +227,31 @@ TEST_CASE("a long render shows its progress on a terminal, and nowhere else") {
     CHECK(unseen.out.empty());
 }
 
+TEST_CASE("a long check shows its progress on a terminal, and nowhere else") {
+    std::string text = scene(
+        "[room]\nwidth = 40\nheight = 30\ndepth = 30\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = "
+        "\"phong\"\n");
+    // Rods side by side, whose boxes meet those of thousands of others.
+    for (int i = 0; i < 6000; ++i)
+        text += fmt::format(
+            "[[object]]\ntype = \"cube\"\nscale = [10, 0.0002, 0.0002]\nrotation = [0, 0, 45]\nposition = "
+            "[{}, 0, -8]\n",
+            0.002 * i - 6);
+    const Files files(text);
+    const std::vector<std::string> words{"check", files.scene_file};
+    const CommandSetup slow{
+        .input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "baseline"}}, .directory = {}};
+    const CommandResult seen = talk_to_candela(words, {}, slow);
+    INFO(seen.out.substr(0, 1000));
+    CHECK(seen.exit_code == 0);
+    CHECK(holds(seen.out, "\rreading ["));
+    // The bar is wiped away before what was found is said.
+    CHECK(seen.out.rfind("\r\x1b[K") > seen.out.rfind("\rreading ["));
+    CHECK(seen.out.find("The scene is valid.") > seen.out.rfind("\r\x1b[K"));
+    CHECK_FALSE(holds(run_candela(words, slow).err, "reading ["));
+    CHECK_FALSE(holds(talk_to_candela({"check", files.scene_file, "--quiet"}, {}, slow).out, "reading ["));
+}
+
 TEST_CASE("a short render shows no progress") {
     const Files files(scene(k_box));
     CHECK_FALSE(holds(talk_to_candela(files.render({"--defaults"}), {}).out, "rendering ["));

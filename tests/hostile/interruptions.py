@@ -44,7 +44,7 @@ color = {color}
 segments = {segments}
 """
 COLORS = {"old": "[40, 90, 235]", "new": "[235, 90, 40]"}
-LARGE = {"size": 900, "segments": 200}
+LARGE = {"size": 700, "segments": 150}
 SMALL = {"size": 120, "segments": 16}
 
 
@@ -63,7 +63,7 @@ KINDS = {
     "render-over": Kind(["render", "scene.toml", "-o", "out/a.png"], replaces=True, scene=LARGE),
     "render-exr": Kind(["render", "scene.toml", "-o", "out/a.exr"], replaces=True, scene=LARGE),
     "render-pipe": Kind(["render", "-", "-o", "-"], scene=LARGE, piped=True),
-    "check": Kind(["check", "scene.toml"], scene={"size": 100, "segments": 1000}),
+    "check": Kind(["check", "scene.toml"], scene={"size": 100, "segments": 250}),
     "generate-new": Kind(["generate", "scene.toml", "--target", "opengl", "-o", "out/program"], scene=SMALL),
     "generate-over": Kind(["generate", "scene.toml", "--target", "webgl", "-o", "out/program"], replaces=True, scene=SMALL),
     "verify": Kind(["verify", "scene.toml", "--target", "cpp"], scene=SMALL),
@@ -74,7 +74,7 @@ KINDS = {
     "plugin-new": Kind(["plugin", "new", "reflection", "cel", "out/cel"]),
     "plugin-test": Kind(["plugin", "test", "{plugins}/reflection-phong.so"]),
     "new": Kind(["new", "out/begin.toml"]),
-    "diff": Kind(["diff", "a.ppm", "b.ppm", "-o", "out/heat.png"], codes=(0, 1), scene=LARGE),
+    "diff": Kind(["diff", "a.ppm", "b.ppm", "-o", "out/heat.png"], codes=(0, 1), scene=SMALL),
 }
 
 

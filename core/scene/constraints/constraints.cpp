@@ -6,6 +6,7 @@ module;
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -63,13 +64,13 @@ class Checker {
           tree_(boxes_),
           bodies_(surfaces.size()) {}
 
-    void run() {
+    void run(const std::function<void()>& checked) {
         if (draft_.has_room) check_room();
         check_lights();
         if (draft_.has_observer) {
             report_if_inside("the observer", scene_.observer.position, scene_.observer.position_place);
         }
-        check_overlaps();
+        check_overlaps(checked);
     }
 
   private:
@@ -150,9 +151,10 @@ class Checker {
         }
     }
 
-    void check_overlaps() {
+    void check_overlaps(const std::function<void()>& checked) {
         std::size_t found = 0;
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            if (checked) checked();
             if (surfaces_[i].empty()) continue;
             for (const std::size_t j : tree_.meeting(i)) {
                 if (j >= i || surfaces_[j].empty() || !overlap(body(i), body(j))) continue;
@@ -205,8 +207,8 @@ class Checker {
 }  // namespace
 
 void check_constraints(const SceneDraft& draft, std::span<const SurfaceView> surfaces,
-                       Diagnostics& diagnostics) {
-    Checker(draft, surfaces, diagnostics).run();
+                       Diagnostics& diagnostics, const std::function<void()>& checked) {
+    Checker(draft, surfaces, diagnostics).run(checked);
 }
 
 }  // namespace candela

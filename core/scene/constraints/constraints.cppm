@@ -5,6 +5,7 @@ module;
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 export module candela.constraints;
@@ -28,8 +29,9 @@ struct SurfaceView {
 /// Checks that objects, lights and the observer are inside the room; that no two lights share a position, nor
 /// a light the observer's; that no light and no observer is inside an object; and that objects do not overlap
 /// (touching is allowed). Reports every violation at the position of its cause. `surfaces`: one per object,
-/// in the same order; empty ones are skipped.
+/// in the same order; empty ones are skipped. `checked`, if it is not empty,
+/// is called once for each object.
 CANDELA_API void check_constraints(const SceneDraft& draft, std::span<const SurfaceView> surfaces,
-                                   Diagnostics& diagnostics);
+                                   Diagnostics& diagnostics, const std::function<void()>& checked = {});
 
 }  // namespace candela
