@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "compiling.h"
 #include "diagnostics_text.h"
 #include "exit_code.h"
 #include "reporting.h"

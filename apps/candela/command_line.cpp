@@ -79,13 +79,6 @@ void add_plugin_options(CommandLine& line) {
         "allow-untrusted-plugins", "also load plugins that other users can modify");
 }
 
-std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& draft,
-                                                    candela::Registry& registry,
-                                                    candela::Diagnostics& diagnostics, int threads) {
-    ProgressBar bar("reading", !is_quiet());
-    return candela::compile(draft, registry, diagnostics, threads, bar.updater());
-}
-
 candela::Registry registry_from(const CommandLine& line) {
     std::vector<std::filesystem::path> first;
     for (const std::string& directory : line.all("plugin-dir")) {

@@ -3,7 +3,6 @@
 
 #include <boost/program_options.hpp>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,11 +47,6 @@ void add_plugin_options(CommandLine& line);
 /// The installed plugins. What is refused in a folder that --plugin-dir names is not replaced; elsewhere a
 /// warning says what is used instead.
 candela::Registry registry_from(const CommandLine& line);
-
-/// candela::compile(), with a progress bar where it takes long.
-std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& draft,
-                                                    candela::Registry& registry,
-                                                    candela::Diagnostics& diagnostics, int threads = 0);
 
 /// Adds what says how a scene is read: SCENE..., --shading, --set and so on.
 void add_scene_options(CommandLine& line);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "compiling.h"
 #include "output_folder.h"
 
 namespace po = boost::program_options;

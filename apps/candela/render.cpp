@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "command_line.h"
+#include "compiling.h"
 #include "exit_code.h"
 #include "reporting.h"
 #include "stopwatch.h"

@@ -1,0 +1,14 @@
+// Scenes are compiled while a person watches.
+#pragma once
+
+#include <optional>
+
+import candela.diagnostics;
+import candela.registry;
+import candela.render;
+import candela.scene;
+
+/// candela::compile(), with a progress bar where it takes long.
+std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& draft,
+                                                    candela::Registry& registry,
+                                                    candela::Diagnostics& diagnostics, int threads = 0);
