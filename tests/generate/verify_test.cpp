@@ -236,7 +236,7 @@ void expect_match(const fs::path& name, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("verify: a thousand lights match in C++, in OpenGL and in a browser") {
+TEST_CASE("verify: a thousand lights match in C++, in OpenGL and in a browser", "[whole]") {
     std::string text = R"(version = 1
 observer = {position = [0.4, 1.1, 3.6], look_at = [0, -0.1, 0], fov = 38}
 image = {width = 96, height = 72}
@@ -289,7 +289,7 @@ object = [{type = "sphere", radius = 1, segments = 64, color = [139, 85, 246], m
 )");
 }
 
-TEST_CASE("verify: a spot's cone and a highlight's rim are as exact in shaders as elsewhere") {
+TEST_CASE("verify: a spot's cone and a highlight's rim are as exact in shaders as elsewhere", "[whole]") {
     expect_match("cone.toml", R"(version = 1
 observer = {position = [-0.21, 1.37, 4.5], look_at = [0, 0, 0], fov = 42}
 image = {width = 240, height = 160, color_management = "none"}
