@@ -4,30 +4,26 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "command_line.h"
-#include "descendants.h"
 #include "exit_code.h"
 #include "generating.h"
 #include "helper.h"
-#include "output_folder.h"
 #include "reporting.h"
 #include "targets.h"
-#include "temporary_folder.h"
 #include "terminal.h"
 #include "verbs.h"
 #include "verify/bias.h"
 #include "verify/comparison.h"
 #include "verify/edges.h"
 #include "verify/report.h"
+#include "workplace.h"
 
 import candela.files;
 import candela.text;
@@ -38,60 +34,6 @@ using candela::Error;
 using candela::ErrorCategory;
 
 namespace {
-
-/// Where programs are built and drawn. A report comes into being beside its folder, so that an old one is
-/// whole until a new one replaces it. What programs leave in the folder for temporary files is gone when this
-/// is.
-class Workplace {
-  public:
-    explicit Workplace(const std::optional<std::string>& report)
-        : temporary_(fs::temp_directory_path(), "candela-") {
-        ::setenv("TMPDIR", temporary_.path().c_str(), 1);
-        inherit_orphans();
-        if (!report) return;
-        report_ = *report;
-        draft_.emplace(report_);
-    }
-    const fs::path& path() const { return draft_ ? draft_->draft() : temporary_.path(); }
-    /// For files that are not part of the report.
-    fs::path scratch(const std::string& name) const { return temporary_.path() / name; }
-
-    /// Puts the report in its place, and takes away what is left there of another of these targets.
-    void finish(const std::vector<LoadedTarget>& targets) {
-        if (!draft_) return;
-        std::vector<fs::path> outdated = pictures_of(targets);
-        outdated.emplace_back("index.html");
-        for (const LoadedTarget& target : targets) {
-            // CMake works in no folder that has been moved, unless it forgets where that was.
-            const fs::path cache = fs::path(target.name()) / "build" / "CMakeCache.txt";
-            std::error_code none;
-            fs::remove(draft_->draft() / cache, none);
-            outdated.push_back(cache);
-        }
-        draft_->finish(outdated);
-    }
-    /// A message of something that went wrong in the draft, about the place where it will be.
-    std::string in_place(std::string message) const {
-        if (!draft_) return message;
-        const std::string draft = draft_->draft().string();
-        for (std::size_t at = 0; (at = message.find(draft, at)) != std::string::npos;)
-            message.replace(at, draft.size(), report_.string());
-        return message;
-    }
-
-    /// The names of a report's pictures.
-    static std::vector<fs::path> pictures_of(const std::vector<LoadedTarget>& targets) {
-        std::vector<fs::path> names{"reference.png", "edges.png"};
-        for (const LoadedTarget& target : targets)
-            for (const char* const end : {".png", "-difference.png"}) names.emplace_back(target.name() + end);
-        return names;
-    }
-
-  private:
-    TemporaryFolder temporary_;
-    fs::path report_;
-    std::optional<OutputFolder> draft_;
-};
 
 std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registry& registry) {
     const auto name = line.get<std::string>("target");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "support/command.h"
 
@@ -20,12 +22,17 @@ void replace_in(const fs::path& file, const std::string& from, const std::string
     write_file(file, text.replace(at, from.size(), to));
 }
 
-CommandResult verify(const std::vector<std::string>& arguments) {
+/// In an environment with other variables besides.
+CommandResult verify_where(std::vector<std::pair<std::string, std::string>> environment,
+                           const std::vector<std::string>& arguments) {
     std::vector<std::string> words{"verify"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     // A warning of ours would be a user's.
-    return run_candela(words, {.input = "", .environment = {{"CXXFLAGS", "-Werror"}}, .directory = {}});
+    environment.emplace_back("CXXFLAGS", "-Werror");
+    return run_candela(words, {.input = "", .environment = std::move(environment), .directory = {}});
 }
+
+CommandResult verify(const std::vector<std::string>& arguments) { return verify_where({}, arguments); }
 
 const std::vector<std::string> k_small = {"--width", "160", "--height", "120"};
 
@@ -47,9 +54,14 @@ CommandResult verify_changed(const std::string& target, const std::string& file,
 #ifndef CANDELA_TEST_SANITIZED
 TEST_CASE("verify: the default scene matches in C++, in OpenGL and in a browser, with a report to look at") {
     const fs::path report = scratch_directory() / "report";
-    const CommandResult result = verify({"--report", report.string()});
+    const fs::path home = scratch_directory() / "home";
+    fs::create_directories(home);
+    const CommandResult result = verify_where({{"HOME", home.string()}, {"XDG_CACHE_HOME", home.string()}},
+                                              {"--report", report.string()});
     INFO(result.out << result.err);
     CHECK(result.exit_code == 0);
+    INFO("drivers and browsers leave nothing at home");
+    CHECK(fs::is_empty(home));
     for (const char* const target : {"cpp", "opengl", "webgl"}) {
         CHECK(result.out.find(target) != std::string::npos);
         CHECK(fs::exists(report / (std::string(target) + ".png")));
