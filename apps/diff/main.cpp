@@ -95,8 +95,7 @@ int run(const std::vector<std::string>& arguments) {
         "candela diff A B [options]",
         "Reports how two pictures of the same size differ, in levels of 1/255 over all pixels and channels, "
         "and how\n"
-        "many pixels differ visibly (Yee's metric). Any format that OpenImageIO "
-        "reads;\n"
+        "many pixels differ visibly (Yee's metric). Any format that OpenImageIO or an image plugin reads;\n"
         "alpha is ignored; grey is red, green and blue alike; floats are compared as they are, times 255.\n\n"
         "Exit codes: 0 compared, 1 a picture cannot be read or written, or sizes differ, 2 wrong usage,\n"
         "4 beyond --tolerance.");
@@ -109,6 +108,7 @@ int run(const std::vector<std::string>& arguments) {
         "exit with code 4 if a channel of a pixel away from edges differs by more than N levels")(
         "json", "print the statistics as JSON")("decoded", po::value<std::string>()->value_name("FILE"),
                                                 "write what was read of B as a PPM of 8 bits");
+    add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> names = line.all("picture");
     if (names.size() != 2)
@@ -124,13 +124,14 @@ int run(const std::vector<std::string>& arguments) {
                              fmt::format("give --{} another name", flag));
     }
 
-    const Picture a = read_picture(names[0]), b = read_picture(names[1]);
+    candela::Registry registry = registry_from(line);
+    const Picture a = read_picture(names[0], registry), b = read_picture(names[1], registry);
     if (line.has("decoded")) write_ppm(line.get<std::string>("decoded"), b);
     require_same_size(names[0], a, names[1], b);
     std::optional<Picture> mask;
     if (line.has("mask")) {
         const auto file = line.get<std::string>("mask");
-        mask = read_picture(file);
+        mask = read_picture(file, registry);
         require_same_size(names[0], a, file, *mask);
     }
     Comparison comparison{.width = a.width,

@@ -12,12 +12,17 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
+#include "plugin_picture.h"
+
 import candela.memory;
+import candela.text;
 import candela.toml;
 
 namespace fs = std::filesystem;
@@ -108,15 +113,23 @@ void require_finite(const Picture& picture, const fs::path& file) {
                            k_colors[index % 3]));
 }
 
-}  // namespace
+/// Whether OpenImageIO has one for files of that extension.
+bool has_reader(const std::string& extension) {
+    return std::ranges::any_of(OIIO::get_extension_map(), [&](const auto& format) {
+        return std::ranges::find(format.second, extension) != format.second.end();
+    });
+}
 
-Picture read_picture(const fs::path& file) {
-    require_ordinary_file(file);
+/// Nothing where OpenImageIO cannot make sense of it, with the reason.
+std::optional<Picture> read_by_openimageio(const fs::path& file, std::string& problem) {
     // Else colours would be multiplied with alpha, which is not compared.
     OIIO::ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string(), &wishes);
-    if (input == nullptr) fail(file, fmt::format("is not a picture: {}", reason(OIIO::geterror())));
+    if (input == nullptr) {
+        problem = reason(OIIO::geterror());
+        return std::nullopt;
+    }
     const OIIO::ImageSpec& spec = input->spec();
     const Window shown = shown_window(spec);
     if (spec.deep || spec.depth > 1 || spec.nchannels < 1)
@@ -142,6 +155,17 @@ Picture read_picture(const fs::path& file) {
         place(stored<std::uint16_t>(*input, file, channels, OIIO::TypeUInt16), spec, shown, channels,
               picture);
     }
-    require_finite(picture, file);
     return picture;
+}
+
+}  // namespace
+
+Picture read_picture(const fs::path& file, candela::Registry& registry) {
+    require_ordinary_file(file);
+    std::string problem;
+    auto picture = read_by_openimageio(file, problem);
+    if (!picture && !has_reader(candela::extension_of(file))) picture = read_by_plugin(file, registry);
+    if (!picture) fail(file, fmt::format("is not a picture: {}", problem));
+    require_finite(*picture, file);
+    return *std::move(picture);
 }

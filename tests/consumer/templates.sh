@@ -51,6 +51,8 @@ for kind in "${kinds[@]}"; do
         shape) quiet candela render "$name/scene.toml" -o "$name.png" ;;
         light) quiet candela render --set "light.lamp.type=$name" -o "$name.png" ;;
         image) quiet candela render -o "$name.$name"
+               quiet candela render -o same.png
+               quiet candela diff --tolerance 0 "$name.$name" same.png
                quiet candela render --set "image.environment=$name.$name" -o "$name.png" ;;
         target) quiet candela generate --target "$name" -o "$name.files"
                 [ "$(grep -c '^f ' "$name.files/scene.obj")" -eq 12 ] || fail "a cube has twelve triangles"
