@@ -1,5 +1,5 @@
-// For tests of a plugin, with any compiler: instances made as a host makes them, and the triangles of a
-// shape.
+// For tests of a plugin, with any compiler: instances made as a host makes them, what a model reflects, and
+// the triangles of a shape.
 //
 //     const auto light = candela::sdk::make<candela::Light>(CANDELA_PLUGIN_DIR, "lantern",
 //     {{"intensity", 3.0}});
@@ -7,6 +7,7 @@
 // CANDELA_PLUGIN_DIR comes from candela_add_plugin_test().
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -51,6 +52,33 @@ std::unique_ptr<Interface> make(std::string_view directory, std::string_view nam
     if (typed == nullptr) throw std::runtime_error(std::string(name) + " made something of another kind");
     static_cast<void>(made.release());
     return std::unique_ptr<Interface>(typed);
+}
+
+/// What a reflection model makes of white light at a white point.
+struct Reflection {
+    Vec3 ambient, diffuse, specular;
+};
+
+/// Of a light of intensity 1, ambient light apart. The normal is +y; observer and light are in the plane
+/// x = 0, at angles in degrees from the normal towards +z.
+inline Reflection reflected(const ReflectionModel& model, float observer, float light) {
+    constexpr float k_degree = 0.0174532925f;
+    const float zero = 0, one = 1;
+    const float v[] = {std::cos(observer * k_degree), std::sin(observer * k_degree)};
+    const float l[] = {std::cos(light * k_degree), std::sin(light * k_degree)};
+    float out[9] = {};
+    model.reflect(
+        {.count = 1,
+         .normal = {&zero, &one, &zero},
+         .to_observer = {&zero, &v[0], &v[1]},
+         .tangent = {&one, &zero, &zero},
+         .color = {1, 1, 1},
+         .position = {&zero, &zero, &zero}},
+        {.to_light = {&zero, &l[0], &l[1]}, .diffuse = {&one, &one, &one}, .specular = {&one, &one, &one}},
+        {.ambient = {out, out + 1, out + 2},
+         .diffuse = {out + 3, out + 4, out + 5},
+         .specular = {out + 6, out + 7, out + 8}});
+    return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}, {out[6], out[7], out[8]}};
 }
 
 /// The triangles of a shape, in object space.

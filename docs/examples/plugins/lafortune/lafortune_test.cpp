@@ -9,43 +9,25 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-struct Parts {
-    float diffuse, specular;
-};
-
-/// What is reflected of white light in the plane x = 0, both angles in degrees from the normal, y.
-Parts reflected(std::initializer_list<candela::Setting> settings, float observer, float light) {
+/// Both angles in degrees from the normal.
+candela::sdk::Reflection reflected(std::initializer_list<candela::Setting> settings, float observer,
+                                   float light) {
     const auto model =
         candela::sdk::make<candela::ReflectionModel>(CANDELA_PLUGIN_DIR, "lafortune", settings);
-    const float degree = 0.0174532925f, zero = 0, one = 1;
-    const float vy = std::cos(observer * degree), vz = std::sin(observer * degree);
-    const float ly = std::cos(light * degree), lz = std::sin(light * degree);
-    float out[9] = {};
-    model->reflect(
-        {.count = 1,
-         .normal = {&zero, &one, &zero},
-         .to_observer = {&zero, &vy, &vz},
-         .tangent = {},
-         .color = {1, 1, 1},
-         .position = {&zero, &zero, &zero}},
-        {.to_light = {&zero, &ly, &lz}, .diffuse = {&one, &one, &one}, .specular = {&one, &one, &one}},
-        {.ambient = {out, out + 1, out + 2},
-         .diffuse = {out + 3, out + 4, out + 5},
-         .specular = {out + 6, out + 7, out + 8}});
-    return {out[3], out[6]};
+    return candela::sdk::reflected(*model, observer, light);
 }
 
 }  // namespace
 
 TEST_CASE("c = (-1, -1, 1) is Phong's lobe: the power of the cosine between observer and mirror direction") {
     const double lobe = std::cos(10 * 0.0174532925);
-    CHECK_THAT(reflected({{"ks", 0.3}, {"exponent", 20.0}}, -40, 30).specular,
+    CHECK_THAT(reflected({{"ks", 0.3}, {"exponent", 20.0}}, -40, 30).specular.x,
                WithinRel(0.3 * 11 * std::pow(lobe, 20) * std::cos(30 * 0.0174532925), 1e-4));
 }
 
 TEST_CASE("c = (1, 1, 1) throws light back to where it came from") {
     const auto back = [](float observer) {
-        return reflected({{"c_xy", 1.0}, {"c_z", 1.0}}, observer, 50).specular;
+        return reflected({{"c_xy", 1.0}, {"c_z", 1.0}}, observer, 50).specular.x;
     };
     CHECK(back(50) > 1.2f * back(40));
     CHECK(back(50) > 1.2f * back(60));

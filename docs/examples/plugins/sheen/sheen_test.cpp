@@ -9,29 +9,11 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-struct Parts {
-    float diffuse, specular;
-};
-
-/// What is reflected of white light in the plane x = 0, both angles in degrees from the normal, y.
-Parts reflected(std::initializer_list<candela::Setting> settings, float observer, float light) {
+/// Both angles in degrees from the normal.
+candela::sdk::Reflection reflected(std::initializer_list<candela::Setting> settings, float observer,
+                                   float light) {
     const auto model = candela::sdk::make<candela::ReflectionModel>(CANDELA_PLUGIN_DIR, "sheen", settings);
-    const float degree = 0.0174532925f, zero = 0, one = 1;
-    const float vy = std::cos(observer * degree), vz = std::sin(observer * degree);
-    const float ly = std::cos(light * degree), lz = std::sin(light * degree);
-    float out[9] = {};
-    model->reflect(
-        {.count = 1,
-         .normal = {&zero, &one, &zero},
-         .to_observer = {&zero, &vy, &vz},
-         .tangent = {},
-         .color = {1, 1, 1},
-         .position = {&zero, &zero, &zero}},
-        {.to_light = {&zero, &ly, &lz}, .diffuse = {&one, &one, &one}, .specular = {&one, &one, &one}},
-        {.ambient = {out, out + 1, out + 2},
-         .diffuse = {out + 3, out + 4, out + 5},
-         .specular = {out + 6, out + 7, out + 8}});
-    return {out[3], out[6]};
+    return candela::sdk::reflected(*model, observer, light);
 }
 
 }  // namespace
@@ -39,12 +21,12 @@ Parts reflected(std::initializer_list<candela::Setting> settings, float observer
 TEST_CASE(
     "roughness 1/2, seen straight on and lit from 60 degrees: pi D = 1/2, and a quarter of that, and half") {
     // The half-way vector is at 30 degrees: (2 + 2) sin^2 / 2 = 1/2; N.L + N.V - N.L N.V = 1.
-    CHECK_THAT(reflected({{"ks", 1.0}, {"roughness", 0.5}}, 0, 60).specular,
+    CHECK_THAT(reflected({{"ks", 1.0}, {"roughness", 0.5}}, 0, 60).specular.x,
                WithinRel(0.5 * 0.25 * 0.5, 1e-4));
 }
 
 TEST_CASE("lit and seen straight on there is no sheen") {
-    CHECK(reflected({{"ks", 1.0}}, 0, 0).specular < 1e-6f);
+    CHECK(reflected({{"ks", 1.0}}, 0, 0).specular.x < 1e-6f);
 }
 
 TEST_CASE("its fibres cover the surface: D cos, over the hemisphere, is 1") {
@@ -54,7 +36,7 @@ TEST_CASE("its fibres cover the surface: D cos, over the hemisphere, is 1") {
         const double degrees = (i + 0.5) / 10, theta = degrees * 0.017453292519943295;
         if (degrees >= 44.9) break;
         const double at =
-            reflected({{"ks", 1.0}, {"roughness", 1.0}}, 0, static_cast<float>(2 * degrees)).specular;
+            reflected({{"ks", 1.0}, {"roughness", 1.0}}, 0, static_cast<float>(2 * degrees)).specular.x;
         covered +=
             at * 4 / std::cos(2 * theta) * std::cos(theta) * std::sin(theta) * 2 * 0.0017453292519943295;
     }
