@@ -12,6 +12,6 @@ for preset in "$@"; do
     printf '== %s\n' "$preset"
     cmake --preset "$preset" -DCANDELA_TESTS=ON >/dev/null
     cmake --build --preset "$preset"
-    # One more than there are cores: some tests wait, for a browser or for time to pass.
-    ctest --preset "$preset" --parallel $(($(nproc) + 1))
+    # More than there are cores: some tests wait, for a browser or for time to pass.
+    ctest --preset "$preset" --parallel $(($(nproc) + 2))
 done

@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
-#include "plugin_picture.h"
-
+import candela.color;
+import candela.formats;
 import candela.memory;
 import candela.text;
 import candela.toml;
@@ -154,6 +154,21 @@ std::optional<Picture> read_by_openimageio(const fs::path& file, std::string& pr
     } else {
         place(stored<std::uint16_t>(*input, file, channels, OIIO::TypeUInt16), spec, shown, channels,
               picture);
+    }
+    return picture;
+}
+
+/// The plugin's numbers as those of a file: encoded ones as integers, intensities as floats. Nothing where no
+/// image plugin reads files of that extension.
+std::optional<Picture> read_by_plugin(const fs::path& file, candela::Registry& registry) {
+    auto decoded = candela::read_by_plugin(file, registry, candela::ColorEncoding::srgb);
+    if (!decoded) return std::nullopt;
+    Picture picture{.width = decoded->width,
+                    .height = decoded->height,
+                    .is_float = !decoded->is_encoded,
+                    .values = std::move(decoded->values)};
+    if (!picture.is_float) {
+        for (float& value : picture.values) value *= Picture::k_whole;
     }
     return picture;
 }

@@ -216,7 +216,7 @@ TEST_CASE("verify: --json has the figures, and how many pixels the verdict rests
 }
 
 #ifndef CANDELA_TEST_SANITIZED
-TEST_CASE("verify: what is near is drawn in all programs, however far the rest reaches") {
+TEST_CASE("verify: what is near is drawn in all programs, however far the rest reaches", "[whole]") {
     // Spheres of a fifth of a metre and of 40 km: depths from 0.6 to 200,000 metres.
     const fs::path scene = write_file(scratch_directory() / "far.toml", R"(version = 1
 room = {width = 1e6, height = 1e6, depth = 1e6}
@@ -272,8 +272,8 @@ object = [
     expect_match("thousand.toml", text);
 }
 
-TEST_CASE(
-    "verify: where the last bits of N.L decide on a step of brightness, programs that are right match") {
+TEST_CASE("verify: where the last bits of N.L decide on a step of brightness, programs that are right match",
+          "[whole]") {
     // Two of the cube's faces are parallel to the light, so that N.L is 0 but for rounding.
     expect_match("parallel.toml", R"(version = 1
 observer = {position = [0.77, 1.13, 4.5], look_at = [0, 0, 0], projection = "orthographic", height = 1.8}
@@ -289,7 +289,8 @@ object = [{type = "cube", size = 0.8, rotation = [0, 45, 0], color = [139, 85, 2
 )");
 }
 
-TEST_CASE("verify: where N.H is 1 but for rounding, a highlight of 0 degrees is none in any program") {
+TEST_CASE("verify: where N.H is 1 but for rounding, a highlight of 0 degrees is none in any program",
+          "[whole]") {
     // Light and observer are in the same direction, and the middle of the sphere faces both.
     expect_match("none.toml", R"(version = 1
 observer = {position = [2.1, 1.3, 2.9], look_at = [0, 0, 0], projection = "orthographic", height = 3}

@@ -131,7 +131,8 @@ TEST_CASE("verify: interrupted at any moment, it leaves nothing behind", "[whole
     CHECK(interrupted >= 6);
 }
 
-TEST_CASE("verify: interrupted at any moment, an old report stays whole, and what else is in its folder") {
+TEST_CASE("verify: interrupted at any moment, an old report stays whole, and what else is in its folder",
+          "[whole]") {
     const fs::path report = scratch_directory() / "report";
     const auto words = [&](const std::string& color) {
         return std::vector<std::string>{CANDELA_TEST_COMMAND,

@@ -1,0 +1,65 @@
+module;
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+module candela.formats;
+
+import candela.descriptor;
+import candela.diagnostics;
+import candela.memory;
+import candela.text;
+
+namespace candela {
+
+namespace {
+
+class Decoder final : public PictureSink {
+  public:
+    std::span<float> allocate(int width, int height, bool is_encoded) override {
+        if (width < 1 || height < 1) throw Error(ErrorCategory::failure, "it has no pixels");
+        const auto count = 3 * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+        require_memory(count * sizeof(float), fmt::format("a picture of {} x {} pixels", width, height));
+        picture_ = {.width = width, .height = height, .is_encoded = is_encoded, .values = {}};
+        picture_.values.assign(count, 0);
+        return picture_.values;
+    }
+
+    DecodedPicture picture() && {
+        if (picture_.values.empty()) throw Error(ErrorCategory::failure, "it has no pixels");
+        return std::move(picture_);
+    }
+
+  private:
+    DecodedPicture picture_;
+};
+
+}  // namespace
+
+std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file, Registry& registry,
+                                             ColorEncoding encoding) {
+    const PluginFile* const plugin = registry.find_format(extension_of(file), FormatUse::read);
+    if (plugin == nullptr) return std::nullopt;
+    const std::string& name = plugin->manifest.name;
+    const auto reader =
+        registry.create<ImageFormat>(name, registry.parameters(PluginKind::image, name), encoding);
+    Decoder decoder;
+    try {
+        reader->read(file.c_str(), decoder);
+        return std::move(decoder).picture();
+    } catch (const std::exception& problem) {
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' cannot be read as a picture: {}", file.string(), problem.what()));
+    }
+}
+
+}  // namespace candela
