@@ -67,6 +67,10 @@ def mutated(data: bytes, others: list, chance: random.Random, words: list) -> by
     return data
 
 
+# Format characters that can be seen: signs of numbers and years in Arabic, Syriac and Kaithi.
+VISIBLE = {chr(c) for c in [*range(0x600, 0x606), 0x6DD, 0x70F, 0x890, 0x891, 0x8E2, 0x110BD, 0x110CD]}
+
+
 def unprintable(output: bytes) -> str:
     """What no terminal should be sent: bytes that are not UTF-8, and characters that control it or the text's direction."""
     try:
@@ -74,7 +78,7 @@ def unprintable(output: bytes) -> str:
     except UnicodeDecodeError as problem:
         return f"its output is not UTF-8: {problem}"
     for character in text:
-        if character not in "\n\t" and unicodedata.category(character) in ("Cc", "Cf", "Zl", "Zp"):
+        if character not in "\n\t" and character not in VISIBLE and unicodedata.category(character) in ("Cc", "Cf", "Zl", "Zp"):
             return f"its output holds {character!r}"
     return ""
 
