@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,27 @@
 #include "terminal.h"
 #include "verbs.h"
 
+import candela.files;
 import candela.text;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
+
+namespace {
+
+/// For what makes programs anew when something changes.
+void write_inputs(const SceneToExport& scene, const std::string& file) {
+    require_no_input(file, scene.inputs, "the files that the scene is made from",
+                     "give --inputs another name");
+    nlohmann::json names = nlohmann::json::array();
+    for (const fs::path& input : scene.inputs) names.push_back(fs::absolute(input).string());
+    candela::write_text_file(file,
+                             names.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace
 
 int run_generate(const std::vector<std::string>& arguments) {
     candela::Registry installed(candela::plugin_search_path({}));
@@ -32,6 +48,8 @@ int run_generate(const std::vector<std::string>& arguments) {
     const std::string help = "what to write: " + any;
     line.options()("target,t", po::value<std::string>()->value_name("NAME"), help.c_str())(
         "output,o", po::value<std::string>()->value_name("DIR"), "the output folder; default: scene-NAME")(
+        "inputs", po::value<std::string>()->value_name("FILE"),
+        "also write the names of all files that the scene is made from, as a JSON array")(
         "build", "also build it")("run", "build it and run it: a picture, a window, or a browser");
     add_models_option(line);
     add_scene_options(line);
@@ -52,6 +70,7 @@ int run_generate(const std::vector<std::string>& arguments) {
     const auto files = target.files_of(exported.scene());
     require_no_input_in(directory, names_of(files), *scene, "output");
     write_program(files, directory);
+    if (line.has("inputs")) write_inputs(*scene, line.get<std::string>("inputs"));
     say_afterwards([&] {
         std::string text;
         for (const candela::ExportedFile& file : files)

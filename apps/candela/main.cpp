@@ -27,6 +27,7 @@ constexpr std::array k_verbs = {
     Verb{"check", "check a scene and report its errors", run_check},
     Verb{"generate", "write a program that renders a scene", run_generate},
     Verb{"verify", "verify that generated programs render what Candela renders", run_verify},
+    Verb{"view", "show a scene in the browser, and its changes as they are saved", run_view},
     Verb{"bench", "time each stage of rendering a scene", run_bench},
     Verb{"diff", "compare two pictures", run_diff},
     Verb{"list", "list the installed plugins", run_list},

@@ -48,6 +48,15 @@ int LoadedTarget::show(const fs::path& directory) const try {
     candela::rethrow_as_plugin_error(PluginKind::target, name_);
 }
 
+LoadedTarget page_target(candela::Registry& registry) {
+    for (const std::string& name : registry.names(PluginKind::target)) {
+        LoadedTarget target(name, registry);
+        if (fs::path(target.main_file()).extension() == ".html") return target;
+    }
+    throw Error(ErrorCategory::failure,
+                fmt::format("no installed target makes a page (there are: {})", target_names(registry)));
+}
+
 std::string target_names(candela::Registry& registry, const std::string& last) {
     const std::vector<std::string> names = registry.names(PluginKind::target);
     if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));

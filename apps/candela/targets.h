@@ -19,6 +19,8 @@ class LoadedTarget {
     const std::string& name() const { return name_; }
     candela::TargetAbilities abilities() const { return target_->abilities(); }
     bool can_draw() const { return target_->can_draw(); }
+    /// The name of the file that a person opens first.
+    std::string main_file() const { return target_->main_file(); }
 
     std::vector<candela::ExportedFile> files_of(const candela::ExportedScene& scene) const {
         return candela::files_of(*target_, name_, scene);
@@ -32,6 +34,10 @@ class LoadedTarget {
     std::string name_;
     std::unique_ptr<candela::Target> target_;
 };
+
+/// The first target, by name, whose main file is an HTML page. Throws candela::Error (failure) where there is
+/// none.
+LoadedTarget page_target(candela::Registry& registry);
 
 /// "cpp, opengl, webgl": the installed targets, `last` between the last two.
 std::string target_names(candela::Registry& registry, const std::string& last = ", ");

@@ -16,6 +16,7 @@ int run_render(const std::vector<std::string>& arguments);
 int run_check(const std::vector<std::string>& arguments);
 int run_generate(const std::vector<std::string>& arguments);
 int run_verify(const std::vector<std::string>& arguments);
+int run_view(const std::vector<std::string>& arguments);
 int run_bench(const std::vector<std::string>& arguments);
 int run_diff(const std::vector<std::string>& arguments);
 int run_list(const std::vector<std::string>& arguments);

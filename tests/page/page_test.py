@@ -10,8 +10,9 @@ from links import Links
 from looking import Looking
 from picturing import Picturing
 from robustness import Robustness
+from viewing import Viewing
 
-__all__ = ["Access", "Controls", "Links", "Looking", "Picturing", "Robustness"]
+__all__ = ["Access", "Controls", "Links", "Looking", "Picturing", "Robustness", "Viewing"]
 
 if __name__ == "__main__":
     unittest.main()

@@ -16,6 +16,10 @@ export class LightTable {
         gl.bindTexture(gl.TEXTURE_2D, null);
     }
 
+    release() {
+        this.gl.deleteTexture(this.texture);
+    }
+
     /** Binds the table, filled with an appearance's lights, to a texture unit; returns the uniforms with which they are read. */
     bind(unit, lights) {
         const { gl } = this;

@@ -118,6 +118,11 @@ export class Mesh {
         return vertexArray;
     }
 
+    release() {
+        for (const buffer of this.buffers.values()) this.gl.deleteBuffer(buffer);
+        for (const vertexArray of this.vertexArrays.values()) this.gl.deleteVertexArray(vertexArray);
+    }
+
     /** `rate`: how often the shading model evaluates light, per "face", "vertex" or "fragment". */
     draw(rate, shading) {
         const { gl } = this;

@@ -14,6 +14,12 @@ export function showError(error) {
     document.getElementById("problem-more").open = document.body.classList.contains("failed");
 }
 
+/** What is wrong with the scene's file, which the page follows; an empty text hides it. */
+export function showSceneProblems(text) {
+    document.getElementById("scene-problems-text").textContent = text;
+    document.getElementById("scene-problems").hidden = text === "";
+}
+
 /** An empty text hides the notice. */
 export function showNotice(text) {
     document.getElementById("notice").textContent = text;

@@ -4,6 +4,7 @@ import { Controls } from "./controls.js";
 import { element } from "./elements.js";
 import { Gestures } from "./gestures.js";
 import { restoreSettings } from "./link.js";
+import { followScene } from "./live.js";
 import { showError, showNotice } from "./messages.js";
 import { Panels } from "./panels.js";
 import { Renderer } from "./renderer.js";
@@ -16,7 +17,7 @@ import { Viewport } from "./viewport.js";
 export class Page {
     /** Throws where the page cannot work, for want of WebGL 2 for one. */
     start() {
-        this.scene = readScene();
+        this.scene = readScene(document);
         document.querySelector("h1").textContent = this.scene.title;
         document.getElementById("maker").textContent = `Made by Candela ${this.scene.candela}`;
         this.settings = new Settings(this.scene);
@@ -54,10 +55,12 @@ export class Page {
     }
 
     open(notice) {
-        const { settings, scene } = this;
-        this.container.style.setProperty("--proportion", scene.image.width / scene.image.height);
+        const { settings } = this;
+        this.setProportion();
         const resetView = () => document.getElementById("reset-view").click();
-        new Panels(settings, new Controls(settings, sliderExtent(scene, this.renderer.bounds))).build();
+        this.controls = new Controls(settings, sliderExtent(this.scene, this.renderer.bounds));
+        this.panels = new Panels(settings, this.controls);
+        this.panels.build();
         new Gestures(this.canvas, settings, resetView);
         connectActions(settings, async (width, height) => this.pixels(width, height));
         this.openViewport();
@@ -69,10 +72,39 @@ export class Page {
             showError(new Error("The graphics have been interrupted; the picture comes back when they do."));
         });
         this.canvas.addEventListener("webglcontextrestored", () => {
-            this.renderer = new Renderer(this.gl, scene);
+            this.renderer = new Renderer(this.gl, this.scene);
             this.openViewport();
         });
         document.body.classList.add("open");
+        followScene((scene) => this.show(scene), showError);
+    }
+
+    setProportion() {
+        this.container.style.setProperty("--proportion", this.scene.image.width / this.scene.image.height);
+    }
+
+    /**
+     * Another state of the scene in place of the present one, from where it is looked at, with what has been changed here and
+     * not in the scene. Throws where it cannot be drawn; then everything stays as it is.
+     */
+    show(scene) {
+        if (this.gl.isContextLost()) throw new Error("The graphics have been interrupted.");
+        const renderer = new Renderer(this.gl, scene, this.renderer);
+        try {
+            renderer.prepare(appearanceOf(this.settings.continuedIn(scene)));
+        } catch (error) {
+            renderer.release();
+            throw error;
+        }
+        this.renderer.release();
+        Object.assign(this, { scene, renderer });
+        document.title = scene.title;
+        document.querySelector("h1").textContent = scene.title;
+        this.setProportion();
+        this.settings.replaceScene(scene);
+        this.controls.extent = sliderExtent(scene, renderer.bounds);
+        this.panels.rebuild();
+        this.viewport.use(renderer);
     }
 
     openViewport() {

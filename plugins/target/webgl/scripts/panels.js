@@ -24,10 +24,29 @@ function disclosure(summary, isOpen, contents) {
 export class Panels {
     constructor(settings, controls) {
         this.settings = settings;
-        this.scene = settings.scene;
         this.controls = controls;
         this.sections = [];
         settings.listeners.push((path, isFromControl) => this.changed(path, isFromControl));
+    }
+
+    get scene() {
+        return this.settings.scene;
+    }
+
+    /** After another scene has come: with what was open and where the focus was, as far as that is there still. */
+    rebuild() {
+        const summaryOf = (details) => details.querySelector("summary").textContent;
+        const panels = [...document.querySelectorAll("aside > section")];
+        const details = () => panels.flatMap((panel) => [...panel.querySelectorAll("details")]);
+        const wereOpen = new Map(details().map((one) => [summaryOf(one), one.open]));
+        const focused = document.activeElement, path = focused?.closest(".setting")?.dataset.path;
+        const place = path && [...focused.closest(".setting").querySelectorAll("input, select, button")].indexOf(focused);
+        this.sections = [];
+        for (const panel of panels) panel.replaceChildren(...[...panel.children].filter(({ tagName }) => tagName === "H2"));
+        this.build();
+        for (const one of details()) one.open = wereOpen.get(summaryOf(one)) ?? one.open;
+        const again = path && [...document.querySelectorAll(".setting")].find((setting) => setting.dataset.path === path);
+        if (again) [...again.querySelectorAll("input, select, button")][place]?.focus();
     }
 
     build() {

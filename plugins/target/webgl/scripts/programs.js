@@ -26,6 +26,12 @@ class Program {
         gl.linkProgram(this.handle);
         this.locations = new Map();
         this.isChecked = false;
+        this.users = 0;  // caches
+    }
+
+    release() {
+        this.users -= 1;
+        if (this.users === 0) this.gl.deleteProgram(this.handle);
     }
 
     /** Apart from the constructor, since asking for the status waits: until then a browser may compile many at once. */
@@ -60,10 +66,26 @@ class Program {
 
 /** Shader programs by what they draw, each compiled once. */
 export class ProgramCache {
-    constructor(gl, scene) {
+    /** `previous`: that of an earlier state of the scene; a program of the same text is shared with it. */
+    constructor(gl, scene, previous) {
         this.gl = gl;
         this.scene = scene;
         this.programs = new Map();
+        this.bySource = new Map();
+        this.inherited = previous?.bySource ?? new Map();
+    }
+
+    compiled(title, vertexSource, fragmentSource) {
+        const source = `${vertexSource}\n${fragmentSource}`;
+        const inherited = this.inherited.get(source);
+        const program = inherited?.users > 0 ? inherited : new Program(this.gl, title, vertexSource, fragmentSource);
+        program.users += 1;
+        this.bySource.set(source, program);
+        return program;
+    }
+
+    release() {
+        for (const program of this.bySource.values()) program.release();
     }
 
     /** The program for a pair of models; it may still be compiling (Program.check waits). */
@@ -75,7 +97,7 @@ export class ProgramCache {
             const common =
                 (isClosed ? "" : "#define TWO_SIDED\n") + [shaders.prelude, shaders.lights, r.glsl, s.glsl, ""].join("\n");
             const title = `${r.title} with the shading model ${s.title}`;
-            this.programs.set(key, new Program(this.gl, title, common + shaders.vertex, common + shaders.fragment));
+            this.programs.set(key, this.compiled(title, common + shaders.vertex, common + shaders.fragment));
         }
         return this.programs.get(key);
     }
@@ -83,7 +105,7 @@ export class ProgramCache {
     /** The program of a pass over all pixels, compiled. */
     pass(name) {
         const { screen, [name]: fragment } = this.scene.shaders;
-        if (!this.programs.has(name)) this.programs.set(name, new Program(this.gl, `its pass "${name}"`, screen, fragment));
+        if (!this.programs.has(name)) this.programs.set(name, this.compiled(`its pass "${name}"`, screen, fragment));
         return this.programs.get(name).check();
     }
 }

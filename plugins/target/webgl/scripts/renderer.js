@@ -10,12 +10,13 @@ const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 
 /** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
 export class Renderer {
-    constructor(gl, scene) {
+    /** `previous`: a renderer in the same context, whose programs are used where they are the same. Both have to be released. */
+    constructor(gl, scene, previous) {
         this.gl = gl;
         this.scene = scene;
         this.isSrgb = scene.image.color_management === "srgb";
         this.format = this.chooseFloatFormat();
-        this.programs = new ProgramCache(gl, scene);
+        this.programs = new ProgramCache(gl, scene, previous?.programs);
         this.meshes = scene.objects.map((object) => new Mesh(gl, object.mesh));
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
         this.lights = new LightTable(gl, scene);
@@ -25,6 +26,14 @@ export class Renderer {
         gl.clearDepth(0);
         gl.frontFace(gl.CCW);
         gl.cullFace(gl.BACK);
+    }
+
+    /** The programs that another renderer uses stay. */
+    release() {
+        for (const mesh of this.meshes) mesh.release();
+        this.lights.release();
+        this.programs.release();
+        this.gl.deleteVertexArray(this.emptyVertexArray);
     }
 
     chooseFloatFormat() {

@@ -1,6 +1,6 @@
-/** The scene as the generator wrote it. */
-export function readScene() {
-    return JSON.parse(document.getElementById("scene").textContent);
+/** The scene as the generator wrote it into a page. */
+export function readScene(page) {
+    return JSON.parse(page.getElementById("scene").textContent);
 }
 
 /**

@@ -19,6 +19,26 @@ export class Settings {
         this.listeners = [];
     }
 
+    /** Settings for another state of the scene: with the changes of these that it has a place for, and whose values it left alone. */
+    continuedIn(scene) {
+        const result = new Settings(scene);
+        for (const [path, value] of this.changes) {
+            const before = this.find(path), now = result.find(path);
+            const isSame = now !== null && areEqual(canonicalValue(now.parameter, before.initial), now.initial);
+            if (isSame && validateValue(now.parameter, value) === null) result.set(path, value);
+        }
+        if (validateObserver(result.observer()) !== null) {
+            for (const { name } of result.observerParameters()) result.changes.delete(`observer.${name}`);
+        }
+        return result;
+    }
+
+    /** As continuedIn(), in place. Listeners are not told. */
+    replaceScene(scene) {
+        const { changes } = this.continuedIn(scene);
+        Object.assign(this, { scene, changes, cache: new Map() });
+    }
+
     observerParameters() {
         const unused = this.scene.observer.projection === "orthographic" ? "fov" : "height";
         return OBSERVER_PARAMETERS.filter(({ name }) => name !== unused);

@@ -33,6 +33,12 @@ export class Viewport {
         this.isStopped = true;
     }
 
+    /** From now on, draws with another renderer of the same context. */
+    use(renderer) {
+        this.renderer = renderer;
+        this.invalidate();
+    }
+
     /** Starts anew with a draft, at the next frame. */
     invalidate() {
         if (this.isStopped) return;

@@ -1,0 +1,97 @@
+// candela view: a scene in the browser that follows its files.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "command_line.h"
+#include "generating.h"
+#include "reporting.h"
+#include "targets.h"
+#include "terminal.h"
+#include "verbs.h"
+#include "view/server.h"
+#include "viewing.h"
+
+import candela.process;
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+std::uint16_t port_from(const CommandLine& line) {
+    if (!line.has("port")) return 0;
+    const auto port = line.get<int>("port");
+    if (port < 0 || port > 65535)
+        throw Error(ErrorCategory::bad_request, fmt::format("--port is {}; it can be 0 to 65535", port));
+    return static_cast<std::uint16_t>(port);
+}
+
+/// What `candela generate` is to be told: all but what is for this verb alone.
+std::vector<std::string> without_own_options(const std::vector<std::string>& arguments) {
+    std::vector<std::string> rest;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string& word = arguments[i];
+        if (word == "--port" || word == "--target" || word == "-t") {
+            ++i;
+        } else if (word != "--no-open" && !word.starts_with("--port=") && !word.starts_with("--target=") &&
+                   !word.starts_with("-t")) {
+            rest.push_back(word);
+        }
+    }
+    return rest;
+}
+
+/// Not as a child that would end together with this: the browser may have been there before.
+void open_browser(const std::string& address) {
+    if (!candela::program_called("xdg-open")) return;
+    static_cast<void>(candela::run_program({"sh", "-c", "xdg-open \"$1\" >/dev/null 2>&1 &", "sh", address}));
+}
+
+}  // namespace
+
+int run_view(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela view SCENE... [options]",
+        "Shows a scene in the browser, and every change of its files as soon as they are saved: of the "
+        "scene, of\nwhat it includes, of meshes, pictures and plugins. Errors are shown beside the last "
+        "picture without them.\nThe page can be reached from this machine alone, at the address that is "
+        "printed. Ctrl-C ends it.");
+    line.options()("port", po::value<int>()->value_name("N"),
+                   "the port of 127.0.0.1; default: one that is free")("no-open", "open no browser")(
+        "target,t", po::value<std::string>()->value_name("NAME"),
+        "the target that makes the page; default: one whose main file is HTML");
+    add_models_option(line);
+    add_scene_options(line);
+    if (!line.parse(arguments)) return 0;
+    for (const std::string& file : line.all("scene")) {
+        if (!fs::is_regular_file(file)) {
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("'{}' is not a file; candela view follows files as they are saved", file));
+        }
+    }
+    candela::Registry registry = registry_from(line);
+    const LoadedTarget target =
+        line.has("target") ? LoadedTarget(line.get<std::string>("target"), registry) : page_target(registry);
+    view::Server server(port_from(line), [](const std::string& text) { warn(text); });
+    SceneFollower follower({.arguments = without_own_options(arguments),
+                            .target = target.name(),
+                            .main_file = target.main_file(),
+                            .scenes = line.all("scene"),
+                            .plugin_folders = registry.search_path()},
+                           [&](view::Publication publication) { server.publish(std::move(publication)); });
+    const std::string address = server.address();
+    std::cout << address << std::endl;  // somebody may be waiting for it
+    if (!line.has("no-open")) open_browser(address);
+    server.run();
+    return 0;
+}

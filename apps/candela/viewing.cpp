@@ -1,0 +1,135 @@
+#include "viewing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "descendants.h"
+#include "reporting.h"
+#include "stopwatch.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.process;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+std::string content_of(const fs::path& file) {
+    std::optional<std::string> text = candela::read_text_file(file);
+    if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file.string()));
+    return *std::move(text);
+}
+
+std::vector<fs::path> names_listed_in(const fs::path& list) {
+    std::vector<fs::path> names;
+    for (const auto& name : nlohmann::json::parse(content_of(list)))
+        names.emplace_back(name.get<std::string>());
+    return names;
+}
+
+/// Where the page was written to is nothing that a person should know.
+std::string without_lines_about(const fs::path& folder, const std::string& text) {
+    std::string rest;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with(folder.string())) rest += line + "\n";
+    return rest;
+}
+
+}  // namespace
+
+SceneFollower::SceneFollower(Job job, std::function<void(view::Publication)> publish)
+    : job_(std::move(job)),
+      publish_(std::move(publish)),
+      folder_(fs::temp_directory_path(), "candela-view-"),
+      thread_([this] { follow(); }) {}
+
+SceneFollower::~SceneFollower() {
+    is_ending_ = true;
+    watcher_.stop();
+    while (!has_ended_) {
+        end_descendants();
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    thread_.join();
+}
+
+void SceneFollower::watch(bool is_right) {
+    std::vector<fs::path> files = inputs_, folders = job_.plugin_folders;
+    for (const std::string& scene : job_.scenes) {
+        files.emplace_back(scene);
+        // Which files an incorrect scene names is not known.
+        if (!is_right) folders.push_back(fs::path(scene).parent_path());
+    }
+    watcher_.watch(files, folders);
+}
+
+bool SceneFollower::make_page() {
+    const fs::path output = folder_.path() / "page", inputs = folder_.path() / "inputs.json";
+    std::vector<std::string> words{"/proc/self/exe", "generate"};
+    words.insert(words.end(), job_.arguments.begin(), job_.arguments.end());
+    for (const std::string& word : {std::string("--target"), job_.target, std::string("--output"),
+                                    output.string(), std::string("--inputs"), inputs.string()})
+        words.push_back(word);
+    const Stopwatch watch;
+    const candela::ProgramOutput result = candela::run_program(words);
+    if (is_ending_) return false;
+    const std::string messages = without_lines_about(folder_.path(), result.err);
+    latest_.problems = messages;
+    const bool is_right = result.exit_code == 0;
+    if (is_right) {
+        inputs_ = names_listed_in(inputs);
+        auto page = std::make_shared<const std::string>(content_of(output / job_.main_file));
+        // Saved as it was: pages that have been made already are not made again.
+        if (latest_.page == nullptr || *page != *latest_.page) {
+            latest_.page = std::move(page);
+            ++latest_.generation;
+        }
+        latest_.problems.clear();
+        say(fmt::format("{}shown after {:.0f} ms\n", messages, watch.milliseconds()));
+    } else {
+        say(messages);
+    }
+    publish_(latest_);
+    return is_right;
+}
+
+bool SceneFollower::has_input_since(fs::file_time_type time) const {
+    return std::ranges::any_of(inputs_, [&](const fs::path& input) {
+        std::error_code problem;
+        const fs::file_time_type written = fs::last_write_time(input, problem);
+        return !problem && written >= time;
+    });
+}
+
+void SceneFollower::follow() {
+    try {
+        watch(false);
+        bool is_changed = true;
+        while (is_changed && !is_ending_) {
+            const fs::file_time_type begin = fs::file_time_type::clock::now();
+            const std::vector<fs::path> before = inputs_;
+            watch(make_page());
+            // What the scene names for the first time has not been watched while it was read.
+            is_changed = (inputs_ != before && has_input_since(begin)) || watcher_.wait();
+        }
+    } catch (const std::exception& problem) {
+        latest_.problems = fmt::format("The scene is no longer followed: {}\n", problem.what());
+        if (!is_ending_) warn(latest_.problems);
+        publish_(latest_);
+    }
+    has_ended_ = true;
+}

@@ -1,0 +1,50 @@
+// What candela view does whenever a file is saved.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "temporary_folder.h"
+#include "view/publication.h"
+#include "view/watcher.h"
+
+/// Makes a scene's page anew as often as one of the files changes that it is made from. `candela generate`
+/// makes it, in a process of its own: it has no library loaded that has been built again since, and may
+/// crash.
+class SceneFollower {
+  public:
+    struct Job {
+        std::vector<std::string> arguments;  // of `candela generate`, without target and output
+        std::string target;
+        std::string main_file;
+        std::vector<std::string> scenes;
+        std::vector<std::filesystem::path> plugin_folders;
+    };
+
+    /// Begins at once, on a thread of its own, which also calls `publish`.
+    SceneFollower(Job job, std::function<void(view::Publication)> publish);
+    SceneFollower(const SceneFollower&) = delete;
+    SceneFollower& operator=(const SceneFollower&) = delete;
+    /// Ends what is running.
+    ~SceneFollower();
+
+  private:
+    void follow();
+    /// Whether the scene became a page.
+    bool make_page();
+    void watch(bool is_right);
+    bool has_input_since(std::filesystem::file_time_type time) const;
+
+    Job job_;
+    std::function<void(view::Publication)> publish_;
+    TemporaryFolder folder_;
+    view::Watcher watcher_;
+    view::Publication latest_;
+    std::vector<std::filesystem::path> inputs_;
+    std::atomic<bool> is_ending_{false}, has_ended_{false};
+    std::thread thread_;  // the last, since it uses all the others
+};

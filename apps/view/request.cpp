@@ -1,0 +1,61 @@
+#include "view/request.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <random>
+
+namespace view {
+
+namespace {
+
+/// In a time that says nothing about how much of it is right.
+bool are_equal(std::string_view a, std::string_view b) {
+    if (a.size() != b.size()) return false;
+    unsigned difference = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        difference |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
+    return difference == 0;
+}
+
+/// Else a name that somebody has pointed at 127.0.0.1 would do (DNS rebinding).
+bool is_own_host(std::string_view host, std::uint16_t port) {
+    return host == fmt::format("127.0.0.1:{}", port) || host == fmt::format("localhost:{}", port);
+}
+
+bool is_own_origin(std::string_view origin, std::uint16_t port) {
+    constexpr std::string_view k_scheme = "http://";
+    return origin.starts_with(k_scheme) && is_own_host(origin.substr(k_scheme.size()), port);
+}
+
+}  // namespace
+
+std::string random_token() {
+    std::random_device random;
+    std::string token;
+    for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", random());
+    return token;
+}
+
+Route route_of(const Request& request, std::string_view token, std::uint16_t port) {
+    if (!is_own_host(request.host, port)) return {.status = 403};
+    if (!request.origin.empty() && !is_own_origin(request.origin, port)) return {.status = 403};
+    std::string_view path = request.target, query;
+    if (const std::size_t mark = path.find('?'); mark != std::string_view::npos) {
+        query = path.substr(mark + 1);
+        path = path.substr(0, mark);
+    }
+    if (!path.starts_with('/')) return {.status = 400};
+    path.remove_prefix(1);
+    const std::size_t end = path.find('/');
+    if (end == std::string_view::npos || !are_equal(path.substr(0, end), token)) return {.status = 404};
+    path.remove_prefix(end + 1);
+    const Resource resource = path.empty()       ? Resource::page
+                              : path == "events" ? Resource::events
+                                                 : Resource::none;
+    if (resource == Resource::none) return {.status = 404};
+    if (request.method != "GET") return {.status = 405};
+    return {.status = 200, .resource = resource, .query = std::string(query)};
+}
+
+}  // namespace view

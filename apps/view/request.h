@@ -1,0 +1,33 @@
+// Which requests are answered. A page of any web site can make a browser send requests to this machine, so
+// the address has a token that none of them knows, and they say where they come from.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace view {
+
+struct Request {
+    std::string_view method;
+    std::string_view target;  // as it was sent, "/token/events?x"
+    std::string_view host;    // the header fields; empty where there is none
+    std::string_view origin;
+};
+
+enum class Resource { none, page, events };
+
+/// What to do about a request.
+struct Route {
+    unsigned status = 404;  // as HTTP has it; 200: `resource` is the answer
+    Resource resource = Resource::none;
+    std::string query = {};  // behind the target's "?"
+};
+
+/// A name that nobody guesses: 128 random bits in hexadecimal digits.
+std::string random_token();
+
+/// Any bytes may be in a request. Any thread.
+Route route_of(const Request& request, std::string_view token, std::uint16_t port);
+
+}  // namespace view

@@ -1,0 +1,334 @@
+#include "view/server.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "view/request.h"
+#include "view/waiting_page.h"
+
+import candela.diagnostics;
+
+namespace view {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using boost::system::error_code;
+using std::chrono::seconds;
+using tcp = asio::ip::tcp;
+
+namespace {
+
+constexpr std::size_t k_most_connections = 64;
+constexpr std::size_t k_longest_header = 8192;  // bytes
+constexpr std::size_t k_most_refusals_logged = 10;
+constexpr seconds k_longest_request{10};
+constexpr seconds k_longest_answer{60};
+constexpr seconds k_heartbeat{15};  // between signs of life to browsers that wait for events
+
+std::string_view reason_of(unsigned status) {
+    switch (status) {
+        case 400:
+            return "This is not a request for this server.\n";
+        case 403:
+            return "Requests for other hosts, or from other sites, are not answered.\n";
+        case 405:
+            return "Only GET is understood.\n";
+        default:
+            return "There is nothing here. The address that candela view has printed is complete only with "
+                   "its token.\n";
+    }
+}
+
+/// As browsers read events (the HTML standard, "Server-sent events").
+std::string event_text(std::string_view name, std::string_view data) {
+    return fmt::format("event: {}\ndata: {}\n\n", name, data);
+}
+
+std::string events_of(const Publication& state) {
+    const nlohmann::json problems(state.problems);
+    return event_text("scene", fmt::to_string(state.generation)) +
+           event_text("problems", problems.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace
+
+class Server::Implementation {
+  public:
+    Implementation(std::uint16_t port, std::function<void(const std::string&)> log);
+
+    std::uint16_t port() const { return port_; }
+    const std::string& token() const { return token_; }
+    const Publication& state() const { return state_; }
+
+    void run() { context_.run(); }
+    void stop() { context_.stop(); }
+    void publish(Publication publication);
+
+    class Connection;
+    void enter(Connection& connection) { connections_.push_back(&connection); }
+    void leave(Connection& connection) { std::erase(connections_, &connection); }
+    void refused(unsigned status);
+
+  private:
+    void accept();
+    void make_room();
+
+    std::function<void(const std::string&)> log_;
+    std::size_t refused_ = 0;
+    std::uint16_t port_ = 0;
+    std::string token_ = random_token();
+    Publication state_;
+    std::vector<Connection*> connections_;  // the oldest first
+    // Its end is that of the connections, which use all of the above.
+    asio::io_context context_{1};
+    asio::steady_timer pause_{context_};
+    tcp::acceptor acceptor_{context_};
+    asio::signal_set signals_{context_};
+};
+
+/// A browser's: one request and its answer, or events until either side ends.
+class Server::Implementation::Connection : public std::enable_shared_from_this<Connection> {
+  public:
+    Connection(tcp::socket socket, Implementation& server)
+        : stream_(std::move(socket)), heartbeat_(stream_.get_executor()), server_(server) {
+        server_.enter(*this);
+    }
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+    ~Connection() { server_.leave(*this); }
+
+    void start() {
+        parser_.header_limit(k_longest_header);
+        stream_.expires_after(k_longest_request);
+        http::async_read(stream_, buffer_, parser_,
+                         [self = shared_from_this()](error_code problem, std::size_t) {
+                             if (!problem) self->answer();
+                         });
+    }
+
+    bool has_asked() const { return has_asked_; }
+
+    void close() {
+        has_events_ = false;
+        heartbeat_.cancel();
+        stream_.close();
+    }
+
+    /// Sends what the server's state is now, unless an older one is on its way: then after it.
+    void send_events() {
+        if (!has_events_) return;
+        if (is_writing_) {
+            is_outdated_ = true;
+            return;
+        }
+        write(events_of(server_.state()));
+    }
+
+  private:
+    using Response = http::response<http::string_body>;
+
+    void answer() {
+        has_asked_ = true;
+        const http::request<http::empty_body>& request = parser_.get();
+        const auto text = [](beast::string_view view) { return std::string_view(view.data(), view.size()); };
+        const Route route = route_of({.method = text(request.method_string()),
+                                      .target = text(request.target()),
+                                      .host = text(request[http::field::host]),
+                                      .origin = text(request[http::field::origin])},
+                                     server_.token(), server_.port());
+        if (route.status != 200) {
+            server_.refused(route.status);
+            return send(refusal(route.status));
+        }
+        if (route.resource == Resource::events) return open_events();
+        send(page(route.query));
+    }
+
+    Response response(http::status status) const {
+        Response response(status, 11);
+        response.set(http::field::cache_control, "no-store");
+        response.set(http::field::content_type, "text/plain; charset=utf-8");
+        response.set("X-Content-Type-Options", "nosniff");
+        response.set("X-Frame-Options", "DENY");
+        response.set("Cross-Origin-Resource-Policy", "same-origin");
+        // The address is a secret.
+        response.set("Referrer-Policy", "no-referrer");
+        response.keep_alive(false);
+        return response;
+    }
+
+    Response refusal(unsigned status) const {
+        Response answer = response(static_cast<http::status>(status));
+        if (status == 405) answer.set(http::field::allow, "GET");
+        answer.body() = reason_of(status);
+        return answer;
+    }
+
+    /// The address says which generation the page is of, so that the page knows which events are news to it.
+    Response page(const std::string& query) const {
+        const Publication& state = server_.state();
+        const std::string current = fmt::format("live={}", state.generation);
+        if (query != current) {
+            Response answer = response(http::status::found);
+            answer.set(http::field::location, fmt::format("/{}/?{}", server_.token(), current));
+            return answer;
+        }
+        Response answer = response(http::status::ok);
+        answer.set(http::field::content_type, "text/html; charset=utf-8");
+        answer.body() = state.page ? *state.page : waiting_page();
+        return answer;
+    }
+
+    void send(Response response) {
+        response_ = std::move(response);
+        response_.prepare_payload();
+        stream_.expires_after(k_longest_answer);
+        http::async_write(stream_, response_, [self = shared_from_this()](error_code, std::size_t) {
+            error_code ignored;
+            self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+        });
+    }
+
+    void open_events() {
+        Response header = response(http::status::ok);
+        header.set(http::field::content_type, "text/event-stream");
+        std::ostringstream head;
+        head << header.base();
+        has_events_ = true;
+        write(head.str() + "retry: 1000\n\n" + events_of(server_.state()));
+        beat();
+    }
+
+    void write(std::string text) {
+        text_ = std::move(text);
+        is_writing_ = true;
+        stream_.expires_after(k_longest_answer);
+        asio::async_write(stream_, asio::buffer(text_),
+                          [self = shared_from_this()](error_code problem, std::size_t) {
+                              self->is_writing_ = false;
+                              if (problem) return self->close();
+                              self->stream_.expires_never();
+                              if (std::exchange(self->is_outdated_, false)) self->send_events();
+                          });
+    }
+
+    /// A browser that has gone away is noticed when something is written to it.
+    void beat() {
+        heartbeat_.expires_after(k_heartbeat);
+        heartbeat_.async_wait([self = shared_from_this()](error_code problem) {
+            if (problem) return;
+            if (!self->is_writing_) self->write(":\n\n");
+            self->beat();
+        });
+    }
+
+    beast::tcp_stream stream_;
+    asio::steady_timer heartbeat_;
+    Implementation& server_;
+    beast::flat_buffer buffer_{2 * k_longest_header};
+    http::request_parser<http::empty_body> parser_;
+    Response response_;
+    std::string text_;  // being written
+    bool has_asked_ = false;
+    bool has_events_ = false;
+    bool is_writing_ = false;
+    bool is_outdated_ = false;  // what is being written
+};
+
+Server::Implementation::Implementation(std::uint16_t port, std::function<void(const std::string&)> log)
+    : log_(std::move(log)) {
+    try {
+        const tcp::endpoint here(asio::ip::address_v4::loopback(), port);
+        acceptor_.open(here.protocol());
+        acceptor_.set_option(asio::socket_base::reuse_address(true));
+        acceptor_.bind(here);
+        acceptor_.listen();
+        port_ = acceptor_.local_endpoint().port();
+    } catch (const boost::system::system_error& problem) {
+        throw candela::Error(
+            candela::ErrorCategory::failure,
+            fmt::format("port {} of 127.0.0.1 cannot be listened on: {}", port, problem.code().message()));
+    }
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) signals_.add(signal);
+    signals_.async_wait([this](error_code problem, int) {
+        if (!problem) stop();
+    });
+    accept();
+}
+
+void Server::Implementation::accept() {
+    acceptor_.async_accept([this](error_code problem, tcp::socket socket) {
+        if (!problem) {
+            make_room();
+            std::make_shared<Connection>(std::move(socket), *this)->start();
+            return accept();
+        }
+        // No more descriptors, perhaps: others wait in the system's queue.
+        pause_.expires_after(std::chrono::milliseconds(100));
+        pause_.async_wait([this](error_code ended) {
+            if (!ended) accept();
+        });
+    });
+}
+
+/// Whoever has been connected longest without asking anything is the first to go, then whoever has been
+/// longest at all.
+void Server::Implementation::make_room() {
+    if (connections_.size() < k_most_connections) return;
+    const auto silent =
+        std::ranges::find_if(connections_, [](const Connection* c) { return !c->has_asked(); });
+    (silent != connections_.end() ? *silent : connections_.front())->close();
+}
+
+void Server::Implementation::refused(unsigned status) {
+    ++refused_;
+    if (refused_ > k_most_refusals_logged) return;
+    log_(fmt::format("a request was refused ({} {}){}", status,
+                     std::string(http::obsolete_reason(static_cast<http::status>(status))),
+                     refused_ == k_most_refusals_logged ? "; others will not be mentioned" : ""));
+}
+
+void Server::Implementation::publish(Publication publication) {
+    asio::post(context_, [this, publication = std::move(publication)]() mutable {
+        state_ = std::move(publication);
+        // Sending may end a connection.
+        const std::vector<Connection*> now = connections_;
+        for (Connection* const connection : now) connection->send_events();
+    });
+}
+
+Server::Server(std::uint16_t port, std::function<void(const std::string&)> log)
+    : implementation_(std::make_unique<Implementation>(port, std::move(log))) {}
+Server::~Server() = default;
+
+std::string Server::address() const {
+    return fmt::format("http://127.0.0.1:{}/{}/", implementation_->port(), implementation_->token());
+}
+
+void Server::run() { implementation_->run(); }
+void Server::publish(Publication publication) { implementation_->publish(std::move(publication)); }
+void Server::stop() { implementation_->stop(); }
+
+}  // namespace view

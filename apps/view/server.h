@@ -1,0 +1,40 @@
+// Serves a scene's page to browsers on this machine, and tells them what changes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "view/publication.h"
+
+namespace view {
+
+/// Listens on 127.0.0.1 and nowhere else. A request is answered only if it knows the address' token and does
+/// not come from another site; there are limits on its size, its time and how many there are at once.
+/// Browsers that are slow are told the newest state, not all of them, and hold up nobody.
+class Server {
+  public:
+    /// Port 0: one that is free. `log` is told what is refused, on the thread that calls run(). Throws
+    /// candela::Error (failure) where it cannot be listened on.
+    Server(std::uint16_t port, std::function<void(const std::string&)> log);
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+    ~Server();
+
+    /// "http://127.0.0.1:40123/<token>/"
+    std::string address() const;
+
+    /// Serves until stop() or one of SIGINT, SIGTERM and SIGHUP. Call it once.
+    void run();
+    /// Any thread.
+    void publish(Publication publication);
+    /// Any thread.
+    void stop();
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace view

@@ -1,0 +1,181 @@
+"""The page that `candela view` serves, in a browser, while its scene's files are saved."""
+import os
+import shutil
+import signal
+import subprocess
+import unittest
+
+import scenes
+from browser import DRAWS_BY_ITSELF, Browser
+from generated import COMMAND, ENVIRONMENT, MOST_DIFFERENT, SCRATCH, SMALL_WINDOW, TWO_STEPS, candela, options_for
+from pictures import Picture
+
+LONGEST = 20  # seconds, on a busy machine
+
+
+def save(file, text):
+    """As editors do: written beside, then renamed."""
+    draft = file.with_suffix(".draft")
+    draft.write_text(text)
+    os.replace(draft, file)
+
+
+class Viewing(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser(*DRAWS_BY_ITSELF)
+        cls.addClassCleanup(cls.browser.close)
+        cls.browser.resize(*SMALL_WINDOW)
+
+    def setUp(self):
+        self.folder = SCRATCH / "viewing" / self._testMethodName
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+        self.file = self.folder / "scene.toml"
+        self.file.write_text(scenes.PERSPECTIVE)
+        self.folder.joinpath("tmp").mkdir()
+
+    def view(self):
+        environment = dict(ENVIRONMENT, TMPDIR=str(self.folder / "tmp"))
+        with open(self.folder / "log.txt", "w") as log:
+            server = subprocess.Popen([COMMAND, "view", "--no-open", str(self.file)], env=environment, stdin=subprocess.DEVNULL,
+                                      stdout=subprocess.PIPE, stderr=log, text=True)
+        self.addCleanup(self.end, server)
+        self.server = server
+        self.address = server.stdout.readline().strip()
+        # What the page of the test before has open ends with it.
+        self.browser.load(self.address)
+
+    def end(self, server):
+        if server.poll() is None:
+            server.send_signal(signal.SIGINT)
+        self.assertEqual(server.wait(LONGEST), 0)
+        server.stdout.close()
+        self.assertEqual(list(self.folder.joinpath("tmp").iterdir()), [])
+
+    def wait_for(self, condition, *arguments):
+        """Until a JavaScript expression is true."""
+        self.browser.driver.execute_async_script("""
+            const [condition, values, done] = arguments, holds = new Function("values", `return (${condition})`);
+            const look = () => (holds(values) ? done() : setTimeout(look, 20));
+            look();""", condition, list(arguments))
+
+    def wait_until_shown(self, generation):
+        self.wait_for("document.readyState === 'complete' && window.candela && location.search === `?live=${values[0]}`", generation)
+        self.assertIsNone(self.browser.problem())
+
+    def assert_shows(self, *options):
+        """That the page's picture is what the renderer makes of the file."""
+        reference = self.folder / "reference.ppm"
+        candela("render", self.file, "-o", reference, *options)
+        reference = Picture.of_ppm(reference)
+        page = self.browser.picture(reference.width, reference.height)
+        differences = page.differences(reference)
+        self.assertLessEqual(sum(d > TWO_STEPS for d in differences), MOST_DIFFERENT * len(differences))
+
+    def problems(self):
+        self.wait_for("!document.getElementById('scene-problems').hidden")
+        return self.browser.text("#scene-problems-text")
+
+    def changed(self, old, new, file=None):
+        file = file or self.file
+        text = file.read_text()
+        self.assertIn(old, text)
+        save(file, text.replace(old, new))
+
+    def test_what_is_saved_is_on_the_screen(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.assert_shows()
+        self.changed(self.scene_color(), "color = [10, 200, 30]")
+        self.wait_until_shown(2)
+        self.assert_shows()
+        # In place, as some editors write, and a comment that changes nothing.
+        self.file.write_text("# Another colour.\n" + self.file.read_text().replace("[10, 200, 30]", "[10, 20, 230]"))
+        self.wait_until_shown(3)
+        self.assert_shows()
+        self.assertEqual(self.browser.errors(), [])
+
+    def scene_color(self):
+        text = self.file.read_text()
+        object_at = text.index("[[object]]")
+        begin = text.index("color = ", object_at)
+        return text[begin:text.index("]", begin) + 1]
+
+    def test_a_broken_save_leaves_the_last_good_picture_and_says_why(self):
+        self.view()
+        self.wait_until_shown(1)
+        before = self.browser.picture(64, 48).pixels
+        good = self.file.read_text()
+        save(self.file, good.replace("[[light]]", "[[lihgt]]", 1))
+        text = self.problems()
+        self.assertIn("scene.toml:", text)
+        self.assertIn("lihgt", text)
+        self.assertEqual(self.browser.picture(64, 48).pixels, before)
+        save(self.file, good)
+        self.wait_for("document.getElementById('scene-problems').hidden")
+        self.changed(self.scene_color(), "color = [200, 20, 30]")
+        self.wait_until_shown(2)
+        self.assert_shows()
+
+    def test_a_scene_that_is_broken_at_first_is_shown_once_it_is_mended(self):
+        good = self.file.read_text()
+        self.file.write_text("version = 1\nrooom = 3\n")
+        self.view()
+        self.wait_for("document.getElementById('scene-problems-text').textContent.includes('rooom')")
+        save(self.file, good)
+        self.wait_until_shown(1)
+        self.assert_shows()
+
+    def test_the_view_and_what_was_changed_in_the_page_stay(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.unfold_all()
+        self.browser.one("canvas").send_keys("+")
+        position = self.browser.run("""
+            return [...document.querySelectorAll('[data-path="observer.position"] input[type=number]')].map((i) => Number(i.value));""")
+        self.changed(self.scene_color(), "color = [30, 40, 220]")
+        self.wait_until_shown(2)
+        self.assert_shows(*options_for("observer.position", position))
+        # Open parts are still open.
+        self.assertTrue(self.browser.all('[data-path="observer.position"]'))
+
+    def test_included_files_are_followed_too_and_deleted_ones_are_missed(self):
+        included = self.folder / "lights" / "more.toml"
+        included.parent.mkdir()
+        light = '[[light]]\ntype = "ambient"\ncolor = [255, 255, 255]\nintensity = 0.5\n'
+        included.write_text(light)
+        self.file.write_text('include = ["lights/more.toml"]\n' + self.file.read_text())
+        self.view()
+        self.wait_until_shown(1)
+        save(included, light.replace("0.5", "2.5"))
+        self.wait_until_shown(2)
+        self.assert_shows()
+        included.unlink()
+        self.assertIn("more.toml", self.problems())
+        included.write_text(light)
+        self.wait_until_shown(3)
+        self.assert_shows()
+
+    def test_all_browsers_see_the_same(self):
+        self.view()
+        self.wait_until_shown(1)
+        driver = self.browser.driver
+        first = driver.current_window_handle
+        driver.switch_to.new_window("tab")
+        second = driver.current_window_handle
+        driver.get(self.address)
+        self.wait_until_shown(1)
+        self.changed(self.scene_color(), "color = [220, 220, 20]")
+        for handle in (first, second):
+            driver.switch_to.window(handle)
+            self.wait_until_shown(2)
+            self.assert_shows()
+        driver.close()
+        driver.switch_to.window(first)
+
+    def test_the_end_of_the_server_is_said(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.server.send_signal(signal.SIGTERM)
+        self.wait_for("document.getElementById('notice').textContent.includes('candela view has ended')")

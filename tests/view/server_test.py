@@ -1,0 +1,248 @@
+"""`candela view` against requests that it must not answer, browsers that hold it up, many saves, and its end at any moment.
+
+By hand: CANDELA=build/release/bin/candela python3 tests/view/server_test.py
+"""
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+import unittest
+
+COMMAND = os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"]
+SCRATCH = pathlib.Path(os.environ.get("CANDELA_TEST_SCRATCH") or tempfile.mkdtemp(prefix="candela-view-")).absolute()
+ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), CANDELA_PLUGIN_PATH="")
+LONGEST = 20  # seconds, on a busy machine
+JUNK = int(os.environ.get("CANDELA_TEST_REQUESTS", "2000"))
+
+SCENE = """version = 1
+observer = {{position = [0, 1, 4], look_at = [0, 0, 0]}}
+image = {{width = 64, height = 48}}
+shading = {{model = "phong"}}
+reflection = {{model = "lambert"}}
+light = [{{type = "directional", direction = [-1, -1, -1]}}]
+object = [{{type = "cube", color = [{red}, 90, 40]}}]
+"""
+
+
+class View:
+    def __init__(self, test):
+        self.folder = SCRATCH / test.id().rsplit(".", 1)[-1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.temporary = self.folder / "tmp"
+        self.temporary.mkdir(parents=True)
+        self.file = self.folder / "scene.toml"
+        self.save(100)
+        self.log = open(self.folder / "log.txt", "w+")
+        self.process = subprocess.Popen([COMMAND, "view", "--no-open", str(self.file)], env=dict(ENVIRONMENT, TMPDIR=str(self.temporary)),
+                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=self.log, text=True)
+        self.address = self.process.stdout.readline().strip()
+        self.port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/", self.address).groups()
+        self.port = int(self.port)
+
+    def save(self, red):
+        draft = self.folder / "draft"
+        draft.write_text(SCENE.format(red=red))
+        os.replace(draft, self.file)
+
+    def end(self, number=signal.SIGINT):
+        self.process.send_signal(number)
+        code = self.process.wait(LONGEST)
+        self.process.stdout.close()
+        self.log.close()
+        return code
+
+    def connect(self):
+        return socket.create_connection(("127.0.0.1", self.port), timeout=LONGEST)
+
+    def answer(self, data):
+        """All that comes back; what is sent after the server has closed is lost, as it should be."""
+        with self.connect() as connection:
+            try:
+                connection.sendall(data)
+                parts = []
+                while part := connection.recv(65536):
+                    parts.append(part)
+            except (ConnectionResetError, BrokenPipeError):
+                return b""
+            return b"".join(parts)
+
+    def get(self, path, method="GET", host=None, **fields):
+        host = f"127.0.0.1:{self.port}" if host is None else host
+        lines = [f"{method} {path} HTTP/1.1", f"Host: {host}", *(f"{name}: {value}" for name, value in fields.items())]
+        return self.answer("\r\n".join([*lines, "", ""]).encode())
+
+    def status(self, path, **options):
+        return int(self.get(path, **options).split(b" ", 2)[1])
+
+    def events(self):
+        """A connection that has asked for events and has read their head."""
+        connection = self.connect()
+        connection.sendall(f"GET /{self.token}/events HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n\r\n".encode())
+        return connection
+
+    def generation(self):
+        location = re.search(rb"Location: \S*\?live=(\d+)", self.get(f"/{self.token}/"))
+        return int(location[1])
+
+    def page(self):
+        return self.get(f"/{self.token}/?live={self.generation()}")
+
+    def wait_for_color(self, red):
+        end = time.monotonic() + LONGEST
+        wanted = f'"color":[{red}.0,90.0,40.0]'.encode()
+        while wanted not in self.page():
+            assert time.monotonic() < end, f"the page does not show the color {red}: {self.page()[-400:]}"
+            time.sleep(0.02)
+
+
+def until(connection, text):
+    received = b""
+    while text not in received:
+        part = connection.recv(65536)
+        assert part, f"the events end with {received[-200:]}"
+        received += part
+    return received
+
+
+class ServerTest(unittest.TestCase):
+    def setUp(self):
+        self.view = View(self)
+        self.addCleanup(self.check_end)
+
+    def check_end(self):
+        if self.view.process.poll() is None:
+            self.assertEqual(self.view.end(), 0)
+        self.assertEqual(list(self.view.temporary.iterdir()), [])
+
+    def test_it_listens_on_this_machine_alone(self):
+        own = set(re.findall(r"socket:\[(\d+)\]", " ".join(os.readlink(f) for f in pathlib.Path(f"/proc/{self.view.process.pid}/fd").iterdir())))
+        listening = []
+        for table in ("tcp", "tcp6"):
+            for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
+                fields = line.split()
+                if fields[3] == "0A" and fields[9] in own:
+                    listening.append(fields[1])
+        self.assertEqual(listening, [f"0100007F:{self.view.port:04X}"])
+
+    def test_only_who_knows_the_token_is_answered(self):
+        token = self.view.token
+        self.assertEqual(self.view.status(f"/{token}/"), 302)
+        self.assertEqual(self.view.status(f"/{token}/?live={self.view.generation()}"), 200)
+        for path in ("/", f"/{token[:-1]}/", f"/{token}x/", f"/{token.upper()}/" if token.upper() != token else "/x/", f"//{token}/", "/events",
+                     f"/{'0' * 32}/events", f"/{token}", f"/?{token}/"):
+            self.assertEqual(self.view.status(path), 404, path)
+
+    def test_nothing_but_the_page_and_its_events_is_there(self):
+        for path in ("../../etc/passwd", "%2e%2e/%2e%2e/etc/passwd", "..", "scene.toml", "events/", "//etc/passwd", "\\..\\x"):
+            self.assertEqual(self.view.status(f"/{self.view.token}/{path}"), 404, path)
+        for method in ("POST", "PUT", "DELETE", "HEAD", "OPTIONS"):
+            self.assertEqual(self.view.status(f"/{self.view.token}/", method=method), 405, method)
+
+    def test_requests_for_another_host_or_from_another_site_are_refused(self):
+        path = f"/{self.view.token}/"
+        for host in ("evil.example", f"evil.example:{self.view.port}", "127.0.0.1", "127.0.0.1:1", f"127.0.0.1:{self.view.port}.evil.example", ""):
+            self.assertEqual(self.view.status(path, host=host), 403, host)
+        for origin in ("http://evil.example", "null", f"https://127.0.0.1:{self.view.port}", f"http://127.0.0.1:{self.view.port}.evil.example",
+                       "http://127.0.0.1:1"):
+            self.assertEqual(self.view.status(path, Origin=origin), 403, origin)
+        for own in (f"127.0.0.1:{self.view.port}", f"localhost:{self.view.port}"):
+            self.assertEqual(self.view.status(path, host=own, Origin=f"http://{own}"), 302, own)
+
+    def test_the_page_is_not_for_frames_caches_and_other_sites(self):
+        head = self.view.page().split(b"\r\n\r\n")[0]
+        for field in (b"X-Frame-Options: DENY", b"Cache-Control: no-store", b"Referrer-Policy: no-referrer", b"X-Content-Type-Options: nosniff",
+                      b"Cross-Origin-Resource-Policy: same-origin"):
+            self.assertIn(field, head)
+
+    def test_junk_is_survived(self):
+        chance = random.Random(17)
+        good = f"GET /{self.view.token}/ HTTP/1.1\r\nHost: 127.0.0.1:{self.view.port}\r\n\r\n".encode()
+        for _ in range(JUNK):
+            data = bytearray(good if chance.random() < 0.7 else chance.randbytes(chance.randrange(1, 300)))
+            for _ in range(chance.randrange(1, 9)):
+                data[chance.randrange(len(data))] = chance.randrange(256)
+            with self.view.connect() as connection:
+                try:
+                    connection.sendall(bytes(data))
+                    connection.shutdown(socket.SHUT_WR)
+                except OSError:
+                    continue
+        self.assertEqual(self.view.status(f"/{self.view.token}/"), 302)
+
+    def test_large_requests_are_cut_off(self):
+        for head in (b"GET / HTTP/1.1\r\nX: ", f"GET /{self.view.token}/".encode(), b"POST / HTTP/1.1\r\nContent-Length: 1000000000\r\n\r\n"):
+            sent = 0
+            with self.view.connect() as connection:
+                try:
+                    connection.sendall(head)
+                    while sent < 1 << 30:
+                        sent += connection.send(b"x" * 65536)
+                except OSError:
+                    pass
+            self.assertLess(sent, 32 << 20, head)
+        self.assertEqual(self.view.status(f"/{self.view.token}/"), 302)
+
+    def test_half_open_connections_do_not_keep_others_out(self):
+        idle = [self.view.connect() for _ in range(200)]
+        self.assertEqual(self.view.status(f"/{self.view.token}/"), 302)
+        for connection in idle:
+            connection.close()
+
+    def test_a_browser_that_reads_nothing_holds_up_nobody(self):
+        with self.view.events() as slow, self.view.events() as quick:
+            slow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1024)
+            until(quick, b"event: problems")
+            for i in range(10):
+                before = self.view.generation()
+                self.view.save(i)
+                until(quick, f"event: scene\ndata: {before + 1}\n".encode())
+            self.view.wait_for_color(9)
+
+    def test_of_many_saves_half_of_them_broken_the_last_is_shown(self):
+        self.view.wait_for_color(100)
+        for i in range(100):
+            self.view.save("oops" if i % 2 == 0 else i)
+            time.sleep(0.01)
+        self.view.save(200)
+        self.view.wait_for_color(200)
+        with self.view.events() as connection:
+            self.assertIn(b'data: ""', until(connection, b"event: problems\ndata: \"\"\n"))
+
+
+class Ending(unittest.TestCase):
+    def test_it_ends_well_at_any_moment(self):
+        chance = random.Random(3)
+        for i in range(12):
+            view = View(self)
+            number = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)[i % 3]
+            if i % 2:
+                view.save(i)
+            time.sleep(chance.random() * 0.08)
+            self.assertEqual(view.end(number), 0)
+            self.assertEqual(list(view.temporary.iterdir()), [])
+
+    def test_a_port_that_is_taken_is_an_error(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+            done = subprocess.run([COMMAND, "view", "--no-open", "--port", str(port)], env=ENVIRONMENT, capture_output=True, text=True,
+                                  stdin=subprocess.DEVNULL, timeout=LONGEST)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"port {port} of 127.0.0.1 cannot be listened on", done.stderr)
+
+    def test_what_cannot_be_followed_is_refused(self):
+        for arguments, words in ((["-"], "is not a file"), (["nowhere.toml"], "is not a file"), (["--port", "70000"], "--port is 70000"),
+                                 (["--target", "cpp2"], "there is no target 'cpp2'")):
+            done = subprocess.run([COMMAND, "view", "--no-open", *arguments], env=ENVIRONMENT, capture_output=True, text=True,
+                                  stdin=subprocess.DEVNULL, timeout=LONGEST)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(words, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
