@@ -303,7 +303,11 @@ TEST_CASE("what is no picture is an error that says why") {
     folder.write("short.ppm", plain(20, 20, 9).substr(0, 600));
     CHECK(holds(folder.error({"short.ppm", "a.ppm"}, 1), "'short.ppm' cannot be read: "));
     folder.write("huge.ppm", "P6\n2000000 2000000\n255\n");
-    CHECK(holds(folder.error({"huge.ppm", "a.ppm"}, 1), "2000000 x 2000000 pixels; 1 to 65536"));
+    const std::string huge = folder.error({"huge.ppm", "a.ppm"}, 1);
+    // The second where OpenImageIO has a limit of its own, from 2.5 on.
+    const bool has_limit = holds(huge, "2000000 x 2000000 pixels; 1 to 65536") ||
+                           holds(huge, "'huge.ppm' is not a picture: pnm image resolution may not exceed");
+    CHECK(has_limit);
     CHECK(holds(folder.error({"a.ppm", "a.ppm", "--mask", "text.png"}, 1), "'text.png' is not a picture"));
 }
 
