@@ -1,9 +1,11 @@
 // candela view: a scene in the browser that follows its files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "generating.h"
 #include "reporting.h"
 #include "targets.h"
+#include "temporary_folder.h"
 #include "terminal.h"
 #include "verbs.h"
 #include "view/server.h"
@@ -35,15 +38,16 @@ std::uint16_t port_from(const CommandLine& line) {
     return static_cast<std::uint16_t>(port);
 }
 
-/// What `candela generate` is to be told: all but what is for this verb alone.
-std::vector<std::string> without_own_options(const std::vector<std::string>& arguments) {
+/// What another verb is to be told, which does not know these options; each of them has a value.
+std::vector<std::string> without(const std::vector<std::string>& options,
+                                 const std::vector<std::string>& arguments) {
     std::vector<std::string> rest;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const std::string& word = arguments[i];
-        if (word == "--port" || word == "--target" || word == "-t") {
+        const auto is_of = [&](const std::string& option) { return word.starts_with(option + "="); };
+        if (std::ranges::find(options, word) != options.end()) {
             ++i;
-        } else if (word != "--no-open" && !word.starts_with("--port=") && !word.starts_with("--target=") &&
-                   !word.starts_with("-t")) {
+        } else if (word != "--no-open" && std::ranges::none_of(options, is_of)) {
             rest.push_back(word);
         }
     }
@@ -67,7 +71,7 @@ int run_view(const std::vector<std::string>& arguments) {
         "printed. Ctrl-C ends it.");
     line.options()("port", po::value<int>()->value_name("N"),
                    "the port of 127.0.0.1; default: one that is free")("no-open", "open no browser")(
-        "target,t", po::value<std::string>()->value_name("NAME"),
+        "target", po::value<std::string>()->value_name("NAME"),
         "the target that makes the page; default: one whose main file is HTML");
     add_models_option(line);
     add_scene_options(line);
@@ -82,16 +86,33 @@ int run_view(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     const LoadedTarget target =
         line.has("target") ? LoadedTarget(line.get<std::string>("target"), registry) : page_target(registry);
-    view::Server server(port_from(line), [](const std::string& text) { warn(text); });
-    SceneFollower follower({.arguments = without_own_options(arguments),
-                            .target = target.name(),
-                            .main_file = target.main_file(),
-                            .scenes = line.all("scene"),
-                            .plugin_folders = registry.search_path()},
-                           [&](view::Publication publication) { server.publish(std::move(publication)); });
-    const std::string address = server.address();
+    std::vector<std::string> for_generate = without({"--port", "--target"}, arguments);
+    if (!line.has("models")) for_generate.insert(for_generate.end(), {"--models", "all"});
+    const TemporaryFolder pictures(fs::temp_directory_path(), "candela-view-");
+    const auto for_render = without({"--port", "--target", "--models"}, arguments);
+    std::optional<view::Server> server(
+        std::in_place, port_from(line),
+        view::Server::Handlers{.log = [](const std::string& text) { warn(text); },
+                               .render =
+                                   [&](const std::vector<view::Change>& changes) {
+                                       return rendered(for_render, changes,
+                                                       pictures.path() / "reference.png");
+                                   }});
+    std::optional<SceneFollower> follower(
+        std::in_place,
+        SceneFollower::Job{.arguments = for_generate,
+                           .target = target.name(),
+                           .main_file = target.main_file(),
+                           .scenes = line.all("scene"),
+                           .plugin_folders = registry.search_path()},
+        [&](view::Publication publication) { server->publish(std::move(publication)); });
+    const std::string address = server->address();
     std::cout << address << std::endl;  // somebody may be waiting for it
     if (!line.has("no-open")) open_browser(address);
-    server.run();
+    server->run();
+    // Both wait for programs that they have started.
+    const WithoutDescendants from_now_on;
+    follower.reset();
+    server.reset();
     return 0;
 }

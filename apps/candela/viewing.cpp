@@ -51,6 +51,32 @@ std::string without_lines_about(const fs::path& folder, const std::string& text)
 
 }  // namespace
 
+WithoutDescendants::WithoutDescendants()
+    : thread_([this] {
+          while (!is_over_) {
+              end_descendants();
+              std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          }
+      }) {}
+
+WithoutDescendants::~WithoutDescendants() {
+    is_over_ = true;
+    thread_.join();
+}
+
+view::Reference rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
+                         const fs::path& file) try {
+    std::vector<std::string> words{"/proc/self/exe", "render", "--quiet", "--output", file.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    for (const view::Change& change : changes)
+        words.push_back(fmt::format("{}={}", change.option, change.value));
+    const candela::ProgramOutput result = candela::run_program(words);
+    if (result.exit_code != 0) return {.is_picture = false, .content = result.err};
+    return {.is_picture = true, .content = content_of(file)};
+} catch (const std::exception& problem) {
+    return {.is_picture = false, .content = problem.what()};
+}
+
 SceneFollower::SceneFollower(Job job, std::function<void(view::Publication)> publish)
     : job_(std::move(job)),
       publish_(std::move(publish)),
@@ -60,10 +86,6 @@ SceneFollower::SceneFollower(Job job, std::function<void(view::Publication)> pub
 SceneFollower::~SceneFollower() {
     is_ending_ = true;
     watcher_.stop();
-    while (!has_ended_) {
-        end_descendants();
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
     thread_.join();
 }
 
@@ -131,5 +153,4 @@ void SceneFollower::follow() {
         if (!is_ending_) warn(latest_.problems);
         publish_(latest_);
     }
-    has_ended_ = true;
 }

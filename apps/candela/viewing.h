@@ -10,7 +10,25 @@
 
 #include "temporary_folder.h"
 #include "view/publication.h"
+#include "view/server.h"
 #include "view/watcher.h"
+
+/// While there is one, programs that this one has started are ended.
+class WithoutDescendants {
+  public:
+    WithoutDescendants();
+    WithoutDescendants(const WithoutDescendants&) = delete;
+    WithoutDescendants& operator=(const WithoutDescendants&) = delete;
+    ~WithoutDescendants();
+
+  private:
+    std::atomic<bool> is_over_{false};
+    std::thread thread_;
+};
+
+/// What `candela render` with these arguments makes of a scene, with somebody's changes; `file` is where.
+view::Reference rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
+                         const std::filesystem::path& file);
 
 /// Makes a scene's page anew as often as one of the files changes that it is made from. `candela generate`
 /// makes it, in a process of its own: it has no library loaded that has been built again since, and may
@@ -29,7 +47,7 @@ class SceneFollower {
     SceneFollower(Job job, std::function<void(view::Publication)> publish);
     SceneFollower(const SceneFollower&) = delete;
     SceneFollower& operator=(const SceneFollower&) = delete;
-    /// Ends what is running.
+    /// Waits for the program that is running.
     ~SceneFollower();
 
   private:
@@ -45,6 +63,6 @@ class SceneFollower {
     view::Watcher watcher_;
     view::Publication latest_;
     std::vector<std::filesystem::path> inputs_;
-    std::atomic<bool> is_ending_{false}, has_ended_{false};
+    std::atomic<bool> is_ending_{false};
     std::thread thread_;  // the last, since it uses all the others
 };

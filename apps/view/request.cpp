@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <random>
+#include <system_error>
+#include <utility>
 
 namespace view {
 
@@ -28,7 +32,41 @@ bool is_own_origin(std::string_view origin, std::uint16_t port) {
     return origin.starts_with(k_scheme) && is_own_host(origin.substr(k_scheme.size()), port);
 }
 
+/// As forms encode it, without "+" for a blank.
+std::optional<std::string> decoded(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            result += text[i];
+            continue;
+        }
+        unsigned byte = 0;
+        const char* const digits = text.data() + i + 1;
+        if (text.size() - i < 3) return std::nullopt;
+        const auto [end, problem] = std::from_chars(digits, digits + 2, byte, 16);
+        if (problem != std::errc() || end != digits + 2 || byte == 0) return std::nullopt;
+        result += static_cast<char>(byte);
+        i += 2;
+    }
+    return result;
+}
+
 }  // namespace
+
+std::optional<std::vector<Change>> changes_of(std::string_view query) {
+    std::vector<Change> changes;
+    while (!query.empty()) {
+        const std::string_view part = query.substr(0, query.find('&'));
+        query.remove_prefix(std::min(part.size() + 1, query.size()));
+        const std::size_t equals = part.find('=');
+        if (equals == std::string_view::npos) return std::nullopt;
+        const std::string_view name = part.substr(0, equals);
+        auto value = decoded(part.substr(equals + 1));
+        if (!value || (name != "set" && name != "shading" && name != "reflection")) return std::nullopt;
+        changes.push_back({fmt::format("--{}", name), *std::move(value)});
+    }
+    return changes;
+}
 
 std::string random_token() {
     std::random_device random;
@@ -50,9 +88,10 @@ Route route_of(const Request& request, std::string_view token, std::uint16_t por
     const std::size_t end = path.find('/');
     if (end == std::string_view::npos || !are_equal(path.substr(0, end), token)) return {.status = 404};
     path.remove_prefix(end + 1);
-    const Resource resource = path.empty()       ? Resource::page
-                              : path == "events" ? Resource::events
-                                                 : Resource::none;
+    const Resource resource = path.empty()              ? Resource::page
+                              : path == "events"        ? Resource::events
+                              : path == "reference.png" ? Resource::reference
+                                                        : Resource::none;
     if (resource == Resource::none) return {.status = 404};
     if (request.method != "GET") return {.status = 405};
     return {.status = 200, .resource = resource, .query = std::string(query)};

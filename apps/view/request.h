@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace view {
 
@@ -15,7 +17,7 @@ struct Request {
     std::string_view origin;
 };
 
-enum class Resource { none, page, events };
+enum class Resource { none, page, events, reference };
 
 /// What to do about a request.
 struct Route {
@@ -26,6 +28,16 @@ struct Route {
 
 /// A name that nobody guesses: 128 random bits in hexadecimal digits.
 std::string random_token();
+
+/// What somebody has changed in the page, as the command line of `candela render` has it.
+struct Change {
+    std::string option;  // "--set", "--shading" or "--reflection"
+    std::string value;
+};
+
+/// The changes that a query says ("set=observer.fov%3D20&shading=flat"); nothing where it is not that. Any
+/// thread.
+std::optional<std::vector<Change>> changes_of(std::string_view query);
 
 /// Any bytes may be in a request. Any thread.
 Route route_of(const Request& request, std::string_view token, std::uint16_t port);

@@ -8,6 +8,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
@@ -18,13 +19,13 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "view/request.h"
 #include "view/waiting_page.h"
 
 import candela.diagnostics;
@@ -43,6 +44,7 @@ namespace {
 constexpr std::size_t k_most_connections = 64;
 constexpr std::size_t k_longest_header = 8192;  // bytes
 constexpr std::size_t k_most_refusals_logged = 10;
+constexpr int k_most_waiting = 8;  // for a picture
 constexpr seconds k_longest_request{10};
 constexpr seconds k_longest_answer{60};
 constexpr seconds k_heartbeat{15};  // between signs of life to browsers that wait for events
@@ -53,6 +55,8 @@ std::string_view reason_of(unsigned status) {
             return "This is not a request for this server.\n";
         case 403:
             return "Requests for other hosts, or from other sites, are not answered.\n";
+        case 503:
+            return "Too many pictures are asked for at once.\n";
         case 405:
             return "Only GET is understood.\n";
         default:
@@ -76,26 +80,31 @@ std::string events_of(const Publication& state) {
 
 class Server::Implementation {
   public:
-    Implementation(std::uint16_t port, std::function<void(const std::string&)> log);
+    Implementation(std::uint16_t port, Handlers handlers);
 
     std::uint16_t port() const { return port_; }
     const std::string& token() const { return token_; }
     const Publication& state() const { return state_; }
 
     void run() { context_.run(); }
-    void stop() { context_.stop(); }
+    void stop() {
+        renderer_.stop();
+        context_.stop();
+    }
     void publish(Publication publication);
 
     class Connection;
     void enter(Connection& connection) { connections_.push_back(&connection); }
     void leave(Connection& connection) { std::erase(connections_, &connection); }
     void refused(unsigned status);
+    /// False if too many wait for one.
+    bool render(std::vector<Change> changes, std::function<void(Reference)> answer);
 
   private:
     void accept();
     void make_room();
 
-    std::function<void(const std::string&)> log_;
+    Handlers handlers_;
     std::size_t refused_ = 0;
     std::uint16_t port_ = 0;
     std::string token_ = random_token();
@@ -106,6 +115,8 @@ class Server::Implementation {
     asio::steady_timer pause_{context_};
     tcp::acceptor acceptor_{context_};
     asio::signal_set signals_{context_};
+    int waiting_ = 0;
+    asio::thread_pool renderer_{1};
 };
 
 /// A browser's: one request and its answer, or events until either side ends.
@@ -163,6 +174,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
             return send(refusal(route.status));
         }
         if (route.resource == Resource::events) return open_events();
+        if (route.resource == Resource::reference) return render(route.query);
         send(page(route.query));
     }
 
@@ -199,6 +211,21 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
         answer.set(http::field::content_type, "text/html; charset=utf-8");
         answer.body() = state.page ? *state.page : waiting_page();
         return answer;
+    }
+
+    void render(const std::string& query) {
+        std::optional<std::vector<Change>> changes = changes_of(query);
+        if (!changes) return send(refusal(400));
+        stream_.expires_never();
+        const bool is_accepted =
+            server_.render(*std::move(changes), [self = shared_from_this()](Reference reference) {
+                Response answer = self->response(reference.is_picture ? http::status::ok
+                                                                      : http::status::unprocessable_entity);
+                if (reference.is_picture) answer.set(http::field::content_type, "image/png");
+                answer.body() = std::move(reference.content);
+                self->send(std::move(answer));
+            });
+        if (!is_accepted) send(refusal(503));
     }
 
     void send(Response response) {
@@ -257,8 +284,8 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     bool is_outdated_ = false;  // what is being written
 };
 
-Server::Implementation::Implementation(std::uint16_t port, std::function<void(const std::string&)> log)
-    : log_(std::move(log)) {
+Server::Implementation::Implementation(std::uint16_t port, Handlers handlers)
+    : handlers_(std::move(handlers)) {
     try {
         const tcp::endpoint here(asio::ip::address_v4::loopback(), port);
         acceptor_.open(here.protocol());
@@ -293,6 +320,19 @@ void Server::Implementation::accept() {
     });
 }
 
+bool Server::Implementation::render(std::vector<Change> changes, std::function<void(Reference)> answer) {
+    if (waiting_ == k_most_waiting) return false;
+    ++waiting_;
+    asio::post(renderer_, [this, changes = std::move(changes), answer = std::move(answer)]() mutable {
+        Reference reference = handlers_.render(changes);
+        asio::post(context_, [this, reference = std::move(reference), answer = std::move(answer)]() mutable {
+            --waiting_;
+            answer(std::move(reference));
+        });
+    });
+    return true;
+}
+
 /// Whoever has been connected longest without asking anything is the first to go, then whoever has been
 /// longest at all.
 void Server::Implementation::make_room() {
@@ -305,9 +345,9 @@ void Server::Implementation::make_room() {
 void Server::Implementation::refused(unsigned status) {
     ++refused_;
     if (refused_ > k_most_refusals_logged) return;
-    log_(fmt::format("a request was refused ({} {}){}", status,
-                     std::string(http::obsolete_reason(static_cast<http::status>(status))),
-                     refused_ == k_most_refusals_logged ? "; others will not be mentioned" : ""));
+    handlers_.log(fmt::format("a request was refused ({} {}){}", status,
+                              std::string(http::obsolete_reason(static_cast<http::status>(status))),
+                              refused_ == k_most_refusals_logged ? "; others will not be mentioned" : ""));
 }
 
 void Server::Implementation::publish(Publication publication) {
@@ -319,8 +359,8 @@ void Server::Implementation::publish(Publication publication) {
     });
 }
 
-Server::Server(std::uint16_t port, std::function<void(const std::string&)> log)
-    : implementation_(std::make_unique<Implementation>(port, std::move(log))) {}
+Server::Server(std::uint16_t port, Handlers handlers)
+    : implementation_(std::make_unique<Implementation>(port, std::move(handlers))) {}
 Server::~Server() = default;
 
 std::string Server::address() const {

@@ -5,19 +5,32 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "view/publication.h"
+#include "view/request.h"
 
 namespace view {
+
+/// What the renderer makes of the scene with somebody's changes: the bytes of a PNG file, or what is wrong.
+struct Reference {
+    bool is_picture = false;
+    std::string content;
+};
 
 /// Listens on 127.0.0.1 and nowhere else. A request is answered only if it knows the address' token and does
 /// not come from another site; there are limits on its size, its time and how many there are at once.
 /// Browsers that are slow are told the newest state, not all of them, and hold up nobody.
 class Server {
   public:
-    /// Port 0: one that is free. `log` is told what is refused, on the thread that calls run(). Throws
-    /// candela::Error (failure) where it cannot be listened on.
-    Server(std::uint16_t port, std::function<void(const std::string&)> log);
+    struct Handlers {
+        std::function<void(const std::string&)> log;  // what is refused; on the thread that calls run()
+        std::function<Reference(const std::vector<Change>&)>
+            render;  // on a thread of its own, one call at a time
+    };
+
+    /// Port 0: one that is free. Throws candela::Error (failure) where it cannot be listened on.
+    Server(std::uint16_t port, Handlers handlers);
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
     ~Server();

@@ -1,5 +1,7 @@
 """The page that `candela view` serves, in a browser, while its scene's files are saved."""
 import os
+import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -156,6 +158,61 @@ class Viewing(unittest.TestCase):
         included.write_text(light)
         self.wait_until_shown(3)
         self.assert_shows()
+
+    def compare(self, mode):
+        """What the page says about Candela's own picture."""
+        self.browser.enter("#reference-mode", mode)
+        self.wait_for("!document.getElementById('reference-canvas').hidden")
+        return self.browser.text("#reference-text")
+
+    def test_candelas_own_picture_stands_beside_the_pages_with_what_was_changed_in_it(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.unfold_all()
+        self.browser.one("canvas").send_keys("+")
+        self.browser.enter('[data-path="reflection"] select', "half-lambert")
+        self.browser.enter('[data-path="object.0.color"] input', "#20c040")
+        text = self.compare("difference")
+        differing, of = map(int, re.match(r"(\d+) of (\d+) pixels differ", text).groups())
+        self.assertLessEqual(differing, MOST_DIFFERENT * of, text)
+        heat = self.browser.run("""
+            const canvas = document.getElementById("reference-canvas"), data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+            return [canvas.width, canvas.height, data.reduce((sum, value, i) => sum + (i % 4 < 3 && value > 0 ? 1 : 0), 0)];""")
+        self.assertEqual(heat[0] * heat[1], of)
+        self.assertLess(heat[2], 3 * 0.2 * of)
+        # The picture itself: the one that candela render makes of these options.
+        options = self.browser.driver.execute_async_script("""
+            const done = arguments[0];
+            navigator.clipboard.writeText = (text) => { done(text); return Promise.resolve(); };
+            document.getElementById("copy-options").click();""")
+        self.assertIn("--reflection half-lambert", options)
+        reference = self.folder / "reference.ppm"
+        candela("render", self.file, "-o", reference, *shlex.split(options))
+        reference = Picture.of_ppm(reference)
+        self.compare("wipe")
+        shown = self.browser.run("""
+            const canvas = document.getElementById("reference-canvas");
+            return [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data];""")
+        shown = bytes(value for i, value in enumerate(shown) if i % 4 < 3)
+        self.assertEqual(shown, bytes(reference.pixels))
+        self.assertIn("inset(", self.browser.run("return document.getElementById('reference-canvas').style.clipPath"))
+
+    def test_a_formula_that_draws_otherwise_is_seen_in_the_difference(self):
+        self.view()
+        self.wait_until_shown(1)
+        # As a shader of a broken driver would: the page's lights are dimmed behind its back.
+        self.browser.run("""
+            const own = WebGL2RenderingContext.prototype.texSubImage2D;
+            WebGL2RenderingContext.prototype.texSubImage2D = function (...words) {
+                const data = words.at(-1);
+                if (data instanceof Int32Array) new Float32Array(data.buffer).forEach((value, i, all) => { all[i] = value * 0.8; });
+                return own.apply(this, words);
+            };""")
+        self.browser.unfold_all()
+        self.browser.enter('[data-path="object.0.color"] input', "#20c041")
+        text = self.compare("difference")
+        differing, of = map(int, re.match(r"(\d+) of (\d+) pixels differ", text).groups())
+        self.assertGreater(differing, 0.05 * of, text)
 
     def test_all_browsers_see_the_same(self):
         self.view()

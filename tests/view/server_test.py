@@ -175,6 +175,26 @@ class ServerTest(unittest.TestCase):
                     continue
         self.assertEqual(self.view.status(f"/{self.view.token}/"), 302)
 
+    def test_the_renderers_picture_is_had_with_changes(self):
+        path = f"/{self.view.token}/reference.png"
+        plain = self.view.get(path)
+        self.assertIn(b"Content-Type: image/png", plain)
+        picture = plain.split(b"\r\n\r\n", 1)[1]
+        expected = self.view.folder / "expected.png"
+        subprocess.run([COMMAND, "render", "--quiet", self.view.file, "-o", expected], env=ENVIRONMENT, check=True)
+        self.assertEqual(picture, expected.read_bytes())
+        changed = self.view.get(f"{path}?set=object.0.color%3D%5B9,200,9%5D&shading=flat").split(b"\r\n\r\n", 1)[1]
+        subprocess.run([COMMAND, "render", "--quiet", self.view.file, "-o", expected, "--set", "object.0.color=[9,200,9]", "--shading", "flat"],
+                       env=ENVIRONMENT, check=True)
+        self.assertEqual(changed, expected.read_bytes())
+        wrong = self.view.get(f"{path}?set=object.0.colour%3D3")
+        self.assertIn(b" 422 ", wrong[:20])
+        self.assertIn(b"colour", wrong)
+
+    def test_options_that_change_no_picture_are_refused(self):
+        for query in ("output=/tmp/x", "plugin-dir=/tmp", "set", "set=%", "set=%zz", "set=%00", "=", "set=a&-o=b", "&"):
+            self.assertEqual(self.view.status(f"/{self.view.token}/reference.png?{query}"), 400, query)
+
     def test_large_requests_are_cut_off(self):
         for head in (b"GET / HTTP/1.1\r\nX: ", f"GET /{self.view.token}/".encode(), b"POST / HTTP/1.1\r\nContent-Length: 1000000000\r\n\r\n"):
             sent = 0

@@ -1,6 +1,7 @@
 import { element } from "./elements.js";
 import { fragmentOf } from "./link.js";
 import { announce, showError, showNotice } from "./messages.js";
+import { commandLineOf } from "./options.js";
 
 async function copyToClipboard(text) {
     try {
@@ -46,6 +47,17 @@ export function connectActions(settings, render) {
         const isCopied = await copyToClipboard(location.href);
         announce(isCopied ? "The link is copied." : "The link is in the address bar.");
         showOn(document.getElementById("copy-link"), isCopied ? "Link copied" : "Link is in the address bar");
+    });
+    onClick("copy-options", async () => {
+        const button = document.getElementById("copy-options"), text = commandLineOf(settings);
+        if (text === "") {
+            showOn(button, "All is as the scene says");
+            return;
+        }
+        const isCopied = await copyToClipboard(text);
+        announce(isCopied ? "The options of candela render are copied." : text);
+        if (isCopied) showOn(button, "Options copied");
+        else showNotice(text);
     });
     onClick("save-picture", async () => {
         const { width, height } = settings.scene.image;

@@ -14,11 +14,11 @@ async function fetchScene(generation) {
 
 /**
  * Keeps the page up to date where `candela view` serves it: the address then says of which generation the page is. `show`
- * takes a scene. Without a server, nothing happens.
+ * takes a scene. Without a server, nothing happens, and the result is false.
  */
 export function followScene(show, onError) {
     const parameters = new URLSearchParams(location.search);
-    if (!parameters.has("live")) return;
+    if (!parameters.has("live")) return false;
     let shown = Number(parameters.get("live")), wanted = shown, isFetching = false;
     const update = async () => {
         if (isFetching) return;
@@ -46,4 +46,5 @@ export function followScene(show, onError) {
     events.addEventListener("problems", (event) => showSceneProblems(JSON.parse(event.data)));
     events.addEventListener("open", () => showNotice(""));
     events.addEventListener("error", () => showNotice(ENDED));
+    return true;
 }

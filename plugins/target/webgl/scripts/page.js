@@ -8,6 +8,7 @@ import { followScene } from "./live.js";
 import { showError, showNotice } from "./messages.js";
 import { Panels } from "./panels.js";
 import { Renderer } from "./renderer.js";
+import { Reference } from "./reference.js";
 import { readScene } from "./scene.js";
 import { Settings } from "./settings.js";
 import { sliderExtent } from "./sliders.js";
@@ -76,7 +77,8 @@ export class Page {
             this.openViewport();
         });
         document.body.classList.add("open");
-        followScene((scene) => this.show(scene), showError);
+        if (followScene((scene) => this.show(scene), showError))
+            this.reference = new Reference(settings, this.canvas, (width, height) => this.pixels(width, height));
     }
 
     setProportion() {
@@ -105,6 +107,7 @@ export class Page {
         this.controls.extent = sliderExtent(scene, renderer.bounds);
         this.panels.rebuild();
         this.viewport.use(renderer);
+        this.reference.invalidate();
     }
 
     openViewport() {

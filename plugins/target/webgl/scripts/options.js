@@ -1,0 +1,32 @@
+/** As TOML, and so as --set takes it: numbers, arrays, truth values and texts. */
+const tomlOf = (value) => JSON.stringify(value);
+
+/**
+ * What has been changed in the page, as options of `candela render`: pairs of an option's name ("set", "shading", "reflection") and
+ * its value. Values of models that are not in force have no effect, and are left out.
+ */
+export function optionsOf(settings) {
+    const { scene } = settings, options = [];
+    for (const [path, value] of settings.changes) {
+        const [kind, index, group, ...rest] = path.split(".");
+        if (kind === "shading" || kind === "reflection") {
+            if (value !== "") options.push([kind, value]);
+        } else if (kind === "light" && group === "on") {
+            if (!value) options.push(["set", `light.${index}.intensity=0`]);
+        } else if (kind === "light") {
+            options.push(["set", `light.${index}.${rest[0]}=${tomlOf(value)}`]);
+        } else if (kind === "object" && group !== "color") {
+            const model = group === "material" ? "reflection" : "shading";
+            if (settings.modelOf(scene.objects[index], model) === rest[0]) options.push(["set", `object.${index}.${group}.${rest[1]}=${tomlOf(value)}`]);
+        } else {
+            options.push(["set", `${path}=${tomlOf(value)}`]);
+        }
+    }
+    // An intensity that was changed and then switched off is off.
+    return options.sort(([, a], [, b]) => Number(a.endsWith(".intensity=0")) - Number(b.endsWith(".intensity=0")));
+}
+
+const quoted = (text) => (/^[\w.,=:+/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+
+/** The same as words of a shell. */
+export const commandLineOf = (settings) => optionsOf(settings).map(([name, value]) => `--${name} ${quoted(value)}`).join(" ");

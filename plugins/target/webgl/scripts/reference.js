@@ -1,0 +1,91 @@
+import { optionsOf } from "./options.js";
+
+const DELAY_MS = 120;  // a hand that moves a slider does not wait for pictures
+
+/** How two pictures of RGBA bytes differ: the differences' statistics, and a picture of them from black to white. */
+export function compare(a, b) {
+    const heat = new Uint8ClampedArray(a.length);
+    let largest = 0, sum = 0, beyond = 0;
+    for (let i = 0; i < a.length; i += 4) {
+        const levels = [0, 1, 2].map((c) => Math.abs(a[i + c] - b[i + c])), most = Math.max(...levels);
+        largest = Math.max(largest, most);
+        sum += levels[0] + levels[1] + levels[2];
+        if (most > 2) beyond += 1;
+        // Black, red, yellow, white; from 1 level to 64.
+        const heatOf = most === 0 ? 0 : 0.15 + 0.85 * Math.min(1, Math.log2(most) / 6);
+        heat.set([0, 1, 2].map((c) => 255 * Math.min(1, Math.max(0, 3 * heatOf - c))), i);
+        heat[i + 3] = 255;
+    }
+    const pixels = a.length / 4;
+    return { heat, largest, mean: sum / (3 * pixels), beyond, pixels };
+}
+
+/**
+ * The renderer's own picture of what the page shows, laid over the page's: a part of it (wipe), or where the two differ. Only where
+ * `candela view` serves the page, since the picture comes from there.
+ */
+export class Reference {
+    /** `pixels`: the page's picture of the scene's size, as rows of RGBA bytes. */
+    constructor(settings, canvas, pixels) {
+        Object.assign(this, { settings, pictureCanvas: canvas, pixels });
+        this.overlay = document.getElementById("reference-canvas");
+        this.mode = document.getElementById("reference-mode");
+        this.share = document.getElementById("reference-share");
+        this.text = document.getElementById("reference-text");
+        this.request = 0;
+        document.getElementById("reference").hidden = false;
+        this.mode.addEventListener("change", () => this.invalidate());
+        this.share.addEventListener("input", () => this.place());
+        new ResizeObserver(() => this.place()).observe(canvas);
+        settings.listeners.push(() => this.invalidate());
+    }
+
+    /** Something has changed that the picture shows. */
+    invalidate() {
+        this.request += 1;
+        const isOn = this.mode.value !== "off";
+        this.share.parentElement.hidden = this.mode.value !== "wipe";
+        this.overlay.hidden = true;
+        this.text.textContent = isOn ? "Candela renders …" : "";
+        clearTimeout(this.timer);
+        if (isOn) this.timer = setTimeout(() => this.update(this.request), DELAY_MS);
+    }
+
+    async update(request) {
+        const query = optionsOf(this.settings).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
+        let picture = null, problem = "";
+        try {
+            const response = await fetch(`reference.png?${query}`);
+            if (response.ok) picture = await createImageBitmap(await response.blob(), { colorSpaceConversion: "none" });
+            else problem = await response.text();
+        } catch (error) {
+            problem = error.message;
+        }
+        if (request !== this.request) return;
+        if (picture === null) this.text.textContent = problem;
+        else this.show(picture);
+    }
+
+    show(picture) {
+        const { width, height } = picture, { overlay } = this;
+        Object.assign(overlay, { width, height });
+        const context = overlay.getContext("2d", { willReadFrequently: true });
+        context.drawImage(picture, 0, 0);
+        const own = this.pixels(width, height), reference = context.getImageData(0, 0, width, height).data;
+        const { heat, largest, mean, beyond, pixels } = compare(own, reference);
+        if (this.mode.value === "difference") context.putImageData(new ImageData(heat, width, height), 0, 0);
+        const count = beyond === 1 ? "1 pixel differs" : `${beyond} of ${pixels} pixels differ`;
+        this.text.textContent = `${count} by more than 2 levels of 255; at most ${largest}, ${mean.toFixed(4)} on average.`;
+        overlay.hidden = false;
+        this.place();
+    }
+
+    place() {
+        const { overlay, pictureCanvas } = this, wipe = this.mode.value === "wipe";
+        const box = pictureCanvas.getBoundingClientRect(), around = overlay.parentElement.getBoundingClientRect();
+        Object.assign(overlay.style, {
+            left: `${box.left - around.left}px`, top: `${box.top - around.top}px`, width: `${box.width}px`, height: `${box.height}px`,
+            clipPath: wipe ? `inset(0 0 0 ${100 - Number(this.share.value)}%)` : "none",
+        });
+    }
+}
