@@ -110,6 +110,8 @@ bool SceneFollower::make_page() {
     const candela::ProgramOutput result = candela::run_program(words);
     if (is_ending_) return false;
     const std::string messages = without_lines_about(folder_.path(), result.err);
+    // While it has errors, the scene's whole folder is watched, and much may happen there.
+    const bool is_news = messages != latest_.problems;
     latest_.problems = messages;
     const bool is_right = result.exit_code == 0;
     if (is_right) {
@@ -122,10 +124,10 @@ bool SceneFollower::make_page() {
         }
         latest_.problems.clear();
         say(fmt::format("{}shown after {:.0f} ms\n", messages, watch.milliseconds()));
-    } else {
+    } else if (is_news) {
         say(messages);
     }
-    publish_(latest_);
+    if (is_news || is_right) publish_(latest_);
     return is_right;
 }
 
