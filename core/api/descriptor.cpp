@@ -13,6 +13,8 @@ constexpr std::array<std::string_view, k_plugin_kinds.size()> k_names = {"light"
 
 Instance::~Instance() = default;
 
+std::span<const float> Instance::table(std::size_t) const noexcept { return {}; }
+
 std::string_view name_of(PluginKind kind) noexcept { return k_names[static_cast<std::size_t>(kind)]; }
 
 std::optional<PluginKind> plugin_kind_named(std::string_view name) noexcept {

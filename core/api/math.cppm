@@ -14,6 +14,7 @@ using candela::ConstVec3Span;
 using candela::cross;
 using candela::dot;
 using candela::length;
+using candela::Matrix;
 using candela::normalized;
 using candela::Vec2Span;
 using candela::Vec3Span;

@@ -92,7 +92,9 @@ BatchSubject reflection_subject(const Values& values) {
             .to_observer = in.vec3(k_observer),
             .tangent = model->needs_tangent() ? in.vec3(k_tangent) : candela::ConstVec3Span{},
             .color = {0.8f, 0.5f, 0.2f},
-            .position = in.vec3(k_position)};
+            .position = in.vec3(k_position),
+            .uv = model->needs_uv() ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]}
+                                    : candela::ConstVec2Span{}};
     };
     const auto reflected = [](Arrays& out) {
         return candela::ReflectedBatch{

@@ -142,8 +142,11 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
     if (!validator) SKIP("there is no glslangValidator here");
     const std::filesystem::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
-    std::ifstream prelude_file(include / "candela/prelude.kernel");
-    const std::string prelude{std::istreambuf_iterator<char>(prelude_file), {}};
+    std::string prelude;
+    for (const char* const part : {"candela/table.glsl", "candela/prelude.kernel"}) {
+        std::ifstream file(include / part);
+        prelude.append(std::istreambuf_iterator<char>(file), {});
+    }
     const TemporaryDirectory directory;
     const std::filesystem::path shader = directory.path() / "shader.frag";
     for (const std::string version : {"330 core", "300 es"}) {

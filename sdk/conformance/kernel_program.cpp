@@ -6,13 +6,20 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <memory>
+#include <span>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "programs.h"
 
 import candela.light;
+import candela.reflection;
+import candela.shading;
+import candela.shape;
 
 namespace fs = std::filesystem;
 using candela::Parameter;
@@ -21,7 +28,7 @@ using candela::PluginKind;
 
 namespace {
 
-constexpr std::size_t k_slots = 3;  // floats that a parameter takes, whatever its type
+constexpr std::size_t k_slots = 9;  // floats that a parameter takes, whatever its type
 
 /// Statements that fill the kernel's struct, whose members are called as the parameters (see KernelText).
 std::string members_from_parameters() {
@@ -40,8 +47,19 @@ std::string members_from_parameters() {
                 text += fmt::format("    m.{} = int(p[{}]);\n", p.name, at);
                 break;
             case ParamType::text:
-            case ParamType::file:
                 break;  // the kernel language has no texts
+            case ParamType::file:
+            case ParamType::numbers:
+                text += fmt::format(
+                    "    if (sizes[{1}] > 0) m.{0}.numbers = tables[{1}], m.{0}.count = sizes[{1}];\n",
+                    p.name, i);
+                break;
+            case ParamType::matrix:
+                text += fmt::format(
+                    "    m.{0} = transpose(mat3(vec3(p[{1}], p[{2}], p[{3}]), vec3(p[{4}], p[{5}], "
+                    "p[{6}]), vec3(p[{7}], p[{8}], p[{9}])));\n",
+                    p.name, at, at + 1, at + 2, at + 3, at + 4, at + 5, at + 6, at + 7, at + 8);
+                break;
             default:
                 text += fmt::format("    m.{} = vec3(p[{}], p[{}], p[{}]);\n", p.name, at, at + 1, at + 2);
         }
@@ -63,16 +81,18 @@ std::string body_of(PluginKind kind) {
     const auto function = [](const std::string& name, const std::string& before, const std::string& call,
                              const std::string& after) {
         return fmt::format(
-            "extern \"C\" void run_{}(const float* p, int sample, unsigned long count, const float* const* "
-            "in, float* "
-            "const* out) {{\n    PARAMETERS\n    for (unsigned long i = 0; i < count; ++i) {{\n        {}    "
+            "extern \"C\" void run_{}(const float* p, const float* const* tables, const int* sizes, int "
+            "sample, "
+            "unsigned long count, const float* const* in, float* const* out) {{\n    PARAMETERS\n    for "
+            "(unsigned long i = 0; i < count; ++i) {{\n        {}    "
             "    {}\n"
             "        {}    }}\n}}\n",
             name, before, call, after);
     };
     const std::string surface =
-        fmt::format("Surface s{{{}, {}, {}, vec3(0.8f, 0.5f, 0.2f)}};\n", three("in", in::k_normal),
-                    three("in", in::k_observer), three("in", in::k_tangent));
+        fmt::format("Surface s{{{}, {}, {}, vec3(0.8f, 0.5f, 0.2f), {}, vec2(in[{}][i], in[{}][i])}};\n",
+                    three("in", in::k_normal), three("in", in::k_observer), three("in", in::k_tangent),
+                    three("in", in::k_position), in::k_uv, in::k_uv + 1);
     const std::string receiver =
         fmt::format("Receiver s{{{}, {}}};\n", three("in", in::k_position), three("in", in::k_normal));
     switch (kind) {
@@ -117,9 +137,11 @@ std::string source() {
     const std::string constants = is_prepared ? fmt::format("{}_prepare(m)", kernel.prefix) : "m";
     const std::string filled =
         parameters.empty()
-            ? std::string("const int m = 0; (void)m; (void)p; (void)sample;")
-            : fmt::format("(void)p; (void)sample; const auto m = [&] {{ {} m;\n{} return {}; }}();",
-                          parameters, members_from_parameters(), constants);
+            ? std::string("const int m = 0; (void)m; (void)p; (void)tables; (void)sizes; (void)sample;")
+            : fmt::format(
+                  "(void)p; (void)tables; (void)sizes; (void)sample; const auto m = [&] {{ {} m;\n{} return "
+                  "{}; }}();",
+                  parameters, members_from_parameters(), constants);
     const std::string text = fmt::format(
         "#include \"candela/kernel.h\"\n"
         "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
@@ -158,12 +180,38 @@ std::vector<float> delivered(const Values& values) {
         const ParamType type = subject_manifest().parameters[i].type;
         const bool is_whole =
             type == ParamType::integer || type == ParamType::boolean || type == ParamType::choice;
-        slots.push_back(is_whole ? static_cast<float>(all[i].integer) : all[i].number[0]);
-        slots.push_back(all[i].number[1]);
-        slots.push_back(all[i].number[2]);
+        slots.insert(slots.end(), std::begin(all[i].number), std::end(all[i].number));
+        if (is_whole) slots[slots.size() - k_slots] = static_cast<float>(all[i].integer);
     }
     return slots;
 }
+
+std::shared_ptr<candela::Instance> instance_of(const Values& values) {
+    switch (subject_manifest().kind) {
+        case PluginKind::light:
+            return make<candela::Light>(values);
+        case PluginKind::reflection:
+            return make<candela::ReflectionModel>(values);
+        case PluginKind::shading:
+            return make<candela::ShadingModel>(values);
+        default:
+            return make<candela::Shape>(values);
+    }
+}
+
+/// The tables of an instance, by parameter.
+struct Tables {
+    explicit Tables(const Values& values) : instance(instance_of(values)) {
+        for (std::size_t i = 0; i < subject_manifest().parameters.size(); ++i) {
+            const std::span<const float> table = instance->table(i);
+            numbers.push_back(table.data());
+            sizes.push_back(static_cast<int>(table.size()));
+        }
+    }
+    std::shared_ptr<candela::Instance> instance;
+    std::vector<const float*> numbers;
+    std::vector<int> sizes;
+};
 
 }  // namespace
 
@@ -229,7 +277,9 @@ void KernelProgram::run(const std::string& call, const Values& values, int sampl
     std::vector<float*> to;
     for (std::size_t a = 0; a < in.arrays(); ++a) from.push_back(in[a]);
     for (std::size_t a = 0; a < out.arrays(); ++a) to.push_back(out[a]);
-    function(call)(parameters.data(), sample, in.count(), from.data(), to.data());
+    const Tables tables(values);
+    function(call)(parameters.data(), tables.numbers.data(), tables.sizes.data(), sample, in.count(),
+                   from.data(), to.data());
 }
 
 candela::Vec3 KernelProgram::position(const Values& values, float u, float v) const {

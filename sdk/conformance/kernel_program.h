@@ -44,8 +44,8 @@ class KernelProgram {
     candela::Vec3 position(const Values& values, float u, float v) const;
 
   private:
-    using Function = void (*)(const float* parameters, int sample, std::size_t count, const float* const* in,
-                              float* const* out);
+    using Function = void (*)(const float* parameters, const float* const* tables, const int* table_sizes,
+                              int sample, std::size_t count, const float* const* in, float* const* out);
     Function function(const std::string& name) const;
 
     TemporaryDirectory directory_;

@@ -42,7 +42,9 @@ class Reflections {
                          .to_observer = given.vec3(3),
                          .tangent = model_->needs_tangent() ? given.vec3(6) : candela::ConstVec3Span{},
                          .color = {1, 1, 1},
-                         .position = given.vec3(15)},
+                         .position = given.vec3(15),
+                         .uv = model_->needs_uv() ? candela::ConstVec2Span{given[15], given[16]}
+                                                  : candela::ConstVec2Span{}},
                         {.to_light = given.vec3(9), .diffuse = given.vec3(12), .specular = given.vec3(12)},
                         {.ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
         std::vector<Vec3> sums;
@@ -245,14 +247,15 @@ TEST_CASE("surroundings: where one intensity comes from everywhere, no more than
         const Arrays in = inputs_for(1000);
         Arrays out(9, in.count());
         Furnace furnace;
-        model->show_surroundings({.count = in.count(),
-                                  .normal = in.vec3(0),
-                                  .to_observer = in.vec3(3),
-                                  .tangent = model->needs_tangent() ? in.vec3(6) : candela::ConstVec3Span{},
-                                  .color = {1, 1, 1},
-                                  .position = in.vec3(18)},
-                                 furnace,
-                                 {.ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
+        model->show_surroundings(
+            {.count = in.count(),
+             .normal = in.vec3(0),
+             .to_observer = in.vec3(3),
+             .tangent = model->needs_tangent() ? in.vec3(6) : candela::ConstVec3Span{},
+             .color = {1, 1, 1},
+             .position = in.vec3(18),
+             .uv = model->needs_uv() ? candela::ConstVec2Span{in[33], in[34]} : candela::ConstVec2Span{}},
+            furnace, {.ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
         for (std::size_t i = 0; i < in.count(); ++i) {
             const float seen = largest(out.at(6, i));
             if (seen > 1.001f)

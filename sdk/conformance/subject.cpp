@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <variant>
 
@@ -53,6 +54,14 @@ std::vector<double> numbers_in(const std::string& text) {
     return {};
 }
 
+/// All numbers of a text, whatever its brackets and commas; none if anything else is in it.
+std::vector<float> all_numbers_in(std::string text) {
+    std::ranges::replace_if(text, [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+    std::istringstream in(text);
+    std::vector<float> numbers{std::istream_iterator<float>(in), {}};
+    return in.eof() ? numbers : std::vector<float>();
+}
+
 /// A text as a value of a parameter's type. Throws std::invalid_argument if it is none.
 candela::Value value_from(const Parameter& p, const std::string& text) {
     const std::vector<double> numbers = numbers_in(text);
@@ -76,6 +85,18 @@ candela::Value value_from(const Parameter& p, const std::string& text) {
         case ParamType::real:
             require(numbers.size() == 1);
             return numbers[0];
+        case ParamType::matrix: {
+            const std::vector<float> all = all_numbers_in(text);
+            candela::Matrix rows{};
+            require(all.size() == rows.size());
+            std::ranges::copy(all, rows.begin());
+            return rows;
+        }
+        case ParamType::numbers: {
+            const std::vector<float> all = all_numbers_in(text);
+            require(!all.empty());
+            return all;
+        }
         default:
             break;
     }
@@ -103,6 +124,7 @@ Range range_of(const Parameter& p) {
     Range range{has_low ? p.minimum : (has_high ? p.maximum - k_far : -k_far),
                 has_high ? p.maximum : (has_low ? p.minimum + k_far : k_far)};
     if (p.type == ParamType::point && !has_low) range = {-4, 4};
+    if (p.type == ParamType::matrix && !has_low && !has_high) range = {-2, 2};
     const double hair = 1e-3 * std::min(range.high - range.low, 1.0);
     if (p.minimum_excluded) range.low += hair;
     if (p.maximum_excluded) range.high -= hair;
@@ -138,6 +160,19 @@ candela::Value value_at(const Parameter& p, double t, const Vec3& turn) {
             return three(std::round(at(t)));
         case ParamType::rgb:
             return three(at(t));
+        case ParamType::matrix: {
+            candela::Matrix rows{};
+            for (std::size_t i = 0; i < rows.size(); ++i)
+                rows[i] = static_cast<float>(at(std::fmod(t + 0.375 * static_cast<double>(i), 1.0)));
+            return rows;
+        }
+        case ParamType::numbers: {
+            // One number, or up to sixteen.
+            std::vector<float> list;
+            for (int i = 0; i <= static_cast<int>(15 * t); ++i)
+                list.push_back(static_cast<float>(at(i % 2 == 0 ? t : 1 - t)));
+            return list;
+        }
         default: {
             const auto part = [&](float share) { return static_cast<float>(at(0.5 + 0.5 * double{share})); };
             return turn == Vec3{} ? three(at(t)) : Vec3{part(turn.x), part(turn.y), part(turn.z)};

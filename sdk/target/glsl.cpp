@@ -46,17 +46,27 @@ constexpr const char* k_light_table =
     "float table_float(int at) {{ return intBitsToFloat(table_bits(at).x); }}\n"
     "int table_int(int at) {{ return table_bits(at).x; }}\n\n";
 
-/// How a shader reads a member of a struct from the table.
-const char* reader_of(ParamType type) {
+/// How a shader reads a member of a struct from the texels from `at` on.
+std::string read_member(ParamType type, std::size_t offset) {
+    const auto read = [&](const char* reader, std::size_t beyond = 0) {
+        const std::size_t texel = offset + beyond;
+        return texel == 0 ? fmt::format("{}(at)", reader) : fmt::format("{}(at + {})", reader, texel);
+    };
     switch (type) {
         case ParamType::real:
-            return "table_float";
+            return read("table_float");
         case ParamType::integer:
         case ParamType::boolean:
         case ParamType::choice:
-            return "table_int";
+            return read("table_int");
+        case ParamType::matrix:
+            return fmt::format("mat3({}, {}, {})", read("table_vec3"), read("table_vec3", 1),
+                               read("table_vec3", 2));
+        case ParamType::file:
+        case ParamType::numbers:
+            return fmt::format("Table({0}.x, {0}.y)", read("table_bits"));
         default:
-            return "table_vec3";
+            return read("table_vec3");
     }
 }
 
@@ -73,9 +83,10 @@ LightLoop loop_over(const ExportedModel& model, const LightBlock& block) {
     std::string body;
     if (has_parameters(model)) {
         std::vector<std::string> members;
+        std::size_t offset = 0;
         for (const std::size_t i : plugin.kernel.members) {
-            const std::string at = members.empty() ? "at" : fmt::format("at + {}", members.size());
-            members.push_back(fmt::format("{}({})", reader_of(plugin.parameters[i].type), at));
+            members.push_back(read_member(plugin.parameters[i].type, offset));
+            offset += texels_of(plugin.parameters[i].type);
         }
         const std::string type = plugin.kernel.parameters, read = "read_" + light_name(model);
         loop.declarations += fmt::format(
@@ -148,12 +159,18 @@ std::string constants_name(const ExportedModel& model, const std::string& name) 
     return has_function(model, "prepare") ? name + "_constants" : name;
 }
 
+std::string needs_text(const ExportedReflection& model) {
+    return std::string(model.needs_tangent ? "#define NEEDS_TANGENT\n" : "") +
+           (model.needs_position ? "#define NEEDS_POSITION\n" : "") +
+           (model.needs_uv ? "#define NEEDS_UV\n" : "");
+}
+
 std::string reflection_text(const ExportedReflection& model) {
     return fmt::format(
         "{}\n{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
         "vec3 reflect_ambient(Surface s) {{ return {}; }}\n",
         model.plugin->kernel.text, uniform_of(model, "material"),
-        preparation_of(model, "material", "MATERIAL"), model.needs_tangent ? "#define NEEDS_TANGENT\n" : "",
+        preparation_of(model, "material", "MATERIAL"), needs_text(model),
         call(model, "reflect", constants_name(model, "material"), "s, to_light"),
         call(model, "reflect_ambient", constants_name(model, "material"), "s"));
 }
@@ -189,6 +206,7 @@ GlslParts glsl_of(const ExportedScene& scene) {
     static const std::regex k_trigonometry(R"(\ba?(sin|cos)\s*\()");
     parts.prelude = k_preamble;
     if (std::regex_search(users, k_trigonometry)) parts.prelude += candela_target_trigonometry;
+    parts.prelude += needed_parts(glsl_tables(), users);
     parts.prelude += needed_parts(kernel_prelude(), users) + "\n";
     return parts;
 }
@@ -200,13 +218,19 @@ std::vector<LightBlock> light_blocks(const ExportedScene& scene) {
         const ExportedModel& model = scene.light_models[m];
         const auto lights =
             static_cast<std::size_t>(std::ranges::count(scene.lights, m, &ExportedLight::model));
-        const std::size_t size = has_parameters(model) ? model.plugin->kernel.members.size() : 0;
+        std::size_t size = 0;
+        if (has_parameters(model)) {
+            for (const std::size_t i : model.plugin->kernel.members)
+                size += texels_of(model.plugin->parameters[i].type);
+        }
         blocks.push_back(
             {.count = light_name(model) + "_count", .lights = lights, .first = first, .size = size});
         first += size * lights;
     }
     return blocks;
 }
+
+std::size_t texels_of(ParamType type) { return type == ParamType::matrix ? 3 : 1; }
 
 const char* rate_name(ShadingRate rate) {
     constexpr const char* k_names[] = {"face", "vertex", "fragment"};

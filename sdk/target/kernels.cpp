@@ -15,6 +15,7 @@
 #include "candela/target/literals.h"
 
 CANDELA_EMBED(candela_target_prelude, CANDELA_TARGET_PRELUDE);
+CANDELA_EMBED(candela_target_tables, CANDELA_TARGET_TABLES);
 
 namespace candela::target {
 
@@ -100,6 +101,7 @@ std::string without_comments(const std::string& text) {
 }
 
 std::string_view kernel_prelude() { return candela_target_prelude; }
+std::string_view glsl_tables() { return candela_target_tables; }
 
 bool has_parameters(const ExportedModel& model) {
     return !std::string_view(model.plugin->kernel.parameters).empty();

@@ -33,6 +33,11 @@ std::string vec3_text(Vec3 v) {
     return fmt::format("vec3({}, {}, {})", float_text(v.x), float_text(v.y), float_text(v.z));
 }
 
+std::array<Vec3, 3> columns_of(const ParamValue& delivered) {
+    const float* const m = delivered.number;
+    return {{{m[0], m[3], m[6]}, {m[1], m[4], m[7]}, {m[2], m[5], m[8]}}};
+}
+
 std::string member_text(const ParamSpec& parameter, const ParamValue& delivered) {
     switch (parameter.type) {
         case ParamType::real:
@@ -43,6 +48,14 @@ std::string member_text(const ParamSpec& parameter, const ParamValue& delivered)
         case ParamType::integer:
         case ParamType::boolean:
             return fmt::format("{}", delivered.integer);
+        case ParamType::matrix: {
+            const auto columns = columns_of(delivered);
+            return fmt::format("mat3({}, {}, {})", vec3_text(columns[0]), vec3_text(columns[1]),
+                               vec3_text(columns[2]));
+        }
+        case ParamType::file:
+        case ParamType::numbers:
+            return fmt::format("Table{{{}, {}}}", delivered.integer, delivered.list.size());
         default:
             return vec3_text({delivered.number[0], delivered.number[1], delivered.number[2]});
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Compiles every kernel, after the prelude, as GLSL 3.30 and GLSL ES 3.00: a kernel is in the common subset of C++ and GLSL, or
 # it cannot be exported.
-#   check.sh PRELUDE KERNEL…
+#   check.sh PRELUDE KERNEL…     table.glsl lies beside the prelude
 set -euo pipefail
 prelude=$1
 shift
@@ -17,7 +17,7 @@ for kernel in "$@"; do
             printf '#version %s\n' "$version"
             [ "$version" = '330 core' ] || printf 'precision highp float;\nprecision highp int;\n'
             printf '#define KERNEL\nout vec4 color;\n'
-            cat "$prelude" "$kernel"
+            cat "${prelude%/*}/table.glsl" "$prelude" "$kernel"
             printf 'void main() { color = vec4(1.0); }\n'
         } >"$shader"
         if glslangValidator "$shader" >"$scratch/log" 2>&1; then

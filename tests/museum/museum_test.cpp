@@ -107,6 +107,8 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"reflection-lies-about-reciprocity", "reciprocal", "failed", "it is not reciprocal"},
         {"reflection-makes-energy", "energy-bounded", "failed", "times the light that falls in"},
         {"reflection-says-otherwise", "kernel as C++", "failed", "the kernel's text gives"},
+        {"reflection-reads-undeclared", "kernel as C++", "failed", "the kernel's text gives"},
+        {"reflection-exports-another-table", "kernel as C++", "failed", "the kernel's text gives"},
         {"reflection-speaks-no-cpp", "kernel as C++", "failed", "does not compile as C++"},
         {"reflection-speaks-no-glsl", "kernel as GLSL", "failed", "does not compile as GLSL 330 core"},
         {"image-swaps-channels", "round trip", "failed", "comes back"},

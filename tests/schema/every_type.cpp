@@ -11,9 +11,11 @@ struct Params {
     std::int32_t layers, metallic, finish;
     const char* label;
     vec3 tint, grain, anchor, axis, weights;
+    mat3 turn;
+    Table ramp;
 };
 
-class EveryType final : public candela::ReflectionModel {
+class EveryType : public candela::ReflectionModel {
   public:
     explicit EveryType(const Params&) {}
     void reflect(const candela::SurfaceBatch&, const candela::LightingBatch&,
@@ -23,6 +25,7 @@ class EveryType final : public candela::ReflectionModel {
 };
 
 constexpr const char* k_finishes[] = {"matt", "satin"};
+constexpr float k_ramp[] = {0, 1};
 
 constexpr auto k_fields = fields(
     real(&Params::gloss, "gloss", 0, "required").above(0).maximum(1).required(),
@@ -36,7 +39,9 @@ constexpr auto k_fields = fields(
     three(&Params::grain, candela::ParamType::vector, "grain", vec3(0), "how it runs").range(-2, 2),
     three(&Params::anchor, candela::ParamType::point, "anchor", vec3(0), "where it begins"),
     three(&Params::axis, candela::ParamType::direction, "axis", vec3(0, 1, 0), "which way it goes"),
-    three(&Params::weights, candela::ParamType::rgb, "weights", vec3(0.5f), "of the channels").below(1));
+    three(&Params::weights, candela::ParamType::rgb, "weights", vec3(0.5f), "of the channels").below(1),
+    matrix(&Params::turn, "turn", "of the grain").range(-1, 1),
+    numbers(&Params::ramp, "ramp", k_ramp, "of the gloss").minimum(0));
 
 }  // namespace
 

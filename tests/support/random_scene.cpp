@@ -236,6 +236,11 @@ class Generator {
                 return three(vector(-2, 2));
             case ParamType::direction:
                 return three(vector(0.1, 3));
+            case ParamType::matrix:
+                return fmt::format("[{}, {}, {}]", three(vector(-2, 2)), three(vector(-2, 2)),
+                                   three(vector(-2, 2)));
+            case ParamType::numbers:
+                return fmt::format("[{}, {}]", real(real_of(p)), real(real_of(p)));
             case ParamType::file:
                 break;
         }

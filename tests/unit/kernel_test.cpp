@@ -2,6 +2,7 @@
 
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
@@ -172,4 +173,63 @@ TEST_CASE("kernel matrices have columns, as in GLSL") {
     CHECK(k::determinant(m) == 1.0f);
     const k::mat3 one = m * k::inverse(m);
     check_equal(k::vec4(one[1], one[2].z), k::vec4(0.0f, 1.0f, 0.0f, 1.0f));
+}
+
+namespace {
+
+template <std::size_t count>
+k::Table table_of(const float (&numbers)[count]) {
+    k::Table table;
+    table.numbers = numbers;
+    table.count = static_cast<int>(count);
+    return table;
+}
+
+}  // namespace
+
+TEST_CASE("a kernel reads no memory but the table's, whatever the index, and 0 where there is nothing") {
+    constexpr float k_numbers[] = {3, 5, 4};
+    const k::Table table = table_of(k_numbers);
+    CHECK(k::table_size(table) == 3);
+    CHECK(k::table_at(table, 1) == 5);
+    for (const int low : {0, -1, std::numeric_limits<int>::min()}) CHECK(k::table_at(table, low) == 3);
+    for (const int high : {2, 3, std::numeric_limits<int>::max()}) CHECK(k::table_at(table, high) == 4);
+    CHECK(k::table_size(k::Table()) == 0);
+    for (const int i : {-1, 0, 1}) CHECK(k::table_at(k::Table(), i) == 0);
+    CHECK(k::table_lookup(k::Table(), 0.5f) == 0);
+}
+
+TEST_CASE("a table is interpolated from its first number at 0 to its last at 1, and constant beyond") {
+    constexpr float k_numbers[] = {3, 5, 4};
+    const k::Table table = table_of(k_numbers);
+    CHECK(k::table_lookup(table, 0.0f) == 3);
+    CHECK(k::table_lookup(table, 0.25f) == 4);
+    CHECK(k::table_lookup(table, 0.5f) == 5);
+    CHECK(k::table_lookup(table, 0.75f) == 4.5f);
+    CHECK(k::table_lookup(table, 1.0f) == 4);
+    CHECK(k::table_lookup(table, -7.0f) == 3);
+    CHECK(k::table_lookup(table, 7.0f) == 4);
+}
+
+TEST_CASE("a grid in a table is interpolated between its columns and rows, and constant beyond its edge") {
+    constexpr float k_numbers[] = {-1, 0, 1, 2, 10, 20, 30};  // two rows of three, after one number
+    const k::Table table = table_of(k_numbers);
+    const auto at = [&](float x, float y) { return k::table_lookup_grid(table, 1, 3, 2, x, y); };
+    CHECK(at(0, 0) == 0);
+    CHECK(at(2, 1) == 30);
+    CHECK(at(0.5f, 0) == 0.5f);
+    CHECK(at(1, 0.5f) == 10.5f);
+    CHECK(at(-3, 9) == 10);
+    CHECK(at(9, -3) == 2);
+}
+
+TEST_CASE("nothing lies between the members of a struct with tables, so that each can be found") {
+    struct Params {
+        float a;
+        k::Table b;
+        k::mat3 c;
+        k::Table d;
+        int e;
+    };
+    STATIC_CHECK(sizeof(Params) == 2 * sizeof(float) + 2 * sizeof(k::Table) + sizeof(k::mat3));
 }

@@ -1,7 +1,9 @@
 #include <candela/abi.h>
 
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -54,7 +56,15 @@ candela::Manifest sample_manifest() {
          .meaning = "x",
          .default_value = Vec3{0.1f, 0.2f, 0.3f},
          .maximum = 1,
-         .maximum_excluded = true}};
+         .maximum_excluded = true},
+        {.name = "turn",
+         .type = ParamType::matrix,
+         .meaning = "x",
+         .default_value = candela::Matrix{1, 0, 0.1f, 0, 1, 0, 0, 0, -1}},
+        {.name = "ramp",
+         .type = ParamType::numbers,
+         .meaning = "x",
+         .default_value = std::vector<float>{0.1f, 2}}};
     m.relations = {{candela::RelationType::less, "size", "count", true, "why"}};
     m.properties = {{"closed", "true"}, {"euler", "2"}};
     m.formats = {{"foo", "Foo", candela::PixelType::real}};
@@ -101,6 +111,36 @@ TEST_CASE("parameters are delivered as plugins expect them") {
     ParamSet required =
         set_of({.name = "r", .type = ParamType::point, .meaning = "", .default_value = std::nullopt});
     CHECK_THROWS_AS(required.delivered(ColorEncoding::none), std::invalid_argument);
+}
+
+TEST_CASE("matrices are delivered row by row, lists whole, and written as a scene file has them") {
+    const candela::Matrix rows{1, 2, 3, 4, 5, 6, 7, 8, 9};
+    ParamSet set(
+        {{.name = "m", .type = ParamType::matrix, .default_value = rows},
+         {.name = "n", .type = ParamType::numbers, .default_value = std::vector<float>{0.5f, 2, 1}}});
+    const auto delivered = set.delivered(candela::ColorEncoding::none);
+    CHECK(std::ranges::equal(delivered[0].number, rows));
+    CHECK(std::ranges::equal(delivered[1].list, std::vector<float>{0.5f, 2, 1}));
+    CHECK(candela::text_of(set.get("m")) == "[[1, 2, 3], [4, 5, 6], [7, 8, 9]]");
+    CHECK(candela::text_of(set.get("n")) == "[0.5, 2, 1]");
+    set.set("n", std::vector<float>{7});
+    CHECK(set.delivered(candela::ColorEncoding::none)[1].list.size() == 1);
+    CHECK_THROWS_AS(set.set("n", std::vector<float>{}), std::invalid_argument);
+    CHECK_THROWS_AS(set.set("n", std::vector<float>{1, std::numeric_limits<float>::infinity()}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(set.set("m", std::vector<float>(9)), std::invalid_argument);
+}
+
+TEST_CASE("the range of a matrix or a list is that of each of its numbers") {
+    ParamSet set = set_of({.name = "n",
+                           .type = ParamType::numbers,
+                           .meaning = "",
+                           .default_value = std::vector<float>{0},
+                           .minimum = 0,
+                           .maximum = 1});
+    set.set("n", std::vector<float>{0, 1, 0.5f});
+    CHECK_THROWS_AS(set.set("n", std::vector<float>{0, 1.5f, 0.5f}), std::invalid_argument);
+    CHECK(candela::constraint_text(set.schema()[0]) == "a list of at least one number, each 0 to 1");
 }
 
 TEST_CASE("a parameter set takes what fits and nothing else") {

@@ -298,3 +298,17 @@ TEST_CASE("what the format cannot say is refused, not changed") {
     other.lights[0].model.parameters = candela::ParamSet(scene.lights[0].model.parameters.schema());
     CHECK(refusal(other).find("'lamp': 'position' has no value") != std::string::npos);
 }
+
+TEST_CASE("a matrix is written row by row, a list number by number, each in as few digits as name it") {
+    Scene scene = read({});
+    std::vector<candela::Parameter> schema{
+        {.name = "mixing",
+         .type = candela::ParamType::matrix,
+         .default_value = candela::Matrix{0.1f, 2, 3, 4, 5, 6, 7, 8, 9.5f}},
+        {.name = "ramp", .type = candela::ParamType::numbers, .default_value = std::vector<float>{0.1f, 2}}};
+    for (candela::Object& object : scene.objects) object.reflection.parameters = candela::ParamSet(schema);
+    const std::string text = candela::scene_text(scene);
+    INFO(text);
+    CHECK(text.find("mixing = [[0.1, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.5]]\n") != std::string::npos);
+    CHECK(text.find("ramp   = [0.1, 2.0]\n") != std::string::npos);
+}

@@ -261,6 +261,10 @@ class ReferenceWriter {
                 return "[0, -1, -1]";
             case ParamType::vector:
                 return fmt::format("[{0}, {0}, {0}]", sample_number(p));
+            case ParamType::matrix:
+                return fmt::format("[[{0}, {0}, {0}], [{0}, {0}, {0}], [{0}, {0}, {0}]]", sample_number(p));
+            case ParamType::numbers:
+                return fmt::format("[{}]", sample_number(p));
             case ParamType::integer:
             case ParamType::real:
             case ParamType::rgb:

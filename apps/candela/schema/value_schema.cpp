@@ -78,6 +78,17 @@ Json triple_schema(const Parameter& p) {
     return schema;
 }
 
+Json matrix_schema(const Parameter& p) {
+    Json row{{"type", "array"}}, schema{{"type", "array"}};
+    put_three(row, real_schema(p));
+    put_three(schema, std::move(row));
+    return schema;
+}
+
+Json numbers_schema(const Parameter& p) {
+    return {{"type", "array"}, {"items", real_schema(p)}, {"minItems", 1}};
+}
+
 Json vector_schema(const Parameter& p) {
     Json schema{{"type", "array"}};
     put_three(schema, real_schema(p));
@@ -104,6 +115,10 @@ Json schema_of(const Parameter& p) {
             return color_schema();
         case ParamType::rgb:
             return triple_schema(p);
+        case ParamType::matrix:
+            return matrix_schema(p);
+        case ParamType::numbers:
+            return numbers_schema(p);
         case ParamType::vector:
         case ParamType::point:
         case ParamType::direction:

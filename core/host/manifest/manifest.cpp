@@ -44,6 +44,17 @@ Json json_of(const Value& value) {
         Json operator()(const Vec3& v) const {
             return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
         }
+        Json operator()(const Matrix& m) const {
+            Json rows = Json::array();
+            for (std::size_t i = 0; i < m.size(); i += 3)
+                rows.push_back((*this)(Vec3{m[i], m[i + 1], m[i + 2]}));
+            return rows;
+        }
+        Json operator()(const std::vector<float>& list) const {
+            Json numbers = Json::array();
+            for (const float x : list) numbers.push_back(shortest(x));
+            return numbers;
+        }
     };
     return std::visit(Writer{}, value);
 }
@@ -139,6 +150,18 @@ Value value_from(const Json& json, ParamType type) {
         case ParamType::text:
         case ParamType::file:
             return json.get<std::string>();
+        case ParamType::matrix: {
+            Matrix rows{};
+            if (json.size() != 3) refuse("a matrix has other than three rows");
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                if (json.at(i / 3).size() != 3) refuse("a row of a matrix has other than three numbers");
+                rows[i] = json.at(i / 3).at(i % 3).get<float>();
+            }
+            return rows;
+        }
+        case ParamType::numbers:
+            if (!json.is_array() || json.empty()) refuse("a default is no list of numbers");
+            return json.get<std::vector<float>>();
         default:
             if (json.size() != 3) refuse("a default has other than three numbers");
             if (type == ParamType::color)

@@ -6,6 +6,7 @@ module;
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,6 +56,13 @@ Value default_of(const ParamSpec& spec) {
         case ParamType::text:
         case ParamType::file:
             return std::string(value.text != nullptr ? value.text : "");
+        case ParamType::matrix: {
+            Matrix rows{};
+            std::copy_n(value.number, rows.size(), rows.begin());
+            return rows;
+        }
+        case ParamType::numbers:
+            return std::vector<float>(value.list.begin(), value.list.end());
         default:
             return vec3_of(value);
     }
@@ -72,6 +80,12 @@ bool holds(const Value& value, ParamType type) {
         case ParamType::text:
         case ParamType::file:
             return std::holds_alternative<std::string>(value);
+        case ParamType::matrix:
+            return std::holds_alternative<Matrix>(value);
+        case ParamType::numbers: {
+            const auto* const list = std::get_if<std::vector<float>>(&value);
+            return list != nullptr && !list->empty();
+        }
         default:
             return std::holds_alternative<Vec3>(value);
     }
@@ -82,7 +96,12 @@ std::vector<double> numbers_of(const Value& value) {
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*whole)};
     if (const auto* real = std::get_if<double>(&value)) return {*real};
     if (const auto* v = std::get_if<Vec3>(&value)) return {shortest(v->x), shortest(v->y), shortest(v->z)};
-    return {};
+    std::vector<double> numbers;
+    if (const auto* rows = std::get_if<Matrix>(&value))
+        std::ranges::transform(*rows, std::back_inserter(numbers), shortest);
+    if (const auto* list = std::get_if<std::vector<float>>(&value))
+        std::ranges::transform(*list, std::back_inserter(numbers), shortest);
+    return numbers;
 }
 
 // An excluded bound is also excluded for the resulting float: 1e-50 is not greater than 0.
@@ -96,7 +115,7 @@ bool above(double x, const Parameter& p) {
 }  // namespace
 
 std::optional<ParamType> param_type_named(std::string_view name) noexcept {
-    for (int type = 0; type <= static_cast<int>(ParamType::rgb); ++type) {
+    for (int type = 0; type <= static_cast<int>(ParamType::numbers); ++type) {
         if (name_of(static_cast<ParamType>(type)) == name) return static_cast<ParamType>(type);
     }
     return std::nullopt;
@@ -134,6 +153,13 @@ std::string text_of(const Value& value) {
         std::string operator()(double d) const { return fmt::format("{}", d); }
         std::string operator()(const std::string& s) const { return fmt::format("\"{}\"", s); }
         std::string operator()(const Vec3& v) const { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+        std::string operator()(const Matrix& m) const {
+            return fmt::format("[[{}, {}, {}], [{}, {}, {}], [{}, {}, {}]]", m[0], m[1], m[2], m[3], m[4],
+                               m[5], m[6], m[7], m[8]);
+        }
+        std::string operator()(const std::vector<float>& list) const {
+            return fmt::format("[{}]", fmt::join(list, ", "));
+        }
     };
     return std::visit(Writer{}, value);
 }
@@ -191,6 +217,10 @@ std::string constraint_text(const Parameter& p) {
             return "three integers 0-255";
         case ParamType::rgb:
             return "a number, or three of them" + tail;
+        case ParamType::matrix:
+            return "three rows of three numbers" + (range.empty() ? "" : ", each " + range);
+        case ParamType::numbers:
+            return "a list of at least one number" + (range.empty() ? "" : ", each " + range);
     }
     return "a value";
 }
@@ -315,6 +345,12 @@ std::vector<ParamValue> ParamSet::delivered(ColorEncoding encoding) const {
             case ParamType::text:
             case ParamType::file:
                 result[i].text = std::get<std::string>(value).c_str();
+                break;
+            case ParamType::matrix:
+                std::ranges::copy(std::get<Matrix>(value), result[i].number);
+                break;
+            case ParamType::numbers:
+                result[i].list = std::get<std::vector<float>>(value);
                 break;
             case ParamType::color: {
                 const Rgb rgb = decoded(std::get<Vec3>(value), encoding);

@@ -21,8 +21,9 @@ import candela.math;
 
 export namespace candela {
 
-/// A value as a person writes it. Vec3 holds vector, point, direction, color and rgb.
-using Value = std::variant<bool, std::int64_t, double, std::string, Vec3>;
+/// A value as a person writes it. Vec3 holds vector, point, direction, color and rgb; the last two hold
+/// matrix and numbers.
+using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, std::vector<float>>;
 
 /// A `ParamSpec` that owns its memory.
 struct Parameter {

@@ -61,6 +61,8 @@ ParamValue written_value(const Value& value, const Parameter& parameter) {
         result.number[1] = vector->y;
         result.number[2] = vector->z;
     }
+    if (const auto* rows = std::get_if<Matrix>(&value)) std::ranges::copy(*rows, result.number);
+    if (const auto* list = std::get_if<std::vector<float>>(&value)) result.list = *list;
     if (const auto* text = std::get_if<std::string>(&value)) {
         if (parameter.type == ParamType::choice) {
             const auto at = std::ranges::find(parameter.choices, *text);
@@ -70,6 +72,18 @@ ParamValue written_value(const Value& value, const Parameter& parameter) {
         }
     }
     return result;
+}
+
+/// Whether a parameter is a table of the plugin's kernel, which has neither texts nor lists.
+bool is_table(const PluginDescriptor& plugin, std::size_t parameter) {
+    const ParamType type = plugin.parameters[parameter].type;
+    return (type == ParamType::file || type == ParamType::numbers) &&
+           std::ranges::find(plugin.kernel.members, parameter) != plugin.kernel.members.end();
+}
+
+bool has_tables(const PluginDescriptor& plugin) {
+    return std::ranges::any_of(plugin.kernel.members,
+                               [&](std::size_t parameter) { return is_table(plugin, parameter); });
 }
 
 /// Puts the models of one kind into a list, each once.
@@ -170,12 +184,55 @@ struct SceneExport::Storage final : ExportedGeometry {
                 .delivered = numbers.emplace_back(set.delivered(scene.image.color_management))};
     }
 
+    /// The same of a plugin whose kernel may have tables: those of the instance that `make` makes.
+    template <class Make>
+    ExportedValues kept(const PluginDescriptor& plugin, const ParamSet& values, Make make) {
+        const ExportedValues result = kept(values);
+        if (!has_tables(plugin)) return result;
+        const auto instance = make();
+        std::vector<ParamValue>& delivered = numbers.back();
+        for (std::size_t i = 0; i < delivered.size(); ++i) {
+            if (is_table(plugin, i)) put_table(instance->table(i), delivered[i]);
+        }
+        return result;
+    }
+
+    void put_table(std::span<const float> table, ParamValue& value) {
+        const auto same = std::ranges::search(tables, table);
+        const auto first = static_cast<std::size_t>(same.begin() - tables.begin());
+        if (same.empty()) tables.insert(tables.end(), table.begin(), table.end());
+        // As many as programs count exactly with floats.
+        if (tables.size() > std::size_t{1} << 24)
+            throw Error(ErrorCategory::failure,
+                        "the tables of the scene's models have more than 16777216 numbers, for which "
+                        "generated programs have no room");
+        value.integer = static_cast<std::int32_t>(table.empty() ? 0 : first);
+        placed_tables.push_back({&value, table.size()});
+    }
+
+    /// When all are there, and stay where they are.
+    void connect_tables() {
+        for (const PlacedTable& placed_table : placed_tables) {
+            ParamValue& value = *placed_table.value;
+            value.list = std::span<const float>(tables).subspan(static_cast<std::size_t>(value.integer),
+                                                                placed_table.size);
+        }
+        scene.tables = tables;
+    }
+
+    struct PlacedTable {
+        ParamValue* value;
+        std::size_t size;
+    };
+
     Registry& registry;
     std::string title, environment;
     std::vector<ExportedSample> samples;
     std::deque<ParamSet> sets;                    // whose texts the values point into
     std::deque<std::vector<ParamValue>> numbers;  // a deque, so that what is there stays where it is
     std::deque<std::string> labels;
+    std::vector<float> tables;
+    std::vector<PlacedTable> placed_tables;
     std::vector<ExportedModel> light_models;
     std::vector<ExportedLight> lights;
     std::vector<ExportedShading> shadings;
@@ -218,10 +275,12 @@ class Exporter {
         result.shadings = to_.shadings;
         result.reflections = to_.reflections;
         result.objects = to_.exported_objects;
-        result.needs_uv = std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.uv; });
+        result.needs_uv = std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.uv; }) ||
+                          std::ranges::any_of(to_.reflections, &ExportedReflection::needs_uv);
         result.needs_derivatives =
             std::ranges::any_of(to_.reflections, &ExportedReflection::needs_tangent) ||
             std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.derivatives; });
+        to_.connect_tables();
         result.geometry = &to_;
     }
 
@@ -288,7 +347,8 @@ class Exporter {
         const PluginDescriptor& loaded = model(PluginKind::light, light.model.name, functions);
         to_.lights.push_back({.label = kept(light.label),
                               .model = put(to_.light_models, ExportedModel{&loaded}),
-                              .values = to_.kept(light.model.parameters)});
+                              .values = to_.kept(loaded, light.model.parameters,
+                                                 [&]() -> const Light* { return made_light.get(); })});
     }
 
     void add_shading(const std::string& name, const ParamSet& values) {
@@ -304,6 +364,8 @@ class Exporter {
         const auto instance = made<ReflectionModel>(name, values);
         ExportedReflection exported;
         exported.needs_tangent = instance->needs_tangent();
+        exported.needs_position = instance->needs_position();
+        exported.needs_uv = instance->needs_uv();
         exported.shows_surroundings = instance->shows_surroundings();
         if (exported.shows_surroundings && !request_.abilities.surroundings) {
             throw Error(
@@ -388,25 +450,31 @@ class Exporter {
         auto& own = to_.objects.emplace_back();
         own.tessellator = made<Shape>(object.shape.name, object.shape.parameters);
         own.transform = object.transform;
-        ExportedObject exported{.label = kept(name_in(object.label)),
-                                .color = object.color,
-                                .shape = {&plugin(PluginKind::shape, object.shape.name)},
-                                .shape_values = to_.kept(object.shape.parameters),
-                                .transform = object.transform};
+        ExportedObject exported{
+            .label = kept(name_in(object.label)),
+            .color = object.color,
+            .shape = {&plugin(PluginKind::shape, object.shape.name)},
+            .shape_values = to_.kept(plugin(PluginKind::shape, object.shape.name), object.shape.parameters,
+                                     [&]() -> const Shape* { return own.tessellator.get(); }),
+            .transform = object.transform};
         for (std::size_t i = 0; i < to_.shadings.size(); ++i) {
             const std::string name = to_.shadings[i].plugin->name;
             const bool is_own = name == object.shading.name;
             if (is_own) exported.shading = i;
             own.shading_values.push_back(is_own ? object.shading.parameters
                                                 : values_for(PluginKind::shading, name, index));
-            own.shadings.push_back(to_.kept(own.shading_values.back()));
+            own.shadings.push_back(to_.kept(*to_.shadings[i].plugin, own.shading_values.back(), [&] {
+                return made<ShadingModel>(name, own.shading_values.back());
+            }));
         }
         for (std::size_t i = 0; i < to_.reflections.size(); ++i) {
             const std::string name = to_.reflections[i].plugin->name;
             const bool is_own = name == object.reflection.name;
             if (is_own) exported.reflection = i;
-            own.materials.push_back(to_.kept(is_own ? object.reflection.parameters
-                                                    : values_for(PluginKind::reflection, name, index)));
+            const ParamSet values =
+                is_own ? object.reflection.parameters : values_for(PluginKind::reflection, name, index);
+            own.materials.push_back(to_.kept(*to_.reflections[i].plugin, values,
+                                             [&] { return made<ReflectionModel>(name, values); }));
         }
         to_.exported_objects.push_back(exported);
     }

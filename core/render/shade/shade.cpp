@@ -134,7 +134,8 @@ void guarded(PluginKind kind, const std::string& plugin, Call call) {
 
 PointNeeds SurfaceModels::needs() const {
     const ShadingNeeds needs = shading->needs();
-    return {.uv = needs.uv, .derivatives = needs.derivatives || reflection->needs_tangent()};
+    return {.uv = needs.uv || reflection->needs_uv(),
+            .derivatives = needs.derivatives || reflection->needs_tangent()};
 }
 
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {
@@ -237,7 +238,10 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
                              .to_observer = to_observer_.span(),
                              .tangent = needs_tangent ? ConstVec3Span(tangent_.span()) : ConstVec3Span{},
                              .color = surface.color,
-                             .position = points.position.span()};
+                             .position = points.position.span(),
+                             .uv = surface.reflection->needs_uv()
+                                       ? ConstVec2Span{points.u.data(), points.v.data()}
+                                       : ConstVec2Span{}};
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
 

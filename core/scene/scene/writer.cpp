@@ -49,6 +49,15 @@ std::string value_text(const Value& value, ParamType type) {
     if (const auto* const integer = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *integer);
     if (const auto* const real = std::get_if<double>(&value)) return toml_text(*real);
     if (const auto* const text = std::get_if<std::string>(&value)) return toml_text(*text);
+    if (const auto* const m = std::get_if<Matrix>(&value)) {
+        const auto row = [&](std::size_t i) { return vector_text({(*m)[i], (*m)[i + 1], (*m)[i + 2]}); };
+        return fmt::format("[{}, {}, {}]", row(0), row(3), row(6));
+    }
+    if (const auto* const list = std::get_if<std::vector<float>>(&value)) {
+        std::string text;
+        for (const float x : *list) text += (text.empty() ? "" : ", ") + toml_text(x);
+        return fmt::format("[{}]", text);
+    }
     const Vec3 v = std::get<Vec3>(value);
     return type == ParamType::color ? color_text(v) : type == ParamType::rgb ? rgb_text(v) : vector_text(v);
 }

@@ -51,6 +51,31 @@ std::optional<Vec3> three_numbers(const Node& node, bool whole_only) {
     return Vec3{v[0], v[1], v[2]};
 }
 
+std::optional<Value> matrix(const Node& node) {
+    const ArrayNode* const rows = node.array();
+    if (rows == nullptr || rows->size() != 3) return std::nullopt;
+    Matrix result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto row = three_numbers((*rows)[i], false);
+        if (!row) return std::nullopt;
+        std::ranges::copy(std::array{row->x, row->y, row->z}, result.begin() + 3 * static_cast<int>(i));
+    }
+    return result;
+}
+
+/// Of at least one number.
+std::optional<Value> numbers(const Node& node) {
+    const ArrayNode* const array = node.array();
+    if (array == nullptr || array->empty()) return std::nullopt;
+    std::vector<float> result;
+    for (const Node& each : *array) {
+        const auto x = number(each, false);
+        if (!x) return std::nullopt;
+        result.push_back(static_cast<float>(*x));
+    }
+    return result;
+}
+
 std::optional<Value> as_value(const Node& node, const Parameter& p) {
     switch (p.type) {
         case ParamType::real:
@@ -67,6 +92,10 @@ std::optional<Value> as_value(const Node& node, const Parameter& p) {
         case ParamType::file:
             if (const auto* s = std::get_if<std::string>(&node.value)) return *s;
             return std::nullopt;
+        case ParamType::matrix:
+            return matrix(node);
+        case ParamType::numbers:
+            return numbers(node);
         case ParamType::rgb:
             if (const auto x = number(node, false)) {
                 const auto f = static_cast<float>(*x);
@@ -99,7 +128,7 @@ std::string described(const Node& node, const Diagnostics& diagnostics) {
 /// What is wrong in a list where three numbers were expected: "its second value is a string, …".
 std::string found(const Node& node, const Parameter& p, const Diagnostics& diagnostics) {
     const ArrayNode* const array = node.array();
-    const bool takes_three = p.type >= ParamType::vector;
+    const bool takes_three = p.type >= ParamType::vector && p.type <= ParamType::rgb;
     if (array == nullptr || array->size() != 3 || !takes_three) return described(node, diagnostics);
     constexpr std::array<std::string_view, 3> k_ordinals = {"first", "second", "third"};
     for (std::size_t i = 0; i < 3; ++i) {

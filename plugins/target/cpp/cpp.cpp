@@ -22,6 +22,7 @@
 
 CANDELA_EMBED(candela_cpp_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
 CANDELA_EMBED(candela_cpp_cmake, CANDELA_SOURCE_DIR "/templates/CMakeLists.txt");
+CANDELA_EMBED(candela_cpp_tables, CANDELA_SOURCE_DIR "/templates/tables.h");
 CANDELA_EMBED(candela_cpp_readme, CANDELA_SOURCE_DIR "/templates/README.md");
 
 namespace candela::cpp_target {
@@ -42,6 +43,7 @@ class CppWriter {
         std::string kernels = model_kernels();
         const std::string library = vectors_for(kernels);
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
+        const bool has_tables = !scene_.tables.empty() || is_spoken_of("Table", without_comments(kernels));
         const std::string vectors = needed_parts(library, kernels + glue);
         const bool is_srgb = scene_.image.color_management == ColorEncoding::srgb;
         const ExportedImage& image = scene_.image;
@@ -51,7 +53,7 @@ class CppWriter {
             text,
             {{"TITLE", tame(scene_.title)},
              {"VERSION", CANDELA_PLUGIN_VERSION},
-             {"VECTORS", vectors},
+             {"VECTORS", vectors + (has_tables ? "\n" + std::string(candela_cpp_tables) : "")},
              {"CONSTRUCTORS", constructors(kernels)},
              {"KERNELS", kernels},
              {"DECODED_COMMENT",
@@ -94,11 +96,11 @@ class CppWriter {
              {"USAGE", usage()},
              {"HELP", help()},
              {"MAIN", main_text()},
-             {"DATA",
-              objects_.data().empty()
-                  ? ""
-                  : "\n// ---- 8. The triangles of shapes that have no formula ----\n\nnamespace scene {\n" +
-                        objects_.data() + "\n}  // namespace scene\n"}});
+             {"DATA", (has_tables ? table_numbers() : "") +
+                          (objects_.data().empty() ? ""
+                                                   : "\n// ---- 8. The triangles of shapes that have no "
+                                                     "formula ----\n\nnamespace scene {\n" +
+                                                         objects_.data() + "\n}  // namespace scene\n")}});
     }
 
   private:
@@ -127,6 +129,30 @@ class CppWriter {
             text += fmt::format("#define {0}(...) {0}{{__VA_ARGS__}}\n", name);
         }
         return text.empty() ? "" : "// GLSL makes a struct by a call, C++17 by braces.\n" + text;
+    }
+
+    static bool is_spoken_of(const char* word, const std::string& code) {
+        return std::regex_search(code, std::regex(fmt::format("\\b{}\\b", word)));
+    }
+
+    /// What the program declares at its top.
+    std::string table_numbers() const {
+        const float none[] = {0};
+        const std::span<const float> numbers = scene_.tables.empty() ? std::span(none) : scene_.tables;
+        std::string text;
+        std::string line = "   ";
+        for (const float x : numbers) {
+            const std::string next = " " + float_text(x) + ",";
+            if (line.size() + next.size() > 120) {
+                text += line + "\n";
+                line = "   ";
+            }
+            line += next;
+        }
+        return "\n// ---- The numbers of the models' tables, one table after the other ----\n\nnamespace "
+               "scene {\n\n"
+               "const float k_table_numbers[] = {\n" +
+               text + line + "\n};\n\n}  // namespace scene\n";
     }
 
     std::string samples() const {
@@ -291,10 +317,16 @@ class CppWriter {
                         }));
     }
 
+    /// What is filled of a surface's point beside what every model reads.
     std::string tangent() const {
-        const bool is_needed = std::ranges::any_of(scene_.reflections, &ExportedReflection::needs_tangent);
-        return is_needed ? "    s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, point.dpdu));\n"
-                         : "";
+        const auto line = [&](bool ExportedReflection::* needs, const char* text) {
+            return std::ranges::any_of(scene_.reflections, needs) ? text : "";
+        };
+        return std::string(line(&ExportedReflection::needs_tangent,
+                                "    s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, "
+                                "point.dpdu));\n")) +
+               line(&ExportedReflection::needs_position, "    s.position = place;\n") +
+               line(&ExportedReflection::needs_uv, "    s.uv = point.uv;\n");
     }
 
     /// A positional argument of the program that names a model for all objects.

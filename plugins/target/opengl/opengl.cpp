@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,6 +71,8 @@ class OpenGlWriter {
                          {"LIGHT_COUNTS", light_counts()},
                          {"LIGHT_VALUES", light_values()},
                          {"LIGHT_TABLE_WIDTH", fmt::format("{}", k_light_table_width)},
+                         {"TABLES", tables()},
+                         {"TABLE_WIDTH", fmt::format("{}", k_table_width)},
                          {"OBJECTS", objects},
                          {"PICTURE_FILE", std::string(picture_file_source())}};
         values.insert(values.end(), about.begin(), about.end());
@@ -105,8 +108,20 @@ class OpenGlWriter {
                            is_perspective, float_text(is_perspective ? o.fov : o.height));
     }
 
+    static std::string whole(const std::string& name, std::size_t first, std::size_t second = 0) {
+        return fmt::format("{{\"{}\", Uniform::whole, {{{}, {}, 0}}}}", name, first, second);
+    }
+    static std::string vector(const char* name, Vec3 v) {
+        return fmt::format("{{\"{}\", Uniform::vector, {}}}", name, braces(v));
+    }
+
     static std::string uniform(const ParamSpec& p, const ParamValue& value) {
         switch (p.type) {
+            case ParamType::matrix: {
+                const auto columns = columns_of(value);
+                return fmt::format("{{\"{}\", Uniform::matrix, {}, {{{{{}, {}}}}}}}", p.name,
+                                   braces(columns[0]), braces(columns[1]), braces(columns[2]));
+            }
             case ParamType::real:
                 return fmt::format("{{\"{}\", Uniform::real, {{{}, 0, 0}}}}", p.name,
                                    float_text(value.number[0]));
@@ -115,8 +130,23 @@ class OpenGlWriter {
             case ParamType::choice:
                 return fmt::format("{{\"{}\", Uniform::whole, {{{}, 0, 0}}}}", p.name, value.integer);
             default:
-                return fmt::format("{{\"{}\", Uniform::vector, {}}}", p.name,
-                                   braces(Vec3{value.number[0], value.number[1], value.number[2]}));
+                return vector(p.name, {value.number[0], value.number[1], value.number[2]});
+        }
+    }
+
+    /// A member of a light's struct, as the texels that hold it.
+    static std::vector<std::string> texels(const ParamSpec& p, const ParamValue& value) {
+        switch (p.type) {
+            case ParamType::matrix: {
+                std::vector<std::string> columns;
+                for (const Vec3& column : columns_of(value)) columns.push_back(vector(p.name, column));
+                return columns;
+            }
+            case ParamType::file:
+            case ParamType::numbers:
+                return {whole(p.name, static_cast<std::size_t>(value.integer), value.list.size())};
+            default:
+                return {uniform(p, value)};
         }
     }
 
@@ -124,8 +154,13 @@ class OpenGlWriter {
         std::vector<std::string> all;
         for (std::size_t i = 0; i < values.delivered.size(); ++i) {
             const ParamSpec& p = model.plugin->parameters[i];
-            if (p.type != ParamType::text && p.type != ParamType::file)
-                all.push_back(uniform(p, values.delivered[i]));
+            const ParamValue& value = values.delivered[i];
+            if (p.type == ParamType::file || p.type == ParamType::numbers) {
+                all.push_back(whole(std::string(p.name) + ".first", static_cast<std::size_t>(value.integer)));
+                all.push_back(whole(std::string(p.name) + ".count", value.list.size()));
+            } else if (p.type != ParamType::text) {
+                all.push_back(uniform(p, value));
+            }
         }
         return all;
     }
@@ -144,10 +179,22 @@ class OpenGlWriter {
             for (const ExportedLight& light : scene_.lights) {
                 if (light.model != m) continue;
                 text += fmt::format("    // {}\n", tame(light.label));
-                for (const std::size_t i : plugin.kernel.members)
-                    text +=
-                        fmt::format("    {},\n", uniform(plugin.parameters[i], light.values.delivered[i]));
+                for (const std::size_t i : plugin.kernel.members) {
+                    for (const std::string& texel : texels(plugin.parameters[i], light.values.delivered[i]))
+                        text += fmt::format("    {},\n", texel);
+                }
             }
+        }
+        return text;
+    }
+
+    std::string tables() const {
+        std::vector<std::string> numbers;
+        for (const float x : scene_.tables) numbers.push_back(float_text(x));
+        std::string text;
+        for (std::size_t i = 0; i < numbers.size(); i += 10) {
+            const auto row = std::span(numbers).subspan(i, std::min<std::size_t>(10, numbers.size() - i));
+            text += fmt::format("    {},\n", fmt::join(row, ", "));
         }
         return text;
     }

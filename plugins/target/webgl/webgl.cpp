@@ -41,12 +41,33 @@ Json value_json(const ParamSpec& p, const ParamValue& written) {
             return written.integer != 0;
         case ParamType::choice:
             return p.choices[static_cast<std::size_t>(written.integer)];
-        case ParamType::text:
-        case ParamType::file:
-            return written.text != nullptr ? written.text : "";
         default:
             return {written.number[0], written.number[1], written.number[2]};
     }
+}
+
+/// Whether the page has a control for it. The others keep the scene's value.
+bool is_adjustable(const ParamSpec& p) {
+    return p.type != ParamType::text && p.type != ParamType::file && p.type != ParamType::matrix &&
+           p.type != ParamType::numbers;
+}
+
+/// What kernels read of values that the page cannot change: { name: { kind, value } }, as shaders take them.
+Json fixed_json(const ExportedModel& model, const ExportedValues& values) {
+    Json result = Json::object();
+    for (const std::size_t i : model.plugin->kernel.members) {
+        const ParamSpec& p = model.plugin->parameters[i];
+        const ParamValue& value = values.delivered[i];
+        if (is_adjustable(p)) continue;
+        if (p.type == ParamType::matrix) {
+            Json columns = Json::array();
+            for (const Vec3& c : columns_of(value)) columns.insert(columns.end(), {c.x, c.y, c.z});
+            result[p.name] = {{"kind", "mat3"}, {"value", std::move(columns)}};
+        } else {
+            result[p.name] = {{"kind", "table"}, {"value", {value.integer, value.list.size()}}};
+        }
+    }
+    return result;
 }
 
 Json parameter_json(const ParamSpec& p) {
@@ -67,7 +88,9 @@ Json parameter_json(const ParamSpec& p) {
 Json model_json(const ExportedModel& model, const std::string& glsl) {
     const PluginDescriptor& plugin = *model.plugin;
     Json parameters = Json::array();
-    for (const ParamSpec& p : plugin.parameters) parameters.push_back(parameter_json(p));
+    for (const ParamSpec& p : plugin.parameters) {
+        if (is_adjustable(p)) parameters.push_back(parameter_json(p));
+    }
     return {
         {"title", plugin.title},         {"summary", plugin.summary},           {"formula", plugin.formula},
         {"reference", plugin.reference}, {"parameters", std::move(parameters)}, {"glsl", glsl}};
@@ -81,6 +104,7 @@ Json block_json(const ExportedModel& model, const LightBlock& block) {
     return {{"count", block.count},
             {"lights", block.lights},
             {"first", block.first},
+            {"texels", block.size},
             {"members", std::move(members)}};
 }
 
@@ -88,7 +112,7 @@ Json values_json(const ExportedModel& model, const ExportedValues& values) {
     Json result = Json::object();
     for (std::size_t i = 0; i < values.written.size(); ++i) {
         const ParamSpec& p = model.plugin->parameters[i];
-        result[p.name] = value_json(p, values.written[i]);
+        if (is_adjustable(p)) result[p.name] = value_json(p, values.written[i]);
     }
     return result;
 }
@@ -123,10 +147,17 @@ Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh) {
 Json object_json(const ExportedScene& scene, std::size_t index) {
     const ExportedObject& object = scene.objects[index];
     Json materials = Json::object(), shadings = Json::object();
-    for (std::size_t i = 0; i < scene.reflections.size(); ++i)
-        materials[scene.reflections[i].plugin->name] = values_json(scene.reflections[i], object.materials[i]);
-    for (std::size_t i = 0; i < scene.shadings.size(); ++i)
-        shadings[scene.shadings[i].plugin->name] = values_json(scene.shadings[i], object.shadings[i]);
+    Json fixed_materials = Json::object(), fixed_shadings = Json::object();
+    for (std::size_t i = 0; i < scene.reflections.size(); ++i) {
+        const ExportedReflection& model = scene.reflections[i];
+        materials[model.plugin->name] = values_json(model, object.materials[i]);
+        fixed_materials[model.plugin->name] = fixed_json(model, object.materials[i]);
+    }
+    for (std::size_t i = 0; i < scene.shadings.size(); ++i) {
+        const ExportedShading& model = scene.shadings[i];
+        shadings[model.plugin->name] = values_json(model, object.shadings[i]);
+        fixed_shadings[model.plugin->name] = fixed_json(model, object.shadings[i]);
+    }
     const ExportedMesh mesh = scene.geometry->in_world_space(index);
     return {{"label", object.label},
             {"color", vector_json(object.color)},
@@ -134,6 +165,7 @@ Json object_json(const ExportedScene& scene, std::size_t index) {
             {"reflection", scene.reflections[object.reflection].plugin->name},
             {"materials", std::move(materials)},
             {"shadings", std::move(shadings)},
+            {"fixed", {{"material", std::move(fixed_materials)}, {"shading", std::move(fixed_shadings)}}},
             {"closed", mesh.closed},
             {"mesh", mesh_json(scene, mesh)}};
 }
@@ -167,7 +199,8 @@ Json scene_json(const ExportedScene& scene) {
         const ExportedModel& model = scene.light_models[light.model];
         lights.push_back({{"label", light.label},
                           {"model", model.plugin->name},
-                          {"values", values_json(model, light.values)}});
+                          {"values", values_json(model, light.values)},
+                          {"fixed", fixed_json(model, light.values)}});
     }
     const std::vector<LightBlock> blocks = light_blocks(scene);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -197,6 +230,8 @@ Json scene_json(const ExportedScene& scene) {
               {"accumulate", glsl.accumulate},
               {"encode", glsl.encode}}},
             {"light_table_width", k_light_table_width},
+            {"tables", packed(scene.tables)},
+            {"table_width", k_table_width},
             {"lights", std::move(lights)},
             {"light_models", std::move(light_models)},
             {"reflection_models", std::move(reflections)},

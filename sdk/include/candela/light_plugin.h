@@ -71,7 +71,7 @@ struct IlluminateAmbientLoop {
 };
 
 template <class Params, auto illuminate_>
-class KernelLight final : public Light {
+class KernelLight : public Light {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Params, illuminate_>("illuminate")};
@@ -88,7 +88,7 @@ class KernelLight final : public Light {
 };
 
 template <class Params, auto illuminate_, auto sample_count_>
-class KernelSampledLight final : public Light {
+class KernelSampledLight : public Light {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Params, illuminate_>("illuminate"),
@@ -107,7 +107,7 @@ class KernelSampledLight final : public Light {
 };
 
 template <class Params, auto illuminate_ambient_>
-class KernelAmbientLight final : public Light {
+class KernelAmbientLight : public Light {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Params, illuminate_ambient_>("illuminate_ambient")};

@@ -7,14 +7,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "candela/abi.h"
 #include "candela/batch.h"
@@ -34,7 +38,9 @@ inline constexpr const char* k_kernel_text = nullptr;
 
 using kernel::add_product;
 using kernel::load;
+using kernel::mat3;
 using kernel::store;
+using kernel::Table;
 using kernel::vec2;
 using kernel::vec3;
 
@@ -49,6 +55,9 @@ struct Field {
     std::int32_t Params::* integer = nullptr;
     vec3 Params::* vector = nullptr;
     const char* Params::* text = nullptr;
+    mat3 Params::* matrix = nullptr;
+    Table Params::* table = nullptr;
+    std::vector<float> (*read_table)(const char* path) = nullptr;  // of a table that is made from a file
 
     void store(Params& params, const ParamValue& value) const {
         if (real != nullptr) params.*real = value.number[0];
@@ -57,13 +66,35 @@ struct Field {
         if constexpr (sizeof(Params) >= sizeof(vec3)) {
             if (vector != nullptr) params.*vector = vec3(value.number[0], value.number[1], value.number[2]);
         }
+        if constexpr (sizeof(Params) >= sizeof(mat3)) {
+            if (matrix != nullptr) {
+                const float* const m = value.number;
+                params.*matrix = mat3(vec3(m[0], m[3], m[6]), vec3(m[1], m[4], m[7]), vec3(m[2], m[5], m[8]));
+            }
+        }
         if (text != nullptr) params.*text = value.text;
+    }
+
+    /// The numbers of the member, if it is a table. Throws std::exception where a file has none.
+    std::vector<float> numbers_of(const ParamValue& value) const {
+        if (table == nullptr) return {};
+        if (read_table == nullptr) return {value.list.begin(), value.list.end()};
+        const bool is_given = value.text != nullptr && *value.text != '\0';
+        std::vector<float> numbers = is_given ? read_table(value.text) : std::vector<float>();
+        for (const float x : numbers) {
+            if (!std::isfinite(x))
+                throw std::runtime_error(std::string("the table of '") + spec.name +
+                                         "' has a number that is not finite");
+        }
+        return numbers;
     }
 
     const void* member_of(const Params& params) const {
         if (real != nullptr) return &(params.*real);
         if (integer != nullptr) return &(params.*integer);
         if (vector != nullptr) return &(params.*vector);
+        if (matrix != nullptr) return &(params.*matrix);
+        if (table != nullptr) return &(params.*table);
         return text != nullptr ? static_cast<const void*>(&(params.*text)) : nullptr;
     }
 
@@ -87,6 +118,10 @@ struct Field {
     }
     constexpr Field required() const {
         return with([&](ParamSpec& s) { s.required = true; });
+    }
+    /// Of a file: without one, a text is empty and a table has no numbers.
+    constexpr Field optional() const {
+        return with([&](ParamSpec& s) { s.required = false; });
     }
 
   private:
@@ -171,11 +206,90 @@ constexpr Field<P> file(const char* P::* member, const char* name, const char* m
             .text = member};
 }
 
+/// Three rows of three numbers, 'm * v' in the kernel; the default, row by row, is the identity.
+template <class P>
+constexpr Field<P> matrix(mat3 P::* member, const char* name, const char* meaning,
+                          const Matrix& rows = {1, 0, 0, 0, 1, 0, 0, 0, 1}) {
+    Field<P> field{.spec = {.name = name, .type = ParamType::matrix, .meaning = meaning}, .matrix = member};
+    std::copy(rows.begin(), rows.end(), field.spec.default_value.number);
+    return field;
+}
+/// A list of numbers. `default_value` is an array that lives as long as the library.
+template <class P>
+constexpr Field<P> numbers(Table P::* member, const char* name, std::span<const float> default_value,
+                           const char* meaning) {
+    return {.spec = {.name = name,
+                     .type = ParamType::numbers,
+                     .meaning = meaning,
+                     .default_value = {.list = default_value}},
+            .table = member};
+}
+/// A file; the member receives the table that `read` makes of it, once for each instance. `read` may throw
+/// std::exception.
+template <class P>
+constexpr Field<P> file_table(Table P::* member, const char* name,
+                              std::vector<float> (*read)(const char* path), const char* meaning) {
+    return {.spec = {.name = name, .type = ParamType::file, .meaning = meaning, .required = true},
+            .table = member,
+            .read_table = read};
+}
+
 template <class Params, std::size_t count>
 Params params_from(const std::array<Field<Params>, count>& fields, std::span<const ParamValue> values) {
     Params params{};
     for (std::size_t i = 0; i < count; ++i) fields[i].store(params, values[i]);
     return params;
+}
+
+template <class Params, std::size_t count>
+constexpr bool have_tables(const std::array<Field<Params>, count>& fields) {
+    for (const Field<Params>& field : fields) {
+        if (field.table != nullptr) return true;
+    }
+    return false;
+}
+
+/// The numbers of an instance's tables, by parameter.
+using TableNumbers = std::vector<std::vector<float>>;
+
+/// An instance that owns the numbers that its tables refer to.
+template <class Model>
+class WithTables final : public Model {
+  public:
+    template <class Constants>
+    WithTables(TableNumbers&& tables, const Constants& constants)
+        : Model(constants), tables_(std::move(tables)) {}
+
+    std::span<const float> table(std::size_t parameter) const noexcept override {
+        return parameter < tables_.size() ? std::span<const float>(tables_[parameter])
+                                          : std::span<const float>();
+    }
+
+  private:
+    TableNumbers tables_;
+};
+
+/// A new instance from `prepare(params)`, with `params` filled according to `fields`.
+template <class Model, bool has_tables, class Params, std::size_t count, class Prepare>
+Instance* created(const std::array<Field<Params>, count>& fields, std::span<const ParamValue> values,
+                  Prepare prepare) {
+    Params params = params_from(fields, values);
+    if constexpr (has_tables) {
+        static_assert(!std::is_final_v<Model>,
+                      "a class whose parameters have tables is not final: its instances get their numbers");
+        TableNumbers tables(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            tables[i] = fields[i].numbers_of(values[i]);
+            if (tables[i].empty()) continue;
+            Table table;
+            table.numbers = tables[i].data();
+            table.count = static_cast<int>(tables[i].size());
+            params.*fields[i].table = table;
+        }
+        return new WithTables<Model>(std::move(tables), prepare(params));
+    } else {
+        return new Model(prepare(params));
+    }
 }
 
 /// What a plugin says about itself, apart from its parameters.
@@ -207,12 +321,17 @@ constexpr KernelFunction kernel_function(const char* name) {
     return {name, takes_first<Params>(function)};
 }
 
-/// Whether every member of a kernel's struct is a parameter. (Its members are numbers, so that nothing lies
-/// between them.)
+/// Whether every member of a kernel's struct is a parameter. (Its members are numbers, and tables that are
+/// aligned as those, so that nothing lies between them.)
 template <class Params, std::size_t count>
 constexpr bool fill_all_members(const std::array<Field<Params>, count>& fields) {
     std::size_t size = 0;
-    for (const Field<Params>& field : fields) size += field.vector != nullptr ? sizeof(vec3) : sizeof(float);
+    for (const Field<Params>& field : fields) {
+        size += field.vector != nullptr   ? sizeof(vec3)
+                : field.matrix != nullptr ? sizeof(mat3)
+                : field.table != nullptr  ? sizeof(Table)
+                                          : sizeof(float);
+    }
     return count == 0 ? std::is_empty_v<Params> : size == sizeof(Params);
 }
 
@@ -355,7 +474,10 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
             .formats = about.formats,                                                         \
             .kernel = kernel_,                                                                \
             .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* { \
-                return new Model(prepare_(candela::sdk::params_from(fields_, values)));       \
+                using Made = std::remove_pointer_t<decltype(new Model(                        \
+                    prepare_(candela::sdk::params_from(fields_, values))))>;                  \
+                return candela::sdk::created<Made, candela::sdk::have_tables(fields_)>(       \
+                    fields_, values, [](const auto& params) { return prepare_(params); });    \
             }};                                                                               \
         return &descriptor;                                                                   \
     }

@@ -34,20 +34,29 @@ constexpr Field<M> shininess(float M::* member) {
 inline constexpr RelationSpec k_diffuse_and_specular[] = {
     {RelationType::sum_at_most_one, "kd", "ks", true, "the surface sends out more light than it receives"}};
 
-enum class Tangent : bool { unused, needed };
+/// What a model's kernel reads of Surface beyond normal, to_observer and color: joined by |. Nothing else is
+/// filled.
+enum SurfaceReads : unsigned { reads_no_more = 0, reads_tangent = 1, reads_position = 2, reads_uv = 4 };
+constexpr SurfaceReads operator|(SurfaceReads a, SurfaceReads b) {
+    return static_cast<SurfaceReads>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
 
-template <Tangent tangent>
+template <SurfaceReads reads>
 CANDELA_KERNEL_INLINE kernel::Surface surface_at(const SurfaceBatch& batch, vec3 color, std::size_t i) {
     kernel::Surface s;
     s.normal = load(batch.normal, i);
     s.to_observer = load(batch.to_observer, i);
     s.tangent = vec3(0.0f);
-    if constexpr (tangent == Tangent::needed) s.tangent = load(batch.tangent, i);
+    if constexpr ((reads & reads_tangent) != 0) s.tangent = load(batch.tangent, i);
     s.color = color;
+    s.position = vec3(0.0f);
+    if constexpr ((reads & reads_position) != 0) s.position = load(batch.position, i);
+    s.uv = vec2(0.0f);
+    if constexpr ((reads & reads_uv) != 0) s.uv = vec2(batch.uv.x[i], batch.uv.y[i]);
     return s;
 }
 
-template <class Material, auto reflect, Tangent tangent>
+template <class Material, auto reflect, SurfaceReads reads>
 struct ReflectLoop {
     CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, LightingBatch light,
                                        ReflectedBatch reflected) {
@@ -55,7 +64,7 @@ struct ReflectLoop {
         const std::size_t count = surface.count;
         CANDELA_VECTORIZE_CHAIN
         for (std::size_t i = 0; i < count; ++i) {
-            const kernel::Surface s = surface_at<tangent>(surface, color, i);
+            const kernel::Surface s = surface_at<reads>(surface, color, i);
             const kernel::Reflected r = call<reflect>(material, s, load(light.to_light, i));
             add_product(reflected.diffuse, i, r.diffuse, load(light.diffuse, i));
             add_product(reflected.specular, i, r.specular, load(light.specular, i));
@@ -63,7 +72,7 @@ struct ReflectLoop {
     }
 };
 
-template <class Material, auto reflect_ambient, Tangent tangent>
+template <class Material, auto reflect_ambient, SurfaceReads reads>
 struct ReflectAmbientLoop {
     CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, ConstVec3Span ambient,
                                        ReflectedBatch reflected) {
@@ -71,14 +80,14 @@ struct ReflectAmbientLoop {
         const std::size_t count = surface.count;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const vec3 k = call<reflect_ambient>(material, surface_at<tangent>(surface, color, i));
+            const vec3 k = call<reflect_ambient>(material, surface_at<reads>(surface, color, i));
             add_product(reflected.ambient, i, k, load(ambient, i));
         }
     }
 };
 
-template <class Material, auto reflect_, auto reflect_ambient_, Tangent tangent = Tangent::unused>
-class KernelReflection final : public ReflectionModel {
+template <class Material, auto reflect_, auto reflect_ambient_, SurfaceReads reads = reads_no_more>
+class KernelReflection : public ReflectionModel {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Material, reflect_>("reflect"),
@@ -86,17 +95,19 @@ class KernelReflection final : public ReflectionModel {
 
     explicit KernelReflection(const Material& material) : material_(material) {}
 
-    bool needs_tangent() const noexcept override { return tangent == Tangent::needed; }
+    bool needs_tangent() const noexcept override { return (reads & reads_tangent) != 0; }
+    bool needs_uv() const noexcept override { return (reads & reads_uv) != 0; }
+    bool needs_position() const noexcept override { return (reads & reads_position) != 0; }
 
     void reflect(const SurfaceBatch& surface, const LightingBatch& light,
                  const ReflectedBatch& reflected) const override {
-        multiversion<ReflectLoop<Material, reflect_, tangent>>(material_, surface, light, reflected);
+        multiversion<ReflectLoop<Material, reflect_, reads>>(material_, surface, light, reflected);
     }
 
     void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
                          const ReflectedBatch& reflected) const override {
-        multiversion<ReflectAmbientLoop<Material, reflect_ambient_, tangent>>(material_, surface, ambient,
-                                                                              reflected);
+        multiversion<ReflectAmbientLoop<Material, reflect_ambient_, reads>>(material_, surface, ambient,
+                                                                            reflected);
     }
 
   private:
@@ -114,11 +125,15 @@ class KernelReflection final : public ReflectionModel {
                                                           &candela::kernel::prefix##_reflect_ambient>), \
                           prefix, Material, fields, __VA_ARGS__)
 
-/// The same for a model that reads Surface::tangent.
-#define CANDELA_ANISOTROPIC_REFLECTION_PLUGIN(prefix, Material, fields, ...)                \
-    CANDELA_KERNEL_PLUGIN(                                                                  \
-        reflection,                                                                         \
-        (candela::sdk::KernelReflection<                                                    \
-            CANDELA_KERNEL_CONSTANTS(prefix, Material), &candela::kernel::prefix##_reflect, \
-            &candela::kernel::prefix##_reflect_ambient, candela::sdk::Tangent::needed>),    \
+/// The same for a model that reads more of Surface: `reads` is, for example, reads_position | reads_uv.
+#define CANDELA_REFLECTION_PLUGIN_READING(reads, prefix, Material, fields, ...)                \
+    CANDELA_KERNEL_PLUGIN(                                                                     \
+        reflection,                                                                            \
+        (candela::sdk::KernelReflection<CANDELA_KERNEL_CONSTANTS(prefix, Material),            \
+                                        &candela::kernel::prefix##_reflect,                    \
+                                        &candela::kernel::prefix##_reflect_ambient, (reads)>), \
         prefix, Material, fields, __VA_ARGS__)
+
+/// The same for a model that reads Surface::tangent.
+#define CANDELA_ANISOTROPIC_REFLECTION_PLUGIN(prefix, Material, fields, ...) \
+    CANDELA_REFLECTION_PLUGIN_READING(candela::sdk::reads_tangent, prefix, Material, fields, __VA_ARGS__)

@@ -37,7 +37,7 @@ struct Rays {
 };
 
 /// At the surface: a part looks towards the mirror image, the rest enters.
-template <class Material, auto enter, Tangent tangent>
+template <class Material, auto enter, SurfaceReads reads>
 struct EnterLoop {
     CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, Rays* rays) {
         const vec3 color = kernel_vector(surface.color);
@@ -45,7 +45,7 @@ struct EnterLoop {
         Rays& r = *rays;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const kernel::Surface s = surface_at<tangent>(surface, color, i);
+            const kernel::Surface s = surface_at<reads>(surface, color, i);
             const kernel::Refracted refracted = call<enter>(material, s);
             const vec3 mirrored = kernel::reflect(-s.to_observer, s.normal);
             store(r.towards, i, mirrored);
@@ -103,13 +103,18 @@ struct AddSeenLoop {
 /// A range of the SurfaceBatch's points, from `first` on.
 inline SurfaceBatch part_of(const SurfaceBatch& surface, std::size_t first, std::size_t count) {
     const auto from = [&](const ConstVec3Span& span) { return span ? span.from(first) : span; };
-    return {count,         from(surface.normal),  from(surface.to_observer), from(surface.tangent),
-            surface.color, from(surface.position)};
+    return {count,
+            from(surface.normal),
+            from(surface.to_observer),
+            from(surface.tangent),
+            surface.color,
+            from(surface.position),
+            surface.uv ? surface.uv.from(first) : surface.uv};
 }
 
 template <class Material, auto reflect_, auto reflect_ambient_, auto enter_, auto leave_, auto transmit_,
-          Tangent tangent = Tangent::unused>
-class KernelRefraction final : public ReflectionModel {
+          SurfaceReads reads = reads_no_more>
+class KernelRefraction : public ReflectionModel {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Material, reflect_>("reflect"),
@@ -120,6 +125,8 @@ class KernelRefraction final : public ReflectionModel {
     explicit KernelRefraction(const Material& material) : surface_(material), material_(material) {}
 
     bool needs_tangent() const noexcept override { return surface_.needs_tangent(); }
+    bool needs_uv() const noexcept override { return surface_.needs_uv(); }
+    bool needs_position() const noexcept override { return surface_.needs_position(); }
     bool shows_surroundings() const noexcept override { return true; }
 
     void reflect(const SurfaceBatch& surface, const LightingBatch& light,
@@ -145,7 +152,7 @@ class KernelRefraction final : public ReflectionModel {
     void follow(const SurfaceBatch& surface, Surroundings& surroundings, const Vec3Span& sum) const {
         Rays rays;
         rays.count = surface.count;
-        multiversion<EnterLoop<Material, enter_, tangent>>(material_, surface, &rays);
+        multiversion<EnterLoop<Material, enter_, reads>>(material_, surface, &rays);
         look(rays, surroundings, sum);
         for (int within = 0; within <= material_.internal_reflections; ++within) {
             surroundings.leave(rays.count, rays.origin.span(), rays.direction.span(),
@@ -161,7 +168,7 @@ class KernelRefraction final : public ReflectionModel {
         multiversion<AddSeenLoop>(&rays, sum);
     }
 
-    KernelReflection<Material, reflect_, reflect_ambient_, tangent> surface_;
+    KernelReflection<Material, reflect_, reflect_ambient_, reads> surface_;
     Material material_;
 };
 

@@ -153,7 +153,7 @@ class WeightedNormals {
 /// Weighted vertex normals; the plain sum is used where no face has a weight, and authored normals take
 /// precedence.
 template <class Params, ShadingRate rate, auto normal, auto weight, ShadingNeeds needs = ShadingNeeds{}>
-class WeightedShading final : public KernelShading<Params, rate, normal, needs> {
+class WeightedShading : public KernelShading<Params, rate, normal, needs> {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal"),
                                                             kernel_function<Params, weight>("corner_weight")};

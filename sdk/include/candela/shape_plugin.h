@@ -132,7 +132,7 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
 
 /// A shape whose parameters have a member `segments`: the number of faces along u, and half as many along v.
 template <class Params, auto position, auto dpdu, auto dpdv, Topology topology>
-class ParametricShape final : public Shape {
+class ParametricShape : public Shape {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, position>("position"),
                                                             kernel_function<Params, dpdu>("dpdu"),

@@ -14,5 +14,13 @@ vec3 intensity_at(vec3 place, ShadingPoint point, float facing) {
     s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, point.dpdu));
 #endif
     s.color = object_color;
+    s.position = vec3(0.0);
+#ifdef NEEDS_POSITION
+    s.position = place;
+#endif
+    s.uv = vec2(0.0);
+#ifdef NEEDS_UV
+    s.uv = point.uv;
+#endif
     return lights_at(s, Receiver(place, s.normal));
 }

@@ -30,6 +30,11 @@ class CANDELA_API Instance {
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
     virtual ~Instance();
+
+    /// The numbers of the `Table` that a parameter, an index of the descriptor's, has in the struct of the
+    /// plugin's kernel; empty where it has none. Owned by the instance. From them programs are generated that
+    /// neither read the parameter's file nor compute what the plugin has made of it.
+    virtual std::span<const float> table(std::size_t parameter) const noexcept;
 };
 
 /// A fact that a plugin declares, for listings and the conformance kit: {"reciprocal", "true"}.

@@ -1,6 +1,6 @@
 // The kernel language in C++: the part of GLSL that a <name>.kernel file may use.
 //
-// A kernel is in the common subset of C++ and GLSL: structs of float, int, vec2, vec3, vec4 and mat3;
+// A kernel is in the common subset of C++ and GLSL: structs of float, int, vec2, vec3, vec4, mat3 and Table;
 // functions marked KERNEL that take and return values; locals, ternaries, arithmetic; reading swizzles such
 // as v.zyx; float literals written 0.5f; and the functions below, which have GLSL's names and meanings. Every
 // function is inlined into the batch loop that calls it and written so that the compiler vectorises that
@@ -192,6 +192,7 @@ CANDELA_KERNEL_INLINE float atan(float y, float x) {
 }  // namespace candela::kernel
 
 #include "candela/kernel_functions.h"
+#include "candela/kernel_table.h"
 
 namespace candela::kernel {
 

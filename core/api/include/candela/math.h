@@ -1,6 +1,7 @@
 // Plain vectors and structure-of-arrays views, which may cross a plugin's boundary.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -35,6 +36,9 @@ inline Vec3 normalized(Vec3 a) {
     if (!(exact > 0) || !std::isfinite(exact)) return {};
     return {static_cast<float>(x / exact), static_cast<float>(y / exact), static_cast<float>(z / exact)};
 }
+
+/// Three rows of three numbers, one row after the other.
+using Matrix = std::array<float, 9>;
 
 /// Three arrays of equal length, read only. Non-owning; the batch that contains it knows the length.
 struct ConstVec3Span {

@@ -23,6 +23,8 @@ enum class ParamType : int {
     direction,  // three numbers, not all zero; received as a unit vector
     color,      // three integers 0-255; received as 0 to 1, decoded according to the image's color_management
     rgb,        // a number, or one per channel
+    matrix,     // three rows of three numbers
+    numbers,    // a list of numbers, at least one
 };
 
 /// "real", "integer", ...
@@ -31,9 +33,11 @@ CANDELA_API std::string_view name_of(ParamType type) noexcept;
 /// A value as a plugin receives it; the type determines which member counts. Angles (unit "deg") are in
 /// radians.
 struct ParamValue {
-    float number[3] = {0, 0, 0};  // real (the first), vector, point, direction, color, rgb
-    std::int32_t integer = 0;     // integer, boolean, the index of a choice
-    const char* text = nullptr;   // text, file (an absolute path); valid while the instance is being created
+    float number[9] = {};        // real (the first), vector, point, direction, color, rgb (three), matrix
+                                 // (nine, row by row)
+    std::int32_t integer = 0;    // integer, boolean, the index of a choice
+    const char* text = nullptr;  // text, file (an absolute path); valid while the instance is being created
+    std::span<const float> list{};  // numbers; valid while the instance is being created
 };
 
 inline constexpr float k_no_minimum = -std::numeric_limits<float>::infinity();

@@ -19,6 +19,7 @@ struct SurfaceBatch {
     ConstVec3Span tangent;      // along dp/du, orthogonal to N; null unless needs_tangent()
     Rgb color;                  // C_o, the object's colour, 0 to 1, the same for the whole batch
     ConstVec3Span position{};   // metres
+    ConstVec2Span uv{};         // texture coordinates; null unless needs_uv()
 };
 
 /// What one sample of a light sends to each of the points.
@@ -67,6 +68,13 @@ class CANDELA_API ReflectionModel : public Instance {
 
     /// Whether SurfaceBatch::tangent must be filled.
     virtual bool needs_tangent() const noexcept { return false; }
+
+    /// Whether SurfaceBatch::uv must be filled. Zero on a mesh without texture coordinates.
+    virtual bool needs_uv() const noexcept { return false; }
+
+    /// Whether the model's kernel reads Surface::position, for programs that are generated from it;
+    /// SurfaceBatch::position is there in any case.
+    virtual bool needs_position() const noexcept { return false; }
 
     /// Adds what each point reflects of the light to `reflected.diffuse` and `reflected.specular`.
     virtual void reflect(const SurfaceBatch& surface, const LightingBatch& light,

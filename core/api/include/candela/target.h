@@ -18,7 +18,9 @@ struct ExportedValues {
     std::span<const ParamValue>
         written;  // as a person writes them: degrees, colours 0-255, text of a file its path
     std::span<const ParamValue>
-        delivered;  // as an instance receives them: radians, intensities, unit directions
+        delivered;  // as an instance receives them: radians, intensities, unit directions. Of a parameter
+                    // that is a Table of the kernel: `list` is the table's numbers, a part of
+                    // ExportedScene::tables, and `integer` where it begins there
 };
 
 /// A plugin that the scene uses, or may be switched to. Its descriptor lives as long as the process and has
@@ -34,6 +36,8 @@ struct ExportedShading : ExportedModel {
 
 struct ExportedReflection : ExportedModel {
     bool needs_tangent = false;       // its kernel reads Surface::tangent
+    bool needs_position = false;      // its kernel reads Surface::position
+    bool needs_uv = false;            // its kernel reads Surface::uv
     bool shows_surroundings = false;  // it shows what is behind and around an object
 };
 
@@ -127,8 +131,9 @@ struct ExportedScene {
     std::span<const ExportedShading> shadings{};        // those of the objects, then those to switch to
     std::span<const ExportedReflection> reflections{};  // likewise
     std::span<const ExportedObject> objects{};
-    bool needs_uv = false;           // a model reads texture coordinates
-    bool needs_derivatives = false;  // a model reads partial derivatives of positions
+    std::span<const float> tables{};  // the numbers of all kernels' tables, equal ones once
+    bool needs_uv = false;            // a model reads texture coordinates
+    bool needs_derivatives = false;   // a model reads partial derivatives of positions
     ExportedGeometry* geometry = nullptr;
 };
 

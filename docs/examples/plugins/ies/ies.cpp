@@ -1,6 +1,10 @@
-// A lamp as its maker has measured it: IES LM-63 (ANSI/IES LM-63-19), photometry of type C. The table would
-// not fit into a kernel's parameters, so this light renders and is not exported to programs.
+// A lamp as its maker has measured it: IES LM-63 (ANSI/IES LM-63-19), photometry of type C. The file becomes
+// a table of the kernel.
 #include <candela/light_plugin.h>
+
+namespace candela::kernel {
+#include "ies.kernel"
+}
 
 #include <algorithm>
 #include <cmath>
@@ -12,18 +16,10 @@
 #include <utility>
 #include <vector>
 
-using candela::Vec3;
+using candela::kernel::IesLight;
 using namespace candela::sdk;
 
 namespace {
-
-struct IesParams {
-    vec3 color;
-    float intensity;
-    vec3 position;
-    vec3 direction;
-    const char* file;
-};
 
 /// Candela by vertical angle (0 is along the lamp's axis) for each horizontal angle; both ascend, in degrees.
 struct Photometry {
@@ -90,59 +86,53 @@ struct Photometry {
     }
 };
 
-class Ies final : public candela::Light {
-  public:
-    explicit Ies(const IesParams& params)
-        : photometry_(params.file),
-          color_(params.color),
-          position_{params.position.x, params.position.y, params.position.z},
-          axis_{params.direction.x, params.direction.y, params.direction.z},
-          scale_(params.intensity) {
-        const Vec3 aside = std::abs(axis_.z) < 0.9f ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
-        across_ = candela::normalized(aside - dot(aside, axis_) * axis_);
+/// The largest step of degrees in which all angles are a whole number of steps; no smaller than half a
+/// degree.
+float step_of(const std::vector<float>& angles) {
+    for (const float step : {90.0f, 45.0f, 30.0f, 22.5f, 15.0f, 10.0f, 7.5f, 5.0f, 2.5f, 2.0f, 1.0f}) {
+        const auto is_whole = [&](float angle) {
+            return std::abs(std::remainder(angle - angles.front(), step)) < 1e-3f;
+        };
+        if (std::ranges::all_of(angles, is_whole)) return step;
     }
+    return 0.5f;
+}
 
-    int sample_count() const noexcept override { return 1; }
-    bool has_ambient() const noexcept override { return false; }
-
-    void illuminate(int, const candela::ReceiverBatch& receivers,
-                    const candela::IncidentBatch& incident) const override {
-        const float degree = 57.2957795f;
-        const Vec3 third = cross(axis_, across_);
-        for (std::size_t i = 0; i < receivers.count; ++i) {
-            const Vec3 offset = position_ - receivers.position[i];
-            const float distance = length(offset);
-            const Vec3 to_light = distance > 1e-18f ? 1 / distance * offset : receivers.normal[i];
-            const float around = degree * std::atan2(-dot(to_light, third), -dot(to_light, across_));
-            const float down = degree * std::acos(std::clamp(-dot(to_light, axis_), -1.0f, 1.0f));
-            const float sent = scale_ * photometry_.at(down, around < 0 ? around + 360 : around) /
-                               std::pow(std::max(distance, 1e-4f), 2.0f);
-            incident.to_light.set(i, to_light);
-            incident.diffuse.set(i, {sent * color_.x, sent * color_.y, sent * color_.z});
-            incident.specular.set(i, incident.diffuse[i]);
-        }
+/// A grid of equal steps, as the kernel reads it.
+std::vector<float> table_of(const char* path) {
+    const Photometry photometry(path);
+    const float last = photometry.vertical.back();
+    // From the axis on, where the first angle may be greater than 0.
+    std::vector<float> downwards = photometry.vertical;
+    downwards.insert(downwards.begin(), 0.0f);
+    const auto steps = static_cast<int>(std::ceil(last / step_of(downwards)));
+    const int turns = photometry.horizontal.size() < 2
+                          ? 0
+                          : static_cast<int>(std::lround(360 / step_of(photometry.horizontal)));
+    std::vector<float> table{static_cast<float>(steps + 1), last, static_cast<float>(turns + 1)};
+    for (int row = 0; row <= turns; ++row) {
+        const float around = turns == 0 ? 0 : 360.0f * static_cast<float>(row) / static_cast<float>(turns);
+        for (int column = 0; column <= steps; ++column)
+            table.push_back(
+                photometry.at(last * static_cast<float>(column) / static_cast<float>(std::max(steps, 1)),
+                              row == turns ? 0 : around));
     }
-
-  private:
-    Photometry photometry_;
-    vec3 color_;
-    Vec3 position_, axis_, across_;
-    float scale_;
-};
+    return table;
+}
 
 constexpr auto k_fields =
-    fields(light_color(&IesParams::color),
-           real(&IesParams::intensity, "intensity", 0.001f, "that one candela of the file is").minimum(0),
-           point(&IesParams::position, "position", "where the lamp is"),
-           direction(&IesParams::direction, "direction", "the lamp's axis, where its vertical angle is 0"),
-           file(&IesParams::file, "file", "the lamp's photometry (.ies, LM-63, type C)"));
+    fields(light_color(&IesLight::color),
+           real(&IesLight::intensity, "intensity", 0.001f, "that one candela of the file is").minimum(0),
+           point(&IesLight::position, "position", "where the lamp is"),
+           direction(&IesLight::direction, "direction", "the lamp's axis, where its vertical angle is 0"),
+           file_table(&IesLight::file, "file", table_of, "the lamp's photometry (.ies, LM-63, type C)"));
 
 constexpr candela::Property k_properties[] = {{"attenuation", "by distance"}};
 
 }  // namespace
 
-CANDELA_PLUGIN(
-    light, Ies, k_fields,
+CANDELA_LIGHT_PLUGIN(
+    ies, IesLight, k_fields,
     {.title = "IES light",
      .summary = "A lamp as its maker has measured it, from a photometric file.",
      .formula = "I_L = color intensity I(vertical, horizontal) / r^2",

@@ -63,11 +63,12 @@ const std::vector<Model> k_reflections = {
 
 using vec3 = std::array<float, 3>;
 
-// A uniform variable: whole numbers, numbers, or vectors.
+// A uniform variable: whole numbers, numbers, vectors, or matrices, whose first column is `value`.
 struct Uniform {
     const char* name;
-    enum { whole, real, vector } type;
+    enum { whole, real, vector, matrix } type;
     vec3 value;
+    std::array<vec3, 2> more_columns{};
 };
 
 struct Object {
@@ -98,6 +99,10 @@ const std::vector<Uniform> k_light_counts = {
 @LIGHT_COUNTS@};
 const std::vector<Uniform> k_light_values = {
 @LIGHT_VALUES@};
+
+// The numbers of the models' tables, one table after the other: a model knows where its own begins, and its size.
+const std::vector<float> k_table_numbers = {
+@TABLES@};
 
 const std::vector<Object> k_objects = {
 @OBJECTS@};
@@ -211,6 +216,31 @@ void set(GLuint program, const Uniform& u, const char* owner = "") {
     if (u.type == Uniform::whole) glUniform1i(at, static_cast<GLint>(u.value[0]));
     if (u.type == Uniform::real) glUniform1f(at, u.value[0]);
     if (u.type == Uniform::vector) glUniform3fv(at, 1, u.value.data());
+    if (u.type == Uniform::matrix) {
+        std::array<float, 9> columns{};
+        std::copy(u.value.begin(), u.value.end(), columns.begin());
+        for (std::size_t i = 0; i < 2; ++i) std::copy(u.more_columns[i].begin(), u.more_columns[i].end(), columns.begin() + 3 + 3 * i);
+        glUniformMatrix3fv(at, 1, GL_FALSE, columns.data());
+    }
+}
+
+// A texture of which shaders read single texels.
+GLuint data_texture(GLint format, std::size_t width, std::size_t height, GLenum layout, GLenum type, const void* texels) {
+    GLuint texture = 0;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, format, static_cast<GLsizei>(width), static_cast<GLsizei>(height), 0, layout, type, texels);
+    return texture;
+}
+
+// The numbers of all tables, in rows of this width.
+GLuint table_numbers() {
+    const std::size_t width = @TABLE_WIDTH@, height = k_table_numbers.size() / width + 1;
+    std::vector<float> texels = k_table_numbers;
+    texels.resize(width * height);
+    return data_texture(GL_R32F, width, height, GL_RED, GL_FLOAT, texels.data());
 }
 
 // The lights' values as a texture that shaders read, a texel each, in rows of this width.
@@ -219,17 +249,10 @@ GLuint light_table() {
     std::vector<std::array<GLint, 4>> texels(width * height);
     for (std::size_t i = 0; i < k_light_values.size(); ++i) {
         const Uniform& u = k_light_values[i];
-        if (u.type == Uniform::whole) texels[i][0] = static_cast<GLint>(u.value[0]);
+        if (u.type == Uniform::whole) std::transform(u.value.begin(), u.value.end(), texels[i].begin(), [](float x) { return static_cast<GLint>(x); });
         else std::memcpy(&texels[i], &u.value, sizeof(u.value));
     }
-    GLuint texture = 0;
-    glGenTextures(1, &texture);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32I, static_cast<GLsizei>(width), static_cast<GLsizei>(height), 0, GL_RGBA_INTEGER,
-                 GL_INT, texels.data());
-    return texture;
+    return data_texture(GL_RGBA32I, width, height, GL_RGBA_INTEGER, GL_INT, texels.data());
 }
 
 // A mesh as the graphics processor has it: each triangle has vertices of its own, whose places of light, normals and so on
@@ -326,6 +349,8 @@ class Renderer {
         encode_ = linked(k_header + k_screen, k_header + k_encode);
         glActiveTexture(GL_TEXTURE2);  // passes over the screen have the first two
         light_table();
+        glActiveTexture(GL_TEXTURE3);
+        table_numbers();
         glActiveTexture(GL_TEXTURE0);
     }
 
@@ -417,6 +442,7 @@ class Renderer {
         program = linked(common + k_vertex, common + k_fragment);
         glUseProgram(program);
         set(program, {"light_table", Uniform::whole, {2, 0, 0}});
+        set(program, {"table_numbers", Uniform::whole, {3, 0, 0}});
         for (const Uniform& u : k_light_counts) set(program, u);
         return program;
     }

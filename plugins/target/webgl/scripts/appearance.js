@@ -22,18 +22,30 @@ function toUniform(parameter, value, isSrgb) {
     }
 }
 
-/** Pairs of a uniform's name and value: the setting `${prefix}${name}` becomes the member `${struct}.${name}`. */
-function modelUniforms(settings, model, prefix, struct, isSrgb) {
-    return model.parameters
-        .filter(({ name }) => settings.find(prefix + name) !== null)
-        .map((parameter) => [`${struct}.${parameter.name}`, toUniform(parameter, settings.get(prefix + parameter.name), isSrgb)]);
+/** A member that no setting changes, as pairs of a uniform's name and value: a matrix, or the place and size of a table. */
+function fixedUniforms(name, { kind, value }) {
+    if (kind !== "table") return [[name, { kind, value }]];
+    return ["first", "count"].map((part, i) => [`${name}.${part}`, { kind: "int", value: value[i] }]);
 }
 
-/** The members of a light's struct, in their order. */
-function structMembers(settings, model, prefix, isSrgb) {
-    return model.block.members.map((name) => {
+/**
+ * Pairs of a uniform's name and value: the setting `${prefix}${name}` becomes the member `${struct}.${name}`, and so does
+ * what is `fixed`.
+ */
+function modelUniforms(settings, model, prefix, fixed, struct, isSrgb) {
+    const adjustable = model.parameters
+        .filter(({ name }) => settings.find(prefix + name) !== null)
+        .map((parameter) => [`${struct}.${parameter.name}`, toUniform(parameter, settings.get(prefix + parameter.name), isSrgb)]);
+    return [...adjustable, ...Object.entries(fixed).flatMap(([name, value]) => fixedUniforms(`${struct}.${name}`, value))];
+}
+
+/** The members of a light's struct, in their order: a value for each texel. */
+function structMembers(settings, model, prefix, fixed, isSrgb) {
+    return model.block.members.flatMap((name) => {
         const parameter = model.parameters.find((p) => p.name === name);
-        return toUniform(parameter, settings.get(prefix + name), isSrgb);
+        if (parameter) return [toUniform(parameter, settings.get(prefix + name), isSrgb)];
+        const { kind, value } = fixed[name];
+        return kind === "mat3" ? [0, 3, 6].map((i) => ({ kind: "vec3", value: value.slice(i, i + 3) })) : [{ kind: "int", value }];
     });
 }
 
@@ -42,9 +54,10 @@ export function appearanceOf(settings) {
     const { scene } = settings;
     const isSrgb = scene.image.color_management === "srgb";
     const lights = scene.lights
-        .map(({ model }, i) => ({ model, isOn: settings.get(`light.${i}.on`), prefix: `light.${i}.value.` }))
+        .map(({ model, fixed }, i) => ({ model, fixed, isOn: settings.get(`light.${i}.on`), prefix: `light.${i}.value.` }))
         .filter(({ isOn }) => isOn)
-        .map(({ model, prefix }) => ({ model, members: structMembers(settings, scene.light_models[model], prefix, isSrgb) }));
+        .map(({ model, fixed, prefix }) =>
+            ({ model, members: structMembers(settings, scene.light_models[model], prefix, fixed, isSrgb) }));
     const objects = scene.objects.map((object, i) => {
         const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
         const shadingModel = scene.shading_models[shading], reflectionModel = scene.reflection_models[reflection];
@@ -52,8 +65,11 @@ export function appearanceOf(settings) {
             shading, reflection, rate: shadingModel.rate, closed: object.closed,
             uniforms: [
                 ["object_color", toUniform(COLOR, settings.get(`object.${i}.color`), isSrgb)],
-                ...modelUniforms(settings, reflectionModel, `object.${i}.material.${reflection}.`, "material", isSrgb),
-                ...modelUniforms(settings, shadingModel, `object.${i}.shading.${shading}.`, "shading", isSrgb),
+                ...modelUniforms(
+                    settings, reflectionModel, `object.${i}.material.${reflection}.`, object.fixed.material[reflection],
+                    "material", isSrgb),
+                ...modelUniforms(
+                    settings, shadingModel, `object.${i}.shading.${shading}.`, object.fixed.shading[shading], "shading", isSrgb),
             ],
         };
     });

@@ -5,8 +5,8 @@ export class LightTable {
         this.models = scene.light_models;
         this.width = scene.light_table_width;
         const blocks = Object.values(this.models).map(({ block }) => block);
-        const texels = blocks.reduce((sum, { lights, members }) => sum + lights * members.length, 0);
-        this.height = Math.max(1, Math.ceil(texels / this.width));
+        const total = blocks.reduce((sum, { lights, texels }) => sum + lights * texels, 0);
+        this.height = Math.max(1, Math.ceil(total / this.width));
         if (this.height > gl.getParameter(gl.MAX_TEXTURE_SIZE)) throw new Error("This device's graphics have no room for so many lights.");
         this.texture = gl.createTexture();
         gl.bindTexture(gl.TEXTURE_2D, this.texture);
@@ -34,11 +34,11 @@ export class LightTable {
         const { gl } = this, integers = new Int32Array(4 * this.width * this.height), floats = new Float32Array(integers.buffer);
         const counts = new Map(Object.keys(this.models).map((model) => [model, 0]));
         for (const { model, members } of lights) {
-            const { first } = this.models[model].block, index = counts.get(model);
+            const { first, texels } = this.models[model].block, index = counts.get(model);
             counts.set(model, index + 1);
             members.forEach(({ kind, value }, i) => {
-                const at = 4 * (first + index * members.length + i);
-                if (kind === "int") integers[at] = value;
+                const at = 4 * (first + index * texels + i);
+                if (kind === "int") integers.set([value].flat(), at);
                 else floats.set([value].flat(), at);
             });
         }

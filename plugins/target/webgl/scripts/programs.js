@@ -60,6 +60,7 @@ class Program {
         if (kind === "int") gl.uniform1i(at, value);
         else if (kind === "float") gl.uniform1f(at, value);
         else if (kind === "vec3") gl.uniform3f(at, value[0], value[1], value[2]);
+        else if (kind === "mat3") gl.uniformMatrix3fv(at, false, value);
         else gl.uniformMatrix4fv(at, false, value);
     }
 }

@@ -3,10 +3,12 @@ import { Film } from "./film.js";
 import { LightTable } from "./lights.js";
 import { Mesh } from "./mesh.js";
 import { ProgramCache } from "./programs.js";
+import { Tables } from "./tables.js";
 import { scale } from "./vectors.js";
 
 const POLL_MS = 2;
 const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
+const TABLES_UNIT = 3;
 
 /** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
 export class Renderer {
@@ -20,6 +22,7 @@ export class Renderer {
         this.meshes = scene.objects.map((object) => new Mesh(gl, object.mesh));
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
         this.lights = new LightTable(gl, scene);
+        this.tables = new Tables(gl, scene);
         this.emptyVertexArray = gl.createVertexArray();
         gl.enable(gl.DEPTH_TEST);
         gl.depthFunc(gl.GREATER);  // depths are 0 far away, where floats are densest
@@ -81,6 +84,7 @@ export class Renderer {
             is_orthographic: { kind: "int", value: observer.projection === "orthographic" ? 1 : 0 },
             towards_observer: { kind: "vec3", value: scale(viewAxes(observer).forward, -1) },
             ...this.lights.bind(LIGHTS_UNIT, appearance.lights),
+            ...this.tables.bind(TABLES_UNIT),
         };
         gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
         gl.viewport(0, 0, film.width, film.height);

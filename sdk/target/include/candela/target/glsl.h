@@ -25,8 +25,13 @@ GlslParts glsl_of(const ExportedScene& scene);
 
 /// Texels in a row of the texture `light_table`, from which shaders read lights. A texel has four 32-bit
 /// integers (RGBA32I) and holds a member of a light's struct: the bits of a vector's three floats, of one
-/// float, or an integer.
+/// float, an integer, or where a Table begins and its size. A matrix takes three texels, its columns.
 constexpr int k_light_table_width = 1024;
+/// Texels of a member of that type.
+std::size_t texels_of(ParamType type);
+
+/// Numbers in a row of the texture `table_numbers` (R32F), which holds ExportedScene::tables.
+constexpr int k_table_width = 1024;
 
 /// Where the lights of one model are in the table: one after the other, each with its struct's members in
 /// their order (KernelText::members).

@@ -13,6 +13,10 @@ namespace candela::target {
 /// The structs and functions that kernels start from, in the kernel language.
 std::string_view kernel_prelude();
 
+/// What kernel texts call Table, as GLSL; `table_numbers` is a texture (R32F) of ExportedScene::tables with
+/// k_table_width numbers in a row.
+std::string_view glsl_tables();
+
 /// Whether a model's kernel has a struct of parameters.
 bool has_parameters(const ExportedModel& model);
 /// Whether its kernel has the function <prefix>_<name>.

@@ -1,6 +1,7 @@
 // Values and names as they stand in generated text.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -16,7 +17,10 @@ namespace candela::target {
 std::string float_text(float x);
 /// "vec3(1.0f, 0.0f, 0.5f)".
 std::string vec3_text(Vec3 v);
-/// A value as a kernel's member takes it: "0.5f", "2", "vec3(...)". A choice also says its word in a comment.
+/// A matrix's values, as they are delivered, column by column.
+std::array<Vec3, 3> columns_of(const ParamValue& delivered);
+/// A value as a kernel's member takes it: "0.5f", "2", "vec3(...)", "mat3(...)"; a table as "Table{12, 30}",
+/// where it begins in ExportedScene::tables and its size. A choice also says its word in a comment.
 std::string member_text(const ParamSpec& parameter, const ParamValue& delivered);
 
 /// A float in as few digits as name it exactly: 0.1, not 0.10000000149011612.

@@ -1,0 +1,14 @@
+// Its kernel reads texture coordinates, which it does not declare, so that nobody fills them.
+#include "candela/reflection_plugin.h"
+
+namespace candela::kernel {
+#include "reflection-reads-undeclared.kernel"
+}
+
+using candela::kernel::ReadsUndeclaredMaterial;
+using namespace candela::sdk;
+
+constexpr auto k_fields = fields(diffuse_coefficient(&ReadsUndeclaredMaterial::kd));
+
+CANDELA_REFLECTION_PLUGIN(reads_undeclared, ReadsUndeclaredMaterial, k_fields,
+                          {.title = "Reads undeclared", .summary = "Bad on purpose.", .reference = "none"})
