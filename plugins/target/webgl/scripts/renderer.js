@@ -35,6 +35,7 @@ export class Renderer {
     release() {
         for (const mesh of this.meshes) mesh.release();
         this.lights.release();
+        this.tables.release();
         this.programs.release();
         this.gl.deleteVertexArray(this.emptyVertexArray);
     }

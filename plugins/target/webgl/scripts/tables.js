@@ -18,6 +18,10 @@ export class Tables {
         gl.bindTexture(gl.TEXTURE_2D, null);
     }
 
+    release() {
+        this.gl.deleteTexture(this.texture);
+    }
+
     /** Binds the texture to a unit; returns the uniform with which it is read. */
     bind(unit) {
         const { gl } = this;
