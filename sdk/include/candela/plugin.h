@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <span>
 #include <stdexcept>
@@ -82,11 +83,18 @@ struct Field {
         const bool is_given = value.text != nullptr && *value.text != '\0';
         std::vector<float> numbers = is_given ? read_table(value.text) : std::vector<float>();
         for (const float x : numbers) {
-            if (!std::isfinite(x))
-                throw std::runtime_error(std::string("the table of '") + spec.name +
-                                         "' has a number that is not finite");
+            if (!std::isfinite(x)) refuse_table();
         }
         return numbers;
+    }
+
+    [[noreturn]] void refuse_table() const {
+#ifdef __cpp_exceptions
+        throw std::runtime_error(std::string("the table of '") + spec.name +
+                                 "' has a number that is not finite");
+#else
+        std::abort();  // a plugin without exceptions is refused before it makes anything
+#endif
     }
 
     const void* member_of(const Params& params) const {
