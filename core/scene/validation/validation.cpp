@@ -125,9 +125,16 @@ std::string described(const Node& node, const Diagnostics& diagnostics) {
                        written);
 }
 
-/// What is wrong in a list where three numbers were expected: "its second value is a string, …".
+/// What is wrong in a list where numbers were expected: "its second value is a string, …".
 std::string found(const Node& node, const Parameter& p, const Diagnostics& diagnostics) {
     const ArrayNode* const array = node.array();
+    if (array != nullptr && p.type == ParamType::numbers) {
+        const auto wrong =
+            std::ranges::find_if(*array, [](const Node& each) { return !number(each, false); });
+        if (wrong == array->end()) return "an empty list";
+        return fmt::format("a list whose value {} is {}", wrong - array->begin() + 1,
+                           described(*wrong, diagnostics));
+    }
     const bool takes_three = p.type >= ParamType::vector && p.type <= ParamType::rgb;
     if (array == nullptr || array->size() != 3 || !takes_three) return described(node, diagnostics);
     constexpr std::array<std::string_view, 3> k_ordinals = {"first", "second", "third"};
