@@ -74,6 +74,8 @@ void print(const candela::PluginFile& file) {
               << wrapped(line(m.summary), 0, 0) << '\n';
     if (!m.formula.empty()) std::cout << "\nFormula\n" << indented(m.formula);
     if (!m.reference.empty()) std::cout << "\nReference\n" << indented(m.reference);
+    if (!m.author.empty()) std::cout << "\nAuthor\n" << indented(m.author);
+    if (!m.license.empty()) std::cout << "\nLicense\n" << indented(m.license);
     if (!m.parameters.empty()) std::cout << "\nParameters\n";
     for (const candela::Parameter& p : m.parameters) {
         std::cout << row(line(p.name), line(what_is_allowed(p)), k_names)

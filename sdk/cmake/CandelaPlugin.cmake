@@ -1,5 +1,6 @@
 # candela_add_plugin(<kind>/<name> SOURCES <file>... [KERNEL <file>] [EMBED <file>...] [LIBRARIES <target>...]
-#                    [DATA <dir>] [VERSION <x.y.z>] [CONFORMANCE_VALUES <parameter>=<value>...])
+#                    [DATA <dir>] [VERSION <x.y.z>] [AUTHOR <name>] [LICENSE <spdx>]
+#                    [CONFORMANCE_VALUES <parameter>=<value>...])
 #
 # A plugin: <kind>-<name>.so and, made from it, <kind>-<name>.json. Kind is light, reflection, shading, shape,
 # image or target.
@@ -12,6 +13,8 @@
 #   DATA       a folder of the plugin's own files, copied beside the library as the folder <kind>-<name>, which
 #              candela::sdk::data_folder() finds (candela/plugin_files.h)
 #   VERSION    of the plugin; the project's by default
+#   AUTHOR     whose it is, for `candela describe` and `candela list --json`
+#   LICENSE    as SPDX names it: MIT, Apache-2.0, GPL-3.0-or-later …
 #   CONFORMANCE_VALUES  parameters' values for "conforms", such as a file that the plugin needs: file=/full/path
 
 # Once a folder, not once a build: what is set here is not seen in a folder beside, which finds Candela for itself.
@@ -39,7 +42,7 @@ set(CANDELA_HARDENING_COMPILE_OPTIONS
 set(CANDELA_HARDENING_LINK_OPTIONS -Wl,-z,relro -Wl,-z,now)
 
 function(candela_add_plugin id)
-    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION;DATA" "SOURCES;EMBED;LIBRARIES;CONFORMANCE_VALUES")
+    cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "KERNEL;VERSION;DATA;AUTHOR;LICENSE" "SOURCES;EMBED;LIBRARIES;CONFORMANCE_VALUES")
     if(PLUGIN_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "candela_add_plugin(${id}): unknown arguments ${PLUGIN_UNPARSED_ARGUMENTS}")
     endif()
@@ -112,6 +115,7 @@ function(candela_add_plugin id)
     # The manifest, from the plugin's own descriptor.
     add_custom_command(TARGET ${target} POST_BUILD
         COMMAND candela::manifest $<TARGET_FILE:${target}> $<TARGET_FILE_DIR:${target}>/${file}.json
+            "--author=${PLUGIN_AUTHOR}" "--license=${PLUGIN_LICENSE}"
         VERBATIM)
     set_target_properties(${target} PROPERTIES CANDELA_MANIFEST ${file}.json)
 

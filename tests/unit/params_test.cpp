@@ -71,6 +71,8 @@ candela::Manifest sample_manifest() {
     m.has_kernel = true;
     m.kernel_prefix = "lamp";
     m.kernel_parameters = "LampLight";
+    m.author = "Bùi Tường Phong";
+    m.license = "MIT";
     return m;
 }
 
@@ -88,6 +90,30 @@ TEST_CASE("what is no manifest is refused with a reason") {
         INFO(text);
         CHECK_THROWS_AS(candela::manifest_from_json(text), candela::Error);
     }
+}
+
+TEST_CASE("a plugin's author and licence are short, and of characters that can be seen") {
+    candela::Manifest manifest = sample_manifest();
+    const auto is_refused = [&] {
+        try {
+            static_cast<void>(candela::manifest_from_json(candela::to_json(manifest)));
+            return std::string();
+        } catch (const candela::Error& problem) {
+            return std::string(problem.what());
+        }
+    };
+    manifest.author = std::string(200, 'a');
+    CHECK(is_refused().empty());
+    manifest.author += 'a';
+    CHECK(is_refused() == "its author has 201 characters; at most 200 are possible");
+    manifest.author = "an\x1b[31mybody";
+    CHECK(is_refused() == "its author 'an\\u{1b}[31mybody' has characters that cannot be seen");
+    manifest.author.clear();
+    manifest.license = "MIT\n";
+    CHECK(is_refused() == "its license 'MIT\\u{a}' has characters that cannot be seen");
+    manifest.license.clear();
+    CHECK(candela::to_json(manifest).find("license") == std::string::npos);
+    CHECK(is_refused().empty());
 }
 
 TEST_CASE("parameters are delivered as plugins expect them") {

@@ -89,6 +89,8 @@ Json json_of(const Manifest& m) {
     json["summary"] = m.summary;
     json["formula"] = m.formula;
     json["reference"] = m.reference;
+    if (!m.author.empty()) json["author"] = m.author;
+    if (!m.license.empty()) json["license"] = m.license;
     json["parameters"] = Json::array();
     for (const Parameter& p : m.parameters) json["parameters"].push_back(json_of(p));
     json["relations"] = Json::array();
@@ -215,6 +217,10 @@ Manifest manifest_from(const Json& json) {
     m.summary = json.at("summary").get<std::string>();
     m.formula = json.at("formula").get<std::string>();
     m.reference = json.at("reference").get<std::string>();
+    m.author = json.value("author", "");
+    m.license = json.value("license", "");
+    require_name(m.author, "author");
+    require_name(m.license, "license");
     for (const Json& p : json.at("parameters")) m.parameters.push_back(parameter_from(p));
     for (std::size_t i = 0; i < m.parameters.size(); ++i) {
         const bool is_double =
@@ -257,6 +263,17 @@ std::optional<std::string> Manifest::property(std::string_view property_name) co
         if (key == property_name) return value;
     }
     return std::nullopt;
+}
+
+void require_name(std::string_view text, std::string_view what) {
+    constexpr std::size_t k_longest = 200;
+    if (text.size() > k_longest)
+        throw Error(
+            ErrorCategory::bad_request,
+            fmt::format("its {} has {} characters; at most {} are possible", what, text.size(), k_longest));
+    if (printable(text) != text)
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("its {} '{}' has characters that cannot be seen", what, printable(text)));
 }
 
 Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {

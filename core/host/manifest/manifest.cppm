@@ -44,6 +44,10 @@ struct CANDELA_API Manifest {
     bool has_kernel = false;    // its mathematics can be exported; the text is in the library
     std::string kernel_prefix;  // see KernelText
     std::string kernel_parameters;
+    // Whose it is, which the library itself does not say (candela-manifest --author, --license); empty if not
+    // known.
+    std::string author;
+    std::string license;  // an SPDX expression, such as "MIT"
 
     /// "reflection/phong"
     std::string id() const;
@@ -59,6 +63,9 @@ CANDELA_API Manifest manifest_of(const PluginDescriptor& descriptor, std::string
 CANDELA_API std::string to_json(const Manifest& manifest);
 /// Several as one array.
 CANDELA_API std::string to_json(std::span<const Manifest> manifests);
+/// Throws Error (bad_request) where an author or a licence, which `what` calls it, is longer than 200
+/// characters or has some that cannot be seen.
+CANDELA_API void require_name(std::string_view text, std::string_view what);
 /// Throws Error with a plain sentence about `text`.
 CANDELA_API Manifest manifest_from_json(std::string_view text);
 /// The fingerprint a plugin was built for, even if this Candela cannot read the rest of its manifest; empty
