@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # With an installed Candela alone: the plugins of docs/examples/plugins are built as its documentation installs them, tested, put to
 # the conformance kit, rendered, and verified on all targets.
-#   examples.sh BUILD_DIR SCRATCH_DIR CMAKE CXX
+# Then other compilers build them, and what they make renders the same.
+#   examples.sh BUILD_DIR SCRATCH_DIR CMAKE CXX [OTHER_CXX...]
 set -euo pipefail
 build=$1 scratch=$2 cmake=$3 cxx=$4
 say() { printf '== %s\n' "$*"; }
@@ -20,12 +21,17 @@ names=(*/CMakeLists.txt)
 names=("${names[@]%/*}")
 [ ${#names[@]} -ge 12 ] || fail "there are ${#names[@]} examples; twelve are promised"
 
+# build_all COMPILER FOLDER
+build_all() {
+    quiet "$cmake" -G Ninja -S . -B "$2" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$1" -DCMAKE_PREFIX_PATH="$prefix" \
+        -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
+    quiet "$cmake" --build "$2"
+    (cd "$2" && quiet "$(dirname "$cmake")/ctest" -j2 --output-on-failure)
+    [ "$(grep -c ' Passed ' "$scratch/log")" -eq $((2 * ${#names[@]})) ] || { cat "$scratch/log" >&2; fail "not two tests for each"; }
+}
+
 say "one build of all, one test of its own and the kit for each: ${names[*]}"
-quiet "$cmake" -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$prefix" \
-    -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
-quiet "$cmake" --build build
-(cd build && quiet "$(dirname "$cmake")/ctest" -j2 --output-on-failure)
-[ "$(grep -c ' Passed ' "$scratch/log")" -eq $((2 * ${#names[@]})) ] || { cat "$scratch/log" >&2; fail "not two tests for each"; }
+build_all "$cxx" build
 
 say "one of them as a project of its own, which its README shows"
 (cd qoi && sed -n "/^cmake -B/,/^candela render/p" README.md >run.sh)
@@ -53,6 +59,14 @@ done
 for target in cpp opengl webgl; do
     quiet candela verify gallery.toml --target $target --plugin-dir build/plugins --width 160 --height 80
     grep -q match "$scratch/log" || { cat "$scratch/log" >&2; fail "$target was not verified"; }
+done
+
+for other in "${@:5}"; do
+    command -v "$other" >/dev/null || { say "SKIPPED: there is no $other here"; continue; }
+    say "built by $other, they pass their tests, conform, and render the same"
+    build_all "$other" "build-$other"
+    quiet candela render gallery.toml --plugin-dir "build-$other/plugins" -o "gallery-$other.png"
+    quiet candela diff gallery.png "gallery-$other.png" --tolerance 1
 done
 
 say "a light with a table, made from a file, is in generated programs, which do not read the file"
