@@ -2,4 +2,5 @@
 export module candela.render;
 
 export import :compiled_scene;
+export import :probe;
 export import :renderer;

@@ -14,6 +14,7 @@ module;
 export module candela.shade;
 
 export import :surface;
+export import :trace;
 import candela.arrays;
 import candela.descriptor;
 import candela.fragments;
@@ -39,6 +40,10 @@ class CANDELA_API SurfaceShader {
     /// naming the plugin, if one throws, yields a non-finite number, or writes beyond its batch.
     float shade(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 const Vec3Span& intensity);
+
+    /// Shades `points`, which is a single one, and tells the steps: `intensity` and the three sums are what
+    /// shade() computes. Throws Error like shade().
+    PointTrace trace(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
 
   private:
     /// Checks the results of each plugin right after its turn, instead of once at the end.

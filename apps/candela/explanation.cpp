@@ -1,0 +1,123 @@
+#include "explanation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+import candela.light;
+import candela.math;
+
+using candela::CompiledScene;
+using candela::FragmentProbe;
+using candela::LightTrace;
+using candela::Object;
+using candela::PluginDescriptor;
+using candela::PluginKind;
+using candela::PointTrace;
+using candela::Scene;
+using candela::Vec3;
+
+namespace {
+
+std::string receiver_text(const PointTrace& point) {
+    return fmt::format("Receiver({}, {})", kernel_vector_text(point.position), kernel_vector_text(point.normal));
+}
+
+std::string surface_text(const PointTrace& point, candela::Rgb color) {
+    return fmt::format("Surface({}, {}, {}, {})", kernel_vector_text(point.normal),
+                       kernel_vector_text(point.to_observer), kernel_vector_text(point.tangent),
+                       kernel_vector_text({color.r, color.g, color.b}));
+}
+
+std::string shading_point_text(const PointTrace& point) {
+    return fmt::format("ShadingPoint({}, {}, {}, vec2({}, {}), {}, {})", kernel_vector_text(point.face_normal),
+                       kernel_vector_text(point.vertex_normal), kernel_vector_text(point.barycentric),
+                       kernel_number(point.u), kernel_number(point.v), kernel_vector_text(point.dpdu),
+                       kernel_vector_text(point.dpdv));
+}
+
+}  // namespace
+
+Explanation::Explanation(const Scene& of_scene, const CompiledScene& of_compiled, candela::Registry& registry, int at_x,
+                         int at_y)
+    : x(at_x), y(at_y), scene(of_scene), compiled(of_compiled), pixel(candela::probe(of_compiled, at_x, at_y)) {
+    for (const FragmentProbe& fragment : pixel.fragments) add_calls(fragment, registry);
+    run_.emplace(calls_);
+}
+
+std::size_t Explanation::add(KernelCall call) {
+    calls_.push_back(std::move(call));
+    return calls_.size() - 1;
+}
+
+void Explanation::add_calls(const FragmentProbe& fragment, candela::Registry& registry) {
+    const Object& object = scene.objects[fragment.object];
+    const auto encoding = scene.image.color_management;
+    const auto descriptor = [&](PluginKind kind, const std::string& name) {
+        return registry.require(kind, name).descriptor;
+    };
+    const PluginDescriptor* const shading = descriptor(PluginKind::shading, object.shading.name);
+    const PluginDescriptor* const reflection = descriptor(PluginKind::reflection, object.reflection.name);
+    for (const PointTrace& point : fragment.points) {
+        points_.push_back({&point, add({.plugin = shading,
+                                        .values = object.shading.parameters.delivered(encoding),
+                                        .function = "normal",
+                                        .arguments = shading_point_text(point)})});
+        const std::string surface = surface_text(point, compiled.objects[fragment.object].surface.color);
+        for (const LightTrace& light : point.lights) {
+            const candela::Model& model = scene.lights[light.light].model;
+            const bool is_ambient = light.sample == LightTrace::k_ambient;
+            const std::size_t illuminate = add({.plugin = descriptor(PluginKind::light, model.name),
+                                                .values = model.parameters.delivered(encoding),
+                                                .function = is_ambient ? "illuminate_ambient" : "illuminate",
+                                                .arguments = receiver_text(point),
+                                                .sample = light.sample});
+            const std::size_t reflect =
+                add({.plugin = reflection,
+                     .values = object.reflection.parameters.delivered(encoding),
+                     .function = is_ambient ? "reflect_ambient" : "reflect",
+                     .arguments = is_ambient ? surface
+                                             : fmt::format("{}, {}", surface, kernel_vector_text(light.to_light))});
+            lights_.push_back({&light, illuminate, reflect});
+        }
+    }
+}
+
+const std::vector<KernelValue>& Explanation::normal_steps(const PointTrace& point) const {
+    return run_->values(std::ranges::find(points_, &point, &CallOfPoint::trace)->normal);
+}
+const std::vector<KernelValue>& Explanation::light_steps(const LightTrace& light) const {
+    return run_->values(std::ranges::find(lights_, &light, &CallsOfLight::trace)->illuminate);
+}
+const std::vector<KernelValue>& Explanation::reflection_steps(const LightTrace& light) const {
+    return run_->values(std::ranges::find(lights_, &light, &CallsOfLight::trace)->reflect);
+}
+
+std::optional<double> Explanation::kernel_difference() const {
+    std::optional<double> largest;
+    for (const FragmentProbe& fragment : pixel.fragments) {
+        for (const PointTrace& point : fragment.points) {
+            const double scale = std::max({point.intensity.x, point.intensity.y, point.intensity.z, 1e-3f});
+            for (const LightTrace& light : point.lights) {
+                const auto compare = [&](const KernelValue& value, Vec3 arriving, Vec3 reflected) {
+                    if (value.numbers.size() != 3) return;
+                    const std::array<double, 3> by_plugin{reflected.x, reflected.y, reflected.z};
+                    const std::array<double, 3> sent{arriving.x, arriving.y, arriving.z};
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const double difference = std::abs(value.numbers[c] * sent[c] - by_plugin[c]) / scale;
+                        largest = std::max(largest.value_or(0), difference);
+                    }
+                };
+                for (const KernelValue& value : reflection_steps(light)) {
+                    if (value.depth != 0 || value.step->kind != KernelStep::Kind::result) continue;
+                    if (value.member.empty()) compare(value, light.diffuse, light.reflected_ambient);
+                    if (value.member == ".diffuse") compare(value, light.diffuse, light.reflected_diffuse);
+                    if (value.member == ".specular") compare(value, light.specular, light.reflected_specular);
+                }
+            }
+        }
+    }
+    return largest;
+}

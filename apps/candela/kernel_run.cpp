@@ -1,0 +1,197 @@
+#include "kernel_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+#include "helper.h"
+#include "temporary_folder.h"
+
+import candela.diagnostics;
+import candela.process;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+using candela::KernelFunction;
+using candela::ParamSpec;
+using candela::ParamType;
+using candela::ParamValue;
+using candela::PluginDescriptor;
+
+namespace {
+
+/// Statements that fill the kernel's struct, whose members are called as the parameters (see KernelText).
+std::string parameters_of(const KernelCall& call) {
+    std::string text;
+    for (std::size_t i = 0; i < call.values.size(); ++i) {
+        const ParamSpec& parameter = call.plugin->parameters[i];
+        const ParamValue& value = call.values[i];
+        switch (parameter.type) {
+            case ParamType::real:
+                text += fmt::format("m.{} = {}; ", parameter.name, kernel_number(value.number[0]));
+                break;
+            case ParamType::integer:
+            case ParamType::boolean:
+            case ParamType::choice:
+                text += fmt::format("m.{} = {}; ", parameter.name, value.integer);
+                break;
+            case ParamType::text:
+            case ParamType::file:
+                break;  // the kernel language has no texts
+            default:
+                text += fmt::format("m.{} = {}; ", parameter.name,
+                                    kernel_vector_text({value.number[0], value.number[1], value.number[2]}));
+        }
+    }
+    return text;
+}
+
+std::optional<fs::path> compiler() {
+    const char* const chosen = std::getenv("CXX");
+    for (const std::string& name : {std::string(chosen == nullptr ? "" : chosen), std::string("clang++-19"),
+                                    std::string("clang++"), std::string("g++"), std::string("c++")}) {
+        if (name.empty()) continue;
+        if (const auto found = candela::program_called(name)) return found;
+    }
+    return std::nullopt;
+}
+
+std::string text_of_file(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw Error(ErrorCategory::failure, fmt::format("cannot write '{}'", file.string()));
+}
+
+/// The first line of the compiler's messages that says what is wrong.
+std::string first_error(const std::string& messages) {
+    std::istringstream lines(messages);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("error:") != std::string::npos) return line;
+    }
+    return messages.substr(0, 200);
+}
+
+}  // namespace
+
+std::string kernel_number(float number) { return fmt::format("{:#.9g}f", number); }
+
+std::string kernel_vector_text(candela::Vec3 v) {
+    return fmt::format("vec3({}, {}, {})", kernel_number(v.x), kernel_number(v.y), kernel_number(v.z));
+}
+
+bool KernelRun::has(const PluginDescriptor& plugin, const std::string& function) {
+    return plugin.kernel.text != nullptr &&
+           std::ranges::any_of(plugin.kernel.functions,
+                               [&](const KernelFunction& each) { return each.name == function; });
+}
+
+std::string KernelRun::source(const std::vector<KernelCall>& calls) {
+    std::string text = fmt::format("{}#include \"candela/kernel.h\"\nnamespace candela::kernel {{\n",
+                                   kernel_trace_prelude());
+    std::set<const PluginDescriptor*> written;
+    for (const KernelCall& call : calls) {
+        if (!has(*call.plugin, call.function) || !written.insert(call.plugin).second) continue;
+        const std::string file = std::string(call.plugin->name) + ".kernel";
+        text += fmt::format("#line 1 \"{}\"\n{}\n", file, kernels_.traced(call.plugin->kernel.text, file));
+    }
+    text += "}\nusing namespace candela::kernel;\n";
+    std::string main = "int main() {\n";
+    for (std::size_t i = 0; i < calls.size(); ++i) {
+        const KernelCall& call = calls[i];
+        if (!has(*call.plugin, call.function)) continue;
+        const candela::KernelText& kernel = call.plugin->kernel;
+        const std::string name = fmt::format("{}_{}", kernel.prefix, call.function);
+        std::string make = "0";
+        if (*kernel.parameters != '\0') {
+            make =
+                fmt::format("[] {{ {} m; {}return {}; }}()", kernel.parameters, parameters_of(call),
+                            has(*call.plugin, "prepare") ? fmt::format("{}_prepare(m)", kernel.prefix) : "m");
+        }
+        // A template, so that a call that does not fit is no error.
+        text += fmt::format(
+            "template <class... A> void call_{0}(int sample, A... a) {{\n"
+            "    const auto m = {2};\n"
+            "    if constexpr (requires {{ {1}(m, a..., sample); }}) {1}(m, a..., sample);\n"
+            "    else if constexpr (requires {{ {1}(m, a...); }}) {1}(m, a...);\n"
+            "    else {1}(a...);\n}}\n",
+            i, name, make);
+        main += fmt::format("    std::printf(\"call {0}\\n\");\n    call_{0}({1}{2}{3});\n", i,
+                            std::max(call.sample, 0), call.arguments.empty() ? "" : ", ", call.arguments);
+    }
+    return text + main + "}\n";
+}
+
+void KernelRun::read(const std::string& printed) {
+    std::istringstream lines(printed);
+    std::size_t call = 0;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        std::size_t number = 0;
+        words >> kind >> number;
+        if (kind == "call") {
+            call = number;
+            continue;
+        }
+        KernelValue value{.step = &kernels_.steps.at(number)};
+        words >> value.depth >> value.member;
+        if (value.member == ".") value.member.clear();
+        if (kind == "note") --value.depth;
+        for (std::string word; words >> word;) value.numbers.push_back(std::strtod(word.c_str(), nullptr));
+        values_.at(call).push_back(std::move(value));
+    }
+}
+
+KernelRun::KernelRun(const std::vector<KernelCall>& calls) : values_(calls.size()) {
+    const auto program = compiler();
+    if (!program) {
+        why_not_ = "the steps of the models' kernels are left out: there is no C++ compiler here";
+        return;
+    }
+    const fs::path include = beside_command("include");
+    std::error_code problem;
+    if (!fs::exists(include / "candela/kernel.h", problem)) {
+        why_not_ =
+            "the steps of the models' kernels are left out: Candela's headers are not installed (package "
+            "candela-dev)";
+        return;
+    }
+    const TemporaryFolder folder(fs::temp_directory_path(), "candela-explain-");
+    // Found before the one beside kernel.h, which is included as "candela/prelude.kernel".
+    fs::create_directory(folder.path() / "candela");
+    write_text(folder.path() / "candela/prelude.kernel",
+               kernels_.traced(text_of_file(include / "candela/prelude.kernel"), "prelude.kernel"));
+    write_text(folder.path() / "kernels.cpp", source(calls));
+    const std::string executable = (folder.path() / "kernels").string();
+    const candela::ProgramOutput compiled =
+        candela::run_program({program->string(), "-std=c++20", "-O0", "-w", "-fno-math-errno",
+                              "-ffp-contract=off", "-I", folder.path().string(), "-I", include.string(),
+                              (folder.path() / "kernels.cpp").string(), "-o", executable});
+    if (compiled.exit_code != 0) {
+        why_not_ = fmt::format("the steps of the models' kernels are left out: {} does not compile them: {}",
+                               program->filename().string(), first_error(compiled.err));
+        return;
+    }
+    const candela::ProgramOutput run = candela::run_program({executable});
+    if (run.exit_code != 0) {
+        why_not_ = "the steps of the models' kernels are left out: they cannot be run here";
+        return;
+    }
+    read(run.out);
+}

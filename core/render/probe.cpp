@@ -1,0 +1,138 @@
+module;
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+
+module candela.render;
+
+import :probe;
+import :tile;
+import candela.color;
+import candela.film;
+import candela.fragments;
+import candela.image;
+import candela.mesh;
+import candela.params;
+import candela.raster;
+import candela.scene;
+import candela.shading;
+
+namespace candela {
+
+namespace {
+
+constexpr int k_tile_size = 32;
+
+/// The fragments of one pixel, traced.
+class FragmentTracer {
+  public:
+    FragmentTracer(const CompiledScene& scene, const ProjectedScene& projected)
+        : scene_(scene), projected_(projected) {
+        shader_.begin({scene.lights, &scene.environment, projected.camera});
+    }
+
+    FragmentProbe trace(std::uint32_t object, const FragmentRun& run) {
+        const SolidObject& solid = scene_.objects[object];
+        const ProjectedMesh mesh{projected_, solid.mesh, projected_.first_vertex[object]};
+        const PointNeeds needs = solid.surface.needs();
+        gather_fragments(mesh, std::span(&run, 1), needs, points_);
+        FragmentProbe fragment{.object = object,
+                               .triangle = run.triangle,
+                               .weight = run.weight,
+                               .position = points_.position.span()[0],
+                               .barycentric = points_.barycentric.span()[0],
+                               .rate = solid.surface.shading->shading_rate()};
+        switch (fragment.rate) {
+            case ShadingRate::fragment:
+                fragment.points.push_back(trace_point(solid));
+                break;
+            case ShadingRate::face:
+                gather_faces(mesh, std::span(&run.triangle, 1), needs, points_);
+                fragment.points.push_back(trace_point(solid));
+                break;
+            case ShadingRate::vertex:
+                trace_vertices(mesh, solid, run.triangle, fragment);
+                return fragment;
+        }
+        fragment.intensity = fragment.points[0].intensity;
+        return fragment;
+    }
+
+  private:
+    PointTrace trace_point(const SolidObject& solid) {
+        return shader_.trace(solid.surface, {&solid.mesh, solid.tree ? &*solid.tree : nullptr}, points_);
+    }
+
+    void trace_vertices(const ProjectedMesh& mesh, const SolidObject& solid, std::uint32_t triangle,
+                        FragmentProbe& fragment) {
+        const bool is_back = points_.facing[0] < 0;
+        std::array<Vec3, 3> at_corner;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const VertexSide side{solid.mesh.indices[3 * std::size_t{triangle} + k], is_back};
+            gather_vertices(mesh, std::span(&side, 1), solid.surface.needs(), points_);
+            fragment.points.push_back(trace_point(solid));
+            at_corner[k] = fragment.points.back().intensity;
+        }
+        const Vec3 b = fragment.barycentric;
+        fragment.intensity = b.x * at_corner[0] + b.y * at_corner[1] + b.z * at_corner[2];
+    }
+
+    const CompiledScene& scene_;
+    const ProjectedScene& projected_;
+    SurfaceShader shader_;
+    SurfacePoints points_;
+};
+
+}  // namespace
+
+PixelProbe probe(const CompiledScene& scene, int x, int y) {
+    const int width = scene.image.width, height = scene.image.height;
+    if (x < 0 || y < 0 || x >= width || y >= height) throw std::out_of_range("the picture has no such pixel");
+    ProjectedScene projected;
+    project_scene(scene, width, height, k_tile_size, projected);
+    TileWorker worker;
+    worker.shader.begin(scene, projected);
+    VisibleTile& visible = worker.visible;
+    find_visible(projected, y / k_tile_size * projected.tile_columns + x / k_tile_size, worker.visibility,
+                 visible);
+
+    // The whole tile, by the pipeline itself: the pixel is the picture's by construction.
+    PixelProbe result;
+    Film film(width, height, PixelType::byte, scene.image.color_management);
+    shade_tile(scene, visible, worker, film);
+    const std::size_t at =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    std::ranges::copy(film.view().bytes.subspan(at, 3), result.bytes.begin());
+    const Vec3 towards =
+        projected.camera.view_through(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+    const Rgb background =
+        scene.environment.is_uniform() ? scene.environment.seen({}) : scene.environment.seen(towards);
+    result.background = {background.r, background.g, background.b};
+    if (visible.is_empty) {
+        result.background_weight = 1;
+        result.intensity = result.background;
+        return result;
+    }
+    const auto pixel = static_cast<std::uint32_t>((y - visible.y0) * visible.stride + (x - visible.x0));
+    result.intensity = worker.shader.pixels()[pixel];
+    for (const BackgroundRun& run : visible.fragments.background()) {
+        if (pixel >= run.pixel && pixel - run.pixel < run.count) result.background_weight = run.weight;
+    }
+    FragmentTracer tracer(scene, projected);
+    for (const FragmentList& list : visible.fragments.lists()) {
+        for (FragmentRun run : list.runs) {
+            if (pixel < run.pixel || pixel - run.pixel >= run.count) continue;
+            run.x += static_cast<float>(pixel - run.pixel);
+            run.pixel = pixel;
+            run.count = 1;
+            result.fragments.push_back(tracer.trace(list.object, run));
+        }
+    }
+    return result;
+}
+
+}  // namespace candela

@@ -1,0 +1,46 @@
+// One pixel of a picture: what is seen there, and how its intensity comes about.
+module;
+
+#include "candela/api.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+export module candela.render:probe;
+
+import :compiled_scene;
+import candela.math;
+import candela.shade;
+import candela.shading;
+
+export namespace candela {
+
+/// What one triangle contributes to a pixel.
+struct FragmentProbe {
+    std::size_t object = 0;      // index among the scene's
+    std::uint32_t triangle = 0;  // of the object's mesh
+    float weight = 1;            // the fraction of the pixel's samples that see the triangle
+    Vec3 position{};             // of the fragment, world space
+    Vec3 barycentric{};          // likewise, on the triangle
+    ShadingRate rate = ShadingRate::fragment;
+    std::vector<PointTrace> points{};  // where light is evaluated: the fragment, the face's centroid, or the
+                                       // triangle's three vertices
+    Vec3 intensity{};                  // of the fragment
+};
+
+struct PixelProbe {
+    std::vector<FragmentProbe> fragments{};  // in the order in which they are added up
+    float background_weight = 0;             // the fraction of the pixel's samples that see the background
+    Vec3 background{};                       // its intensity
+    Vec3 intensity{};                        // of the pixel
+    std::array<std::uint8_t, 3> bytes{};     // of the pixel in an 8-bit picture
+};
+
+/// Looks at pixel (x, y) of the picture that render() makes of the scene, counted from its top left corner;
+/// `intensity` and `bytes` are those of that picture. Throws Error like render(), and std::out_of_range if
+/// the picture has no such pixel.
+CANDELA_API PixelProbe probe(const CompiledScene& scene, int x, int y);
+
+}  // namespace candela

@@ -1,0 +1,222 @@
+// candela explain: its steps against the worked examples of the rendering-equation notes (RE) and against
+// formulas written here, its bytes against pictures.
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+struct Explained {
+    json json_text;
+    const json& point() const { return json_text.at("fragments").at(0).at("points").at(0); }
+    /// What arrives and is reflected of the light of that name.
+    const json& light(const std::string& label) const {
+        for (const json& light : point().at("lights")) {
+            if (light.at("light") == "'" + label + "'") return light;
+        }
+        FAIL("no light is called " << label);
+        return json_text;
+    }
+};
+
+/// Explains a pixel of a scene that may have the mesh face.obj.
+Explained explained(const std::string& scene, const std::string& mesh, const std::string& pixel) {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "face.obj", mesh);
+    const std::string file = write_file(folder / "scene.toml", scene).string();
+    const std::vector<std::string> arguments{"explain", file, "--pixel", pixel, "--json", "--quiet"};
+    const CommandResult result = run_candela(arguments);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return {json::parse(result.out)};
+}
+
+/// The value of a step: by its name, in the function that was called (depth 0) or one that it calls.
+const json& value(const json& steps, const std::string& name, int depth = 0) {
+    for (const json& step : steps) {
+        if (step.at("name") == name && step.at("depth") == depth && step.contains("value"))
+            return step.at("value");
+    }
+    FAIL("no step is called " << name << " in " << steps.dump(1));
+    return steps;
+}
+
+/// To four decimals, as the notes have them.
+void check_vector(const json& actual, double x, double y, double z, double margin = 6e-5) {
+    INFO(actual.dump());
+    CHECK(actual.at(0).get<double>() == Catch::Approx(x).margin(margin));
+    CHECK(actual.at(1).get<double>() == Catch::Approx(y).margin(margin));
+    CHECK(actual.at(2).get<double>() == Catch::Approx(z).margin(margin));
+}
+void check_number(const json& actual, double expected, double margin = 6e-5) {
+    CHECK(actual.get<double>() == Catch::Approx(expected).margin(margin));
+}
+
+struct Face {
+    std::string corners;  // three lines of an OBJ file
+    std::string light;    // position
+    std::string observer;
+    std::string look_at = "[0, 0, 0]";
+};
+
+/// The pixel in the middle of a view of a triangle in a large room, with flat shading, so that light is
+/// evaluated at its centroid, and the material of RE's third example.
+Explained explained(const Face& face) {
+    return explained("version = 1\n[room]\nwidth = 60\nheight = 60\ndepth = 60\n[observer]\nposition = " +
+                         face.observer + "\nlook_at = " + face.look_at +
+                         "\n[image]\nwidth = 33\nheight = 33\ncolor_management = \"none\"\n"
+                         "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = " +
+                         face.light +
+                         "\nattenuation = \"offset-linear\"\nattenuation_offset = 0.01\n"
+                         "[[light]]\nname = \"sky\"\ntype = \"ambient\"\nintensity = 0.3\n"
+                         "[[object]]\ntype = \"mesh\"\nfile = \"face.obj\"\ncolor = [255, 255, 255]\n"
+                         "material = { ka = 0.1, kd = 0.8, ks = 0.2, shininess = 10 }\n"
+                         "[shading]\nmodel = \"flat\"\n[reflection]\nmodel = \"phong\"\n",
+                     face.corners + "f 1 2 3\n", "16,16");
+}
+
+}  // namespace
+
+// RE's three examples are at a corner of the face, or at a point without a face; here the face is moved so
+// that its centroid is that point. Orientation and lights are the notes' own.
+
+TEST_CASE("the first worked example of RE is explained: R for a light at (-4, 2, 0) and N = (0, 1, 0)") {
+    const Explained e = explained({.corners = "v 1 0 1\nv 0 0 -2\nv -1 0 1\n",
+                                   .light = "[-4, 2, 0]",
+                                   .observer = "[0, 5, 1]",
+                                   .look_at = "[0, 0, 0]"});
+    check_vector(e.point().at("position"), 0, 0, 0);
+    check_vector(e.point().at("N"), 0, 1, 0);
+    check_vector(e.light("lamp").at("L"), -0.8944, 0.4472, 0);
+    check_vector(e.light("lamp").at("R"), 0.8944, 0.4472, 0);
+    // The kernel's own line, "vec3 r = 2.0f * n_dot_l * s.normal - to_light;".
+    check_vector(value(e.light("lamp").at("reflection_steps"), "r"), 0.8944, 0.4472, 0);
+}
+
+TEST_CASE("the second worked example of RE is explained: cosines of 0.7071 and 0.8575") {
+    const Explained e = explained({.corners = "v 1.6666667 0 -1.6666667\nv -3.3333333 0 -1.6666667\n"
+                                              "v 1.6666667 0 3.3333333\n",
+                                   .light = "[-10, 10, 0]",
+                                   .observer = "[20, 5, 0]",
+                                   .look_at = "[0, 0, 0]"});
+    check_vector(e.point().at("position"), 0, 0, 0);
+    check_vector(e.point().at("N"), 0, 1, 0);
+    check_number(e.light("lamp").at("N.L"), 0.7071);
+    const json& steps = e.light("lamp").at("reflection_steps");
+    check_number(value(steps, "n_dot_l"), 0.7071);
+    check_number(value(steps, "base", 1), 0.8575);  // what clamped_power() is given: R.V
+    check_number(value(steps, "highlight"), std::pow(0.8575, 10));
+}
+
+// RE sees the face from behind, where R.V is negative and it has no highlight; from in front, R.V is 0.5514.
+// The notes round after each step, hence the margin; the numbers that follow from the positions in double
+// precision are held to seven digits.
+TEST_CASE("the third worked example of RE is explained: N, L, R and the red intensity 0.4353") {
+    constexpr double k_rounded = 1.5e-4;
+    // V1 + (V2 - V1), V1 + (V3 - V1), V1 - both: the centroid is V1 = (.7, .1, .4).
+    const Explained e = explained({.corners = "v 0.1 0.2 0.2\nv 0.5 0.3 0.5\nv 1.5 -0.2 0.5\n",
+                                   .light = "[0.3, 0.8, 0.4]",
+                                   .observer = "[0.7, 0.1, -4]\nprojection = \"orthographic\"\nheight = 1",
+                                   .look_at = "[0.7, 0.1, 0.4]"});
+    check_vector(e.point().at("position"), 0.7, 0.1, 0.4);
+    check_vector(e.point().at("N"), 1.0 / 3, 2.0 / 3, -2.0 / 3);
+    const json& lamp = e.light("lamp");
+    check_vector(lamp.at("L"), -0.4962, 0.8683, 0, k_rounded);
+    check_number(lamp.at("N.L"), 0.4135);
+    check_vector(lamp.at("R"), 0.7719, -0.3169, -0.5514, k_rounded);
+    check_number(value(lamp.at("reflection_steps"), "base", 1), 0.5514, k_rounded);
+    check_number(value(lamp.at("light_steps"), "distance", 1), 0.8062);
+    check_number(lamp.at("diffuse").at(0), 1 / (0.8062 + 0.01));
+    check_number(e.light("sky").at("I_a").at(0), 0.03);
+    const double red = lamp.at("I_d").at(0).get<double>() + e.point().at("I_a").at(0).get<double>();
+    check_number(red, 0.4353, k_rounded);
+
+    const double distance = std::sqrt(0.65), n_dot_l = (-0.4 / 3 + 0.7 * 2 / 3) / distance;
+    const double diffuse = 0.8 * n_dot_l / (distance + 0.01), highlight = std::pow(4.0 / 3 * n_dot_l, 10);
+    const double specular = 0.2 * highlight / (distance + 0.01), sum = diffuse + specular + 0.03;
+    check_number(lamp.at("N.L"), n_dot_l, 1e-6);
+    check_number(lamp.at("I_d").at(0), diffuse, 1e-6);
+    check_number(lamp.at("I_s").at(0), specular, 1e-6);
+    check_number(e.json_text.at("I").at(0), sum, 1e-6);
+    CHECK(e.json_text.at("bytes").at(0) == std::lround(255 * sum));
+}
+
+TEST_CASE("a step is a statement of the kernel, with its file, its line and its text") {
+    const Explained e = explained({.corners = "v 1 0 1\nv 0 0 -2\nv -1 0 1\n",
+                                   .light = "[-4, 2, 0]",
+                                   .observer = "[0, 5, 1]",
+                                   .look_at = "[0, 0, 0]"});
+    const std::string kernel =
+        read_file(fs::path(CANDELA_TEST_SOURCE) / "plugins/reflection/phong/phong.kernel");
+    const std::string statement = "float n_dot_l = dot(s.normal, to_light)";
+    const auto line =
+        1 + std::count(kernel.begin(), kernel.begin() + static_cast<long>(kernel.find(statement)), '\n');
+    bool is_there = false;
+    for (const json& step : e.light("lamp").at("reflection_steps")) {
+        if (step.at("name") != "n_dot_l") continue;
+        is_there = true;
+        CHECK(step.at("text") == statement);
+        CHECK(step.at("file") == "phong.kernel");
+        CHECK(step.at("line") == line);
+    }
+    CHECK(is_there);
+    // The text, compiled anew, computes what the plugin computes.
+    CHECK(e.json_text.at("kernel_difference").get<double>() < 1e-5);
+}
+
+TEST_CASE("an explanation for a person has the same numbers, and ends with the byte") {
+    const CommandResult result = run_candela({"explain", "--pixel", "256,320"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    INFO(result.out);
+    const auto holds = [&](const std::string& part) { return result.out.find(part) != std::string::npos; };
+    CHECK(result.out.starts_with("pixel 256,320 of 512 x 512: "));
+    CHECK(holds("phong.kernel:"));
+    CHECK(holds("float n_dot_l = dot(s.normal, to_light);"));
+    CHECK(holds("phong shading: light is evaluated once per pixel"));
+    const json same = json::parse(run_candela({"explain", "--pixel", "256,320", "--json"}).out);
+    CHECK(holds("byte " + same.at("bytes").at(0).dump()));
+}
+
+TEST_CASE("where there is no compiler, explain says so, and tells what the renderer knows") {
+    const CommandResult result =
+        run_candela({"explain", "--pixel", "256,320"},
+                    {.input = "", .environment = {{"PATH", "/nowhere"}, {"CXX", ""}}, .directory = {}});
+    CHECK(result.exit_code == 0);
+    CHECK(result.out.find("the steps of the models' kernels are left out: there is no C++ compiler here") !=
+          std::string::npos);
+    CHECK(result.out.find("N.L = ") != std::string::npos);
+    CHECK(result.out.find("n_dot_l") == std::string::npos);
+}
+
+TEST_CASE("a pixel that sees no object is explained by the background") {
+    const json e =
+        json::parse(run_candela({"explain", "--pixel", "0,0", "--set", "image.background=[10, 20, 30]",
+                                 "--set", "observer.look_at=[0, 9, 0]", "--json"})
+                        .out);
+    CHECK(e.at("fragments").empty());
+    CHECK(e.at("background_weight") == 1);
+    CHECK(e.at("bytes") == json({10, 20, 30}));
+}
+
+TEST_CASE("a pixel that is none is a usage error that says which there are") {
+    CHECK(run_candela({"explain"}).exit_code == 2);
+    for (const char* const pixel :
+         {"512,0", "0,512", "-1,0", "3", "a,b", "1,2,3", "", "1;2", "99999999999,0"}) {
+        INFO(pixel);
+        const CommandResult result = run_candela({"explain", std::string("--pixel=") + pixel});
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+    }
+    CHECK(run_candela({"explain", "--pixel", "512,0"}).err.find("0,0 to 511,511") != std::string::npos);
+}
