@@ -1,5 +1,5 @@
 import { announce, showNotice, showSceneProblems } from "./messages.js";
-import { readScene } from "./scene.js";
+import { readSceneFrom } from "./scene.js";
 
 const ENDED = "candela view has ended, or cannot be reached; this is the last picture.";
 
@@ -9,7 +9,7 @@ async function fetchScene(generation) {
     if (!response.ok) throw new Error(`The scene cannot be fetched (${response.status}).`);
     // The server may have gone further meanwhile, and has led to what is newest.
     const newest = Number(new URL(response.url).searchParams.get("live"));
-    return { scene: readScene(new DOMParser().parseFromString(await response.text(), "text/html")), generation: newest };
+    return { scene: readSceneFrom(await response.text()), generation: newest };
 }
 
 /**

@@ -50,6 +50,7 @@ function faceNormals(positions) {
 export class Mesh {
     constructor(gl, mesh) {
         this.gl = gl;
+        this.users = 0;  // renderers
         this.mesh = mesh;
         this.indices = decodeIndices(mesh.indices);
         this.vertexCount = this.indices.length;
@@ -118,7 +119,15 @@ export class Mesh {
         return vertexArray;
     }
 
+    /** Whether a scene's mesh is this one, as far as a renderer can tell. */
+    isOf(mesh) {
+        const areEqual = (a, b) => a === b || (a instanceof Object && JSON.stringify(a) === JSON.stringify(b));
+        return ["vertices", "indices", "position", "uv", "dpdu", "dpdv", "normals", "normals_of"].every((name) => areEqual(this.mesh[name], mesh[name]));
+    }
+
     release() {
+        this.users -= 1;
+        if (this.users > 0) return;
         for (const buffer of this.buffers.values()) this.gl.deleteBuffer(buffer);
         for (const vertexArray of this.vertexArrays.values()) this.gl.deleteVertexArray(vertexArray);
     }

@@ -18,7 +18,7 @@ import { Viewport } from "./viewport.js";
 export class Page {
     /** Throws where the page cannot work, for want of WebGL 2 for one. */
     start() {
-        this.scene = readScene(document);
+        this.scene = readScene();
         document.querySelector("h1").textContent = this.scene.title;
         document.getElementById("maker").textContent = `Made by Candela ${this.scene.candela}`;
         this.settings = new Settings(this.scene);

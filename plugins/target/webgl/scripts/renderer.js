@@ -12,14 +12,15 @@ const TABLES_UNIT = 3;
 
 /** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
 export class Renderer {
-    /** `previous`: a renderer in the same context, whose programs are used where they are the same. Both have to be released. */
+    /** `previous`: a renderer in the same context, whose programs and meshes are used where they are the same. Both have to be released. */
     constructor(gl, scene, previous) {
         this.gl = gl;
         this.scene = scene;
         this.isSrgb = scene.image.color_management === "srgb";
         this.format = this.chooseFloatFormat();
         this.programs = new ProgramCache(gl, scene, previous?.programs);
-        this.meshes = scene.objects.map((object) => new Mesh(gl, object.mesh));
+        this.meshes = scene.objects.map(({ mesh }) => previous?.meshes.find((one) => one.isOf(mesh)) ?? new Mesh(gl, mesh));
+        for (const mesh of this.meshes) mesh.users += 1;
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
         this.lights = new LightTable(gl, scene);
         this.tables = new Tables(gl, scene);

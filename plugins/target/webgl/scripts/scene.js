@@ -1,6 +1,12 @@
-/** The scene as the generator wrote it into a page. */
-export function readScene(page) {
-    return JSON.parse(page.getElementById("scene").textContent);
+/** The scene as the generator wrote it. */
+export function readScene() {
+    return JSON.parse(document.getElementById("scene").textContent);
+}
+
+/** The scene of a page's HTML, in which no "<" is part of the scene. Quicker than to have the browser make a document of it. */
+export function readSceneFrom(html) {
+    const begin = html.indexOf(">", html.indexOf('id="scene"')) + 1;
+    return JSON.parse(html.slice(begin, html.indexOf("</script>", begin)));
 }
 
 /**
