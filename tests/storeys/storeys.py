@@ -16,10 +16,12 @@ SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
 SDK_OF_PLUGINS = ("sdk/include/", "sdk/target/", "sdk/templates/")
 # Headers of api without a module: macros, kernels, templates of their own, and what only tests of plugins include.
 HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "instances.h", "kernel.h", "kernel_functions.h",
-                 "kernel_vectors.h", "multiversion.h", "swizzles.h"}
-# A declaration at the beginning of a line, as clang-format puts what is in a namespace: a type, a function, a constant.
+                 "kernel_table.h", "kernel_vectors.h", "multiversion.h", "swizzles.h"}
+# A declaration at the beginning of a line, as clang-format puts what is in a namespace: a type, another name for one, a function,
+# a constant.
 DECLARATION = re.compile(
     r"^(?:template <.*> )?(?:enum class |struct |class )(?:CANDELA_API )?(?P<type>\w+)[^;\n]*\{(?:.*\};)?$"
+    r"|^using (?P<alias>\w+) = .*;$"
     r"|^(?:CANDELA_API |inline |constexpr )+(?:[\w:<>,*& ]|\[\[.*?\]\])*?(?P<function>operator[^\w\s(]+|\w+)\("
     r"|^inline constexpr [\w:<>]+ (?P<constant>\w+) = ", re.MULTILINE)
 
@@ -57,7 +59,7 @@ def declared(text):
             continue
         found = DECLARATION.match(line)
         if found:
-            names.add(found["type"] or found["function"] or found["constant"])
+            names.add(found["type"] or found["alias"] or found["function"] or found["constant"])
         else:
             unknown.append(line)
     return names, unknown

@@ -3,6 +3,7 @@ module;
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -192,7 +193,13 @@ struct SceneExport::Storage final : ExportedGeometry {
         const auto instance = make();
         std::vector<ParamValue>& delivered = numbers.back();
         for (std::size_t i = 0; i < delivered.size(); ++i) {
-            if (is_table(plugin, i)) put_table(instance->table(i), delivered[i]);
+            if (!is_table(plugin, i)) continue;
+            const std::span<const float> table = instance->table(i);
+            if (!std::ranges::all_of(table, [](float x) { return std::isfinite(x); }))
+                throw Error(ErrorCategory::failure,
+                            fmt::format("plugin {}/{}: the table of '{}' has a number that is not finite",
+                                        name_of(plugin.kind), plugin.name, plugin.parameters[i].name));
+            put_table(table, delivered[i]);
         }
         return result;
     }

@@ -58,7 +58,9 @@ std::optional<Value> matrix(const Node& node) {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto row = three_numbers((*rows)[i], false);
         if (!row) return std::nullopt;
-        std::ranges::copy(std::array{row->x, row->y, row->z}, result.begin() + 3 * static_cast<int>(i));
+        result[3 * i] = row->x;
+        result[3 * i + 1] = row->y;
+        result[3 * i + 2] = row->z;
     }
     return result;
 }
