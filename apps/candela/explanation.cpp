@@ -13,6 +13,7 @@ using candela::CompiledScene;
 using candela::FragmentProbe;
 using candela::LightTrace;
 using candela::Object;
+using candela::ParamValue;
 using candela::PluginDescriptor;
 using candela::PluginKind;
 using candela::PointTrace;
@@ -22,27 +23,41 @@ using candela::Vec3;
 namespace {
 
 std::string receiver_text(const PointTrace& point) {
-    return fmt::format("Receiver({}, {})", kernel_vector_text(point.position), kernel_vector_text(point.normal));
+    return fmt::format("Receiver({}, {})", kernel_vector_text(point.position),
+                       kernel_vector_text(point.normal));
 }
 
 std::string surface_text(const PointTrace& point, candela::Rgb color) {
-    return fmt::format("Surface({}, {}, {}, {})", kernel_vector_text(point.normal),
+    return fmt::format("Surface({}, {}, {}, {}, {}, vec2({}, {}))", kernel_vector_text(point.normal),
                        kernel_vector_text(point.to_observer), kernel_vector_text(point.tangent),
-                       kernel_vector_text({color.r, color.g, color.b}));
+                       kernel_vector_text({color.r, color.g, color.b}), kernel_vector_text(point.position),
+                       kernel_number(point.u), kernel_number(point.v));
 }
 
 std::string shading_point_text(const PointTrace& point) {
-    return fmt::format("ShadingPoint({}, {}, {}, vec2({}, {}), {}, {})", kernel_vector_text(point.face_normal),
-                       kernel_vector_text(point.vertex_normal), kernel_vector_text(point.barycentric),
-                       kernel_number(point.u), kernel_number(point.v), kernel_vector_text(point.dpdu),
-                       kernel_vector_text(point.dpdv));
+    return fmt::format("ShadingPoint({}, {}, {}, vec2({}, {}), {}, {})",
+                       kernel_vector_text(point.face_normal), kernel_vector_text(point.vertex_normal),
+                       kernel_vector_text(point.barycentric), kernel_number(point.u), kernel_number(point.v),
+                       kernel_vector_text(point.dpdu), kernel_vector_text(point.dpdv));
+}
+
+/// The values that an instance has been made with, and the tables that it has made of them.
+std::vector<ParamValue> values_of(const PluginDescriptor& plugin, const candela::ParamSet& parameters,
+                                  candela::ColorEncoding encoding, const candela::Instance& instance) {
+    std::vector<ParamValue> values = parameters.delivered(encoding);
+    for (const std::size_t i : plugin.kernel.members) values[i].list = instance.table(i);
+    return values;
 }
 
 }  // namespace
 
-Explanation::Explanation(const Scene& of_scene, const CompiledScene& of_compiled, candela::Registry& registry, int at_x,
-                         int at_y)
-    : x(at_x), y(at_y), scene(of_scene), compiled(of_compiled), pixel(candela::probe(of_compiled, at_x, at_y)) {
+Explanation::Explanation(const Scene& of_scene, const CompiledScene& of_compiled, candela::Registry& registry,
+                         int at_x, int at_y)
+    : x(at_x),
+      y(at_y),
+      scene(of_scene),
+      compiled(of_compiled),
+      pixel(candela::probe(of_compiled, at_x, at_y)) {
     for (const FragmentProbe& fragment : pixel.fragments) add_calls(fragment, registry);
     run_.emplace(calls_);
 }
@@ -60,26 +75,31 @@ void Explanation::add_calls(const FragmentProbe& fragment, candela::Registry& re
     };
     const PluginDescriptor* const shading = descriptor(PluginKind::shading, object.shading.name);
     const PluginDescriptor* const reflection = descriptor(PluginKind::reflection, object.reflection.name);
+    const candela::SurfaceModels& models = compiled.objects[fragment.object].surface;
     for (const PointTrace& point : fragment.points) {
-        points_.push_back({&point, add({.plugin = shading,
-                                        .values = object.shading.parameters.delivered(encoding),
-                                        .function = "normal",
-                                        .arguments = shading_point_text(point)})});
+        points_.push_back(
+            {&point, add({.plugin = shading,
+                          .values = values_of(*shading, object.shading.parameters, encoding, *models.shading),
+                          .function = "normal",
+                          .arguments = shading_point_text(point)})});
         const std::string surface = surface_text(point, compiled.objects[fragment.object].surface.color);
         for (const LightTrace& light : point.lights) {
             const candela::Model& model = scene.lights[light.light].model;
+            const PluginDescriptor* const light_plugin = descriptor(PluginKind::light, model.name);
             const bool is_ambient = light.sample == LightTrace::k_ambient;
-            const std::size_t illuminate = add({.plugin = descriptor(PluginKind::light, model.name),
-                                                .values = model.parameters.delivered(encoding),
+            const std::size_t illuminate = add({.plugin = light_plugin,
+                                                .values = values_of(*light_plugin, model.parameters, encoding,
+                                                                    *compiled.lights[light.light].light),
                                                 .function = is_ambient ? "illuminate_ambient" : "illuminate",
                                                 .arguments = receiver_text(point),
                                                 .sample = light.sample});
-            const std::size_t reflect =
-                add({.plugin = reflection,
-                     .values = object.reflection.parameters.delivered(encoding),
-                     .function = is_ambient ? "reflect_ambient" : "reflect",
-                     .arguments = is_ambient ? surface
-                                             : fmt::format("{}, {}", surface, kernel_vector_text(light.to_light))});
+            const std::size_t reflect = add(
+                {.plugin = reflection,
+                 .values = values_of(*reflection, object.reflection.parameters, encoding, *models.reflection),
+                 .function = is_ambient ? "reflect_ambient" : "reflect",
+                 .arguments = is_ambient
+                                  ? surface
+                                  : fmt::format("{}, {}", surface, kernel_vector_text(light.to_light))});
             lights_.push_back({&light, illuminate, reflect});
         }
     }

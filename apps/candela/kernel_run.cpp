@@ -33,9 +33,12 @@ namespace {
 /// Statements that fill the kernel's struct, whose members are called as the parameters (see KernelText).
 std::string parameters_of(const KernelCall& call) {
     std::string text;
-    for (std::size_t i = 0; i < call.values.size(); ++i) {
+    for (const std::size_t i : call.plugin->kernel.members) {
         const ParamSpec& parameter = call.plugin->parameters[i];
         const ParamValue& value = call.values[i];
+        const auto column = [&](std::size_t c) {
+            return kernel_vector_text({value.number[c], value.number[c + 3], value.number[c + 6]});
+        };
         switch (parameter.type) {
             case ParamType::real:
                 text += fmt::format("m.{} = {}; ", parameter.name, kernel_number(value.number[0]));
@@ -45,9 +48,21 @@ std::string parameters_of(const KernelCall& call) {
             case ParamType::choice:
                 text += fmt::format("m.{} = {}; ", parameter.name, value.integer);
                 break;
+            case ParamType::matrix:
+                text +=
+                    fmt::format("m.{} = mat3({}, {}, {}); ", parameter.name, column(0), column(1), column(2));
+                break;
             case ParamType::text:
             case ParamType::file:
-                break;  // the kernel language has no texts
+            case ParamType::numbers: {
+                if (value.list.empty()) break;
+                std::string numbers;
+                for (const float number : value.list) numbers += kernel_number(number) + ", ";
+                text += fmt::format(
+                    "static const float numbers_of_{0}[] = {{{1}}}; m.{0} = Table{{numbers_of_{0}, {2}}}; ",
+                    parameter.name, numbers, value.list.size());
+                break;
+            }
             default:
                 text += fmt::format("m.{} = {}; ", parameter.name,
                                     kernel_vector_text({value.number[0], value.number[1], value.number[2]}));

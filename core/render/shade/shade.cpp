@@ -20,6 +20,7 @@ module;
 
 module candela.shade;
 
+import :guarded;
 import :surroundings;
 import candela.diagnostics;
 import candela.guard;
@@ -120,16 +121,6 @@ std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
     return surface.reflection->shows_surroundings() ? points.count : points.filled;
 }
 
-/// Turns what a plugin throws into an error that names it.
-template <class Call>
-void guarded(PluginKind kind, const std::string& plugin, Call call) {
-    try {
-        call();
-    } catch (...) {
-        rethrow_as_plugin_error(kind, plugin);
-    }
-}
-
 }  // namespace
 
 PointNeeds SurfaceModels::needs() const {
@@ -217,6 +208,18 @@ float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interio
     return largest;
 }
 
+SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
+                                        std::size_t count) const {
+    const ReflectionModel& model = *surface.reflection;
+    return {.count = count,
+            .normal = normal_.span(),
+            .to_observer = to_observer_.span(),
+            .tangent = model.needs_tangent() ? tangent_.span() : ConstVec3Span{},
+            .color = surface.color,
+            .position = points.position.span(),
+            .uv = model.needs_uv() ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{}};
+}
+
 void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interior,
                            const SurfacePoints& points, Scrutiny scrutiny) {
     const std::size_t count = lit_of(surface, points);
@@ -229,19 +232,11 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
     look_at(PluginKind::shading, surface.shading_plugin, {&normal_});
     const ConstVec3Span normal = std::as_const(normal_).span();
     multiversion<ToObserverLoop>(scene_.camera, points.position.span(), count, to_observer_.span());
-    const bool needs_tangent = surface.reflection->needs_tangent();
-    if (needs_tangent) multiversion<TangentLoop>(points.dpdu.span(), normal, count, tangent_.span());
+    if (surface.reflection->needs_tangent())
+        multiversion<TangentLoop>(points.dpdu.span(), normal, count, tangent_.span());
 
     const ReceiverBatch receivers{.count = count, .position = points.position.span(), .normal = normal};
-    const SurfaceBatch batch{.count = count,
-                             .normal = normal,
-                             .to_observer = to_observer_.span(),
-                             .tangent = needs_tangent ? ConstVec3Span(tangent_.span()) : ConstVec3Span{},
-                             .color = surface.color,
-                             .position = points.position.span(),
-                             .uv = surface.reflection->needs_uv()
-                                       ? ConstVec2Span{points.u.data(), points.v.data()}
-                                       : ConstVec2Span{}};
+    const SurfaceBatch batch = lit_surface(surface, points, count);
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
 

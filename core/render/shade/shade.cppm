@@ -50,6 +50,9 @@ class CANDELA_API SurfaceShader {
     enum class Scrutiny : bool { none, each_step };
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 Scrutiny scrutiny);
+    /// What the reflection model is given; the arrays are this object's and the points'.
+    SurfaceBatch lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
+                             std::size_t count) const;
     void find_normals(const SurfaceModels& surface, const SurfacePoints& points);
     std::array<Vec3Arrays*, 7> written_by_plugins();
     void mark_ends();

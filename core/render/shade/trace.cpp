@@ -8,6 +8,7 @@ module;
 
 module candela.shade;
 
+import :guarded;
 import :surroundings;
 import :trace;
 import candela.fragments;
@@ -21,15 +22,6 @@ namespace candela {
 namespace {
 
 Vec3 first_of(const Vec3Arrays& arrays) { return arrays.span()[0]; }
-
-template <class Call>
-void guarded(PluginKind kind, const std::string& plugin, Call call) {
-    try {
-        call();
-    } catch (...) {
-        rethrow_as_plugin_error(kind, plugin);
-    }
-}
 
 }  // namespace
 
@@ -62,12 +54,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
     const std::size_t count = surface.reflection->shows_surroundings() ? points.count : points.filled;
     const ReceiverBatch receivers{
         .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};
-    const SurfaceBatch batch{.count = count,
-                             .normal = std::as_const(normal_).span(),
-                             .to_observer = to_observer_.span(),
-                             .tangent = needs_tangent ? ConstVec3Span(tangent_.span()) : ConstVec3Span{},
-                             .color = surface.color,
-                             .position = points.position.span()};
+    const SurfaceBatch batch = lit_surface(surface, points, count);
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     const auto clear = [&] {
         for (const Vec3Span& part : {reflected.ambient, reflected.diffuse, reflected.specular}) {

@@ -1,0 +1,22 @@
+module;
+
+#include <string>
+
+// Calls of plugins, whose exceptions become errors that name them.
+module candela.shade:guarded;
+
+import candela.descriptor;
+import candela.library;
+
+namespace candela {
+
+template <class Call>
+void guarded(PluginKind kind, const std::string& plugin, Call call) {
+    try {
+        call();
+    } catch (...) {
+        rethrow_as_plugin_error(kind, plugin);
+    }
+}
+
+}  // namespace candela
