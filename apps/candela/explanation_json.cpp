@@ -48,8 +48,9 @@ Json json_of(const std::vector<KernelValue>& steps) {
     Json result = Json::array();
     for (const KernelValue& value : steps) {
         const KernelStep& step = *value.step;
-        Json item = {{"kind", name_of(step.kind)}, {"name", step.name + value.member}, {"depth", value.depth},
-                     {"file", step.file},          {"line", step.line},                {"text", step.text}};
+        Json item = {{"kind", name_of(step.kind)}, {"name", step.name + value.member},
+                     {"depth", value.depth},       {"file", step.file},
+                     {"line", step.line},          {"text", step.text}};
         if (step.kind != KernelStep::Kind::function)
             item["value"] = value.numbers.size() == 1 ? Json(value.numbers[0]) : Json(value.numbers);
         result.push_back(std::move(item));
@@ -57,7 +58,8 @@ Json json_of(const std::vector<KernelValue>& steps) {
     return result;
 }
 
-Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& light, const std::string& reflection) {
+Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& light,
+             const std::string& reflection) {
     const candela::LightSource& source = e.scene.lights[light.light];
     Json result = {{"light", source.label}, {"type", source.model.name}};
     if (light.sample == LightTrace::k_ambient) {
@@ -84,25 +86,20 @@ Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& li
 Json json_of(const Explanation& e, const PointTrace& point, const std::string& reflection) {
     Json lights = Json::array();
     for (const LightTrace& light : point.lights) lights.push_back(json_of(e, point, light, reflection));
-    return {{"position", json_of(point.position)},
-            {"N", json_of(point.normal)},
-            {"V", json_of(point.to_observer)},
-            {"tangent", json_of(point.tangent)},
-            {"from_behind", point.from_behind},
-            {"normal_steps", json_of(e.normal_steps(point))},
-            {"lights", std::move(lights)},
-            {"surroundings", json_of(point.surroundings)},
-            {"I_a", json_of(point.ambient)},
-            {"I_d", json_of(point.diffuse)},
-            {"I_s", json_of(point.specular)},
-            {"I", json_of(point.intensity)}};
+    return {{"position", json_of(point.position)}, {"N", json_of(point.normal)},
+            {"V", json_of(point.to_observer)},     {"tangent", json_of(point.tangent)},
+            {"from_behind", point.from_behind},    {"normal_steps", json_of(e.normal_steps(point))},
+            {"lights", std::move(lights)},         {"surroundings", json_of(point.surroundings)},
+            {"I_a", json_of(point.ambient)},       {"I_d", json_of(point.diffuse)},
+            {"I_s", json_of(point.specular)},      {"I", json_of(point.intensity)}};
 }
 
 Json json_of(const Explanation& e, const FragmentProbe& fragment) {
     const candela::Object& object = e.scene.objects[fragment.object];
     const candela::Rgb color = e.compiled.objects[fragment.object].surface.color;
     Json points = Json::array();
-    for (const PointTrace& point : fragment.points) points.push_back(json_of(e, point, object.reflection.name));
+    for (const PointTrace& point : fragment.points)
+        points.push_back(json_of(e, point, object.reflection.name));
     return {{"object", object.label},
             {"type", object.shape.name},
             {"triangle", fragment.triangle},

@@ -25,7 +25,8 @@ std::string text_of(Vec3 v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x
 std::string text_of(const std::vector<double>& numbers) {
     if (numbers.size() == 1) return fmt::format("{:.6g}", numbers[0]);
     std::string result;
-    for (const double number : numbers) result += fmt::format("{}{:.6g}", result.empty() ? "[" : ", ", number);
+    for (const double number : numbers)
+        result += fmt::format("{}{:.6g}", result.empty() ? "[" : ", ", number);
     return result + "]";
 }
 
@@ -48,21 +49,23 @@ class Writer {
     std::string written() {
         const auto& image = e_.compiled.image;
         const auto& bytes = e_.pixel.bytes;
-        line(0, fmt::format("pixel {},{} of {} x {}: {} {} {}", e_.x, e_.y, image.width, image.height, bytes[0],
-                            bytes[1], bytes[2]));
+        line(0, fmt::format("pixel {},{} of {} x {}: {} {} {}", e_.x, e_.y, image.width, image.height,
+                            bytes[0], bytes[1], bytes[2]));
         for (const FragmentProbe& fragment : e_.pixel.fragments) write(fragment);
         if (e_.pixel.background_weight > 0)
             value(0, "background", e_.pixel.background,
-                  e_.pixel.background_weight < 1 ? fmt::format("{:.4g} of the pixel", e_.pixel.background_weight)
-                                                 : "no object is seen");
+                  e_.pixel.background_weight < 1
+                      ? fmt::format("{:.4g} of the pixel", e_.pixel.background_weight)
+                      : "no object is seen");
         if (e_.pixel.fragments.size() + (e_.pixel.background_weight > 0 ? 1 : 0) > 1)
             value(0, "I", e_.pixel.intensity, "the sum, by share of the pixel");
         write_encoding();
         if (!e_.why_no_steps().empty()) line(0, "note: " + e_.why_no_steps());
         if (const auto difference = e_.kernel_difference())
-            line(0, fmt::format("the steps are those of the kernels' text, compiled here; plugin and text differ by "
-                                "{:.1g} of the intensity",
-                                *difference));
+            line(0, fmt::format(
+                        "the steps are those of the kernels' text, compiled here; plugin and text differ by "
+                        "{:.1g} of the intensity",
+                        *difference));
         return candela::printable(text_, candela::LineBreaks::kept);
     }
 
@@ -76,13 +79,15 @@ class Writer {
 
     void write(const FragmentProbe& fragment) {
         const candela::Object& object = e_.scene.objects[fragment.object];
-        line(0, fmt::format("object {}, {}: triangle {}, barycentric {}{}", object.label, object.shape.name,
-                            fragment.triangle, text_of(fragment.barycentric),
-                            fragment.weight < 1 ? fmt::format(", {:.4g} of the pixel", fragment.weight) : ""));
+        line(0,
+             fmt::format("object {}, {}: triangle {}, barycentric {}{}", object.label, object.shape.name,
+                         fragment.triangle, text_of(fragment.barycentric),
+                         fragment.weight < 1 ? fmt::format(", {:.4g} of the pixel", fragment.weight) : ""));
         value(1, "p", fragment.position, "metres");
         const candela::Rgb color = e_.compiled.objects[fragment.object].surface.color;
         value(1, "C_o", {color.r, color.g, color.b});
-        line(1, fmt::format("{} shading: light is evaluated {}", object.shading.name, place_of(fragment.rate)));
+        line(1,
+             fmt::format("{} shading: light is evaluated {}", object.shading.name, place_of(fragment.rate)));
         for (std::size_t i = 0; i < fragment.points.size(); ++i) {
             if (fragment.points.size() > 1) line(1, fmt::format("vertex {}", i + 1));
             write(fragment.points[i], object);
@@ -149,8 +154,10 @@ class Writer {
         }
     }
     static bool is_shown(const std::string& argument) {
-        constexpr std::array<std::string_view, 4> k_shown{"Surface ", "Receiver ", "ShadingPoint ", "vec3 to_light"};
-        return std::ranges::any_of(k_shown, [&](std::string_view begin) { return argument.starts_with(begin); });
+        constexpr std::array<std::string_view, 4> k_shown{"Surface ", "Receiver ", "ShadingPoint ",
+                                                          "vec3 to_light"};
+        return std::ranges::any_of(k_shown,
+                                   [&](std::string_view begin) { return argument.starts_with(begin); });
     }
 
     void write_encoding() {
@@ -161,9 +168,10 @@ class Writer {
         for (std::size_t c = 0; c < 3; ++c) {
             const float clamped = std::clamp(channels[c], 0.0f, 1.0f);
             const float encoded = is_srgb ? candela::linear_to_srgb(clamped) : clamped;
-            line(0, fmt::format("{}: I = {:.6g}{}, {}{:.6g}, x 255 = {:.2f}, byte {}", k_names[c], channels[c],
-                                clamped != channels[c] ? fmt::format(", clamped to {:g}", clamped) : "",
-                                is_srgb ? "sRGB " : "not encoded ", encoded, 255 * encoded, e_.pixel.bytes[c]));
+            line(0,
+                 fmt::format("{}: I = {:.6g}{}, {}{:.6g}, x 255 = {:.2f}, byte {}", k_names[c], channels[c],
+                             clamped != channels[c] ? fmt::format(", clamped to {:g}", clamped) : "",
+                             is_srgb ? "sRGB " : "not encoded ", encoded, 255 * encoded, e_.pixel.bytes[c]));
         }
     }
 
