@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "candela/color.h"
@@ -18,6 +19,7 @@
 #include "candela/target_plugin.h"
 
 CANDELA_EMBED(candela_opengl_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
+CANDELA_EMBED(candela_opengl_tables, CANDELA_SOURCE_DIR "/templates/tables.cpp");
 CANDELA_EMBED(candela_opengl_meshes, CANDELA_SOURCE_DIR "/templates/meshes.h");
 CANDELA_EMBED(candela_opengl_cmake, CANDELA_SOURCE_DIR "/templates/CMakeLists.txt");
 CANDELA_EMBED(candela_opengl_readme, CANDELA_SOURCE_DIR "/templates/README.md");
@@ -51,30 +53,33 @@ class OpenGlWriter {
         const GlslParts glsl = glsl_of(scene_);
         const ExportedImage& image = scene_.image;
         const Values about = {{"TITLE", tame(scene_.title)}, {"VERSION", CANDELA_PLUGIN_VERSION}};
-        Values values = {{"PRELUDE", raw(glsl.prelude)},
-                         {"LIGHTS", raw(glsl.lights)},
-                         {"VERTEX", raw(glsl.vertex)},
-                         {"FRAGMENT", raw(glsl.fragment)},
-                         {"SCREEN", raw(glsl.screen)},
-                         {"ACCUMULATE", raw(glsl.accumulate)},
-                         {"ENCODE", raw(glsl.encode)},
-                         {"SHADINGS", models(scene_.shadings, glsl.shadings,
-                                             [](const auto& m) { return rate_name(m.rate); })},
-                         {"REFLECTIONS", models(scene_.reflections, glsl.reflections,
-                                                [](const auto&) { return "fragment"; })},
-                         {"WIDTH", fmt::format("{}", image.width)},
-                         {"HEIGHT", fmt::format("{}", image.height)},
-                         {"IS_SRGB", encoding_ == ColorEncoding::srgb ? "true" : "false"},
-                         {"BACKGROUND", braces(decoded(image.background, encoding_))},
-                         {"SAMPLES", samples()},
-                         {"OBSERVER", observer()},
-                         {"LIGHT_COUNTS", light_counts()},
-                         {"LIGHT_VALUES", light_values()},
-                         {"LIGHT_TABLE_WIDTH", fmt::format("{}", k_light_table_width)},
-                         {"TABLES", tables()},
-                         {"TABLE_WIDTH", fmt::format("{}", k_table_width)},
-                         {"OBJECTS", objects},
-                         {"PICTURE_FILE", std::string(picture_file_source())}};
+        Values values = {
+            {"PRELUDE", raw(glsl.prelude)},
+            {"LIGHTS", raw(glsl.lights)},
+            {"VERTEX", raw(glsl.vertex)},
+            {"FRAGMENT", raw(glsl.fragment)},
+            {"SCREEN", raw(glsl.screen)},
+            {"ACCUMULATE", raw(glsl.accumulate)},
+            {"ENCODE", raw(glsl.encode)},
+            {"SHADINGS",
+             models(scene_.shadings, glsl.shadings, [](const auto& m) { return rate_name(m.rate); })},
+            {"REFLECTIONS",
+             models(scene_.reflections, glsl.reflections, [](const auto&) { return "fragment"; })},
+            {"WIDTH", fmt::format("{}", image.width)},
+            {"HEIGHT", fmt::format("{}", image.height)},
+            {"IS_SRGB", encoding_ == ColorEncoding::srgb ? "true" : "false"},
+            {"BACKGROUND", braces(decoded(image.background, encoding_))},
+            {"SAMPLES", samples()},
+            {"OBSERVER", observer()},
+            {"LIGHT_COUNTS", light_counts()},
+            {"LIGHT_VALUES", light_values()},
+            {"LIGHT_TABLE_WIDTH", fmt::format("{}", k_light_table_width)},
+            {"TABLES", tables()},
+            {"BIND_TABLES", if_tables("        glActiveTexture(GL_TEXTURE3);\n        table_numbers();\n")},
+            {"SET_TABLES",
+             if_tables("        set(program, {\"table_numbers\", Uniform::whole, {3, 0, 0}});\n")},
+            {"OBJECTS", objects},
+            {"PICTURE_FILE", std::string(picture_file_source())}};
         values.insert(values.end(), about.begin(), about.end());
         write(files, "scene.cpp", filled(candela_opengl_scene, values));
         write(files, "meshes.h",
@@ -188,6 +193,9 @@ class OpenGlWriter {
         return text;
     }
 
+    /// A program without tables has nothing for them.
+    std::string if_tables(std::string text) const { return scene_.tables.empty() ? "" : std::move(text); }
+
     std::string tables() const {
         std::vector<std::string> numbers;
         for (const float x : scene_.tables) numbers.push_back(float_text(x));
@@ -196,7 +204,8 @@ class OpenGlWriter {
             const auto row = std::span(numbers).subspan(i, std::min<std::size_t>(10, numbers.size() - i));
             text += fmt::format("    {},\n", fmt::join(row, ", "));
         }
-        return text;
+        return if_tables(
+            filled(candela_opengl_tables, {{"NUMBERS", text}, {"WIDTH", fmt::format("{}", k_table_width)}}));
     }
 
     template <class Model>

@@ -100,10 +100,6 @@ const std::vector<Uniform> k_light_counts = {
 const std::vector<Uniform> k_light_values = {
 @LIGHT_VALUES@};
 
-// The numbers of the models' tables, one table after the other: a model knows where its own begins, and its size.
-const std::vector<float> k_table_numbers = {
-@TABLES@};
-
 const std::vector<Object> k_objects = {
 @OBJECTS@};
 
@@ -235,14 +231,7 @@ GLuint data_texture(GLint format, std::size_t width, std::size_t height, GLenum 
     return texture;
 }
 
-// The numbers of all tables, in rows of this width.
-GLuint table_numbers() {
-    const std::size_t width = @TABLE_WIDTH@, height = k_table_numbers.size() / width + 1;
-    std::vector<float> texels = k_table_numbers;
-    texels.resize(width * height);
-    return data_texture(GL_R32F, width, height, GL_RED, GL_FLOAT, texels.data());
-}
-
+@TABLES@
 // The lights' values as a texture that shaders read, a texel each, in rows of this width.
 GLuint light_table() {
     const std::size_t width = @LIGHT_TABLE_WIDTH@, height = k_light_values.size() / width + 1;
@@ -349,8 +338,7 @@ class Renderer {
         encode_ = linked(k_header + k_screen, k_header + k_encode);
         glActiveTexture(GL_TEXTURE2);  // passes over the screen have the first two
         light_table();
-        glActiveTexture(GL_TEXTURE3);
-        table_numbers();
+@BIND_TABLES@
         glActiveTexture(GL_TEXTURE0);
     }
 
@@ -442,7 +430,7 @@ class Renderer {
         program = linked(common + k_vertex, common + k_fragment);
         glUseProgram(program);
         set(program, {"light_table", Uniform::whole, {2, 0, 0}});
-        set(program, {"table_numbers", Uniform::whole, {3, 0, 0}});
+@SET_TABLES@
         for (const Uniform& u : k_light_counts) set(program, u);
         return program;
     }
