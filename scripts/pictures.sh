@@ -110,3 +110,6 @@ sandbox=()
 [ "$(id -u)" -ne 0 ] || sandbox=(--no-sandbox)
 chromium --headless=new "${sandbox[@]}" --use-angle=swiftshader --enable-unsafe-swiftshader --hide-scrollbars --window-size=1400,900 \
     --user-data-dir="$page/profile" --virtual-time-budget=8000 --screenshot="$out/page.png" "file://$page/scene.html" 2>/dev/null
+
+# The same while somebody works on the scene.
+/usr/bin/python3 -B "$root/tests/page/view_picture.py" "$root/build/release/bin/candela" "$root/docs/examples/still-life.toml" "$out/view.png"

@@ -38,8 +38,10 @@ std::uint16_t port_from(const CommandLine& line) {
     return static_cast<std::uint16_t>(port);
 }
 
-/// What another verb is to be told, which does not know these options; each of them has a value.
-std::vector<std::string> without(const std::vector<std::string>& options,
+/// What another verb is to be told: no switches of these names, nor options of these names, which have a
+/// value.
+std::vector<std::string> without(const std::vector<std::string>& switches,
+                                 const std::vector<std::string>& options,
                                  const std::vector<std::string>& arguments) {
     std::vector<std::string> rest;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -47,7 +49,8 @@ std::vector<std::string> without(const std::vector<std::string>& options,
         const auto is_of = [&](const std::string& option) { return word.starts_with(option + "="); };
         if (std::ranges::find(options, word) != options.end()) {
             ++i;
-        } else if (word != "--no-open" && std::ranges::none_of(options, is_of)) {
+        } else if (std::ranges::find(switches, word) == switches.end() &&
+                   std::ranges::none_of(options, is_of)) {
             rest.push_back(word);
         }
     }
@@ -86,10 +89,10 @@ int run_view(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     const LoadedTarget target =
         line.has("target") ? LoadedTarget(line.get<std::string>("target"), registry) : page_target(registry);
-    std::vector<std::string> for_generate = without({"--port", "--target"}, arguments);
+    std::vector<std::string> for_generate = without({"--no-open"}, {"--port", "--target"}, arguments);
     if (!line.has("models")) for_generate.insert(for_generate.end(), {"--models", "all"});
     const TemporaryFolder pictures(fs::temp_directory_path(), "candela-view-");
-    const auto for_render = without({"--port", "--target", "--models"}, arguments);
+    const auto for_render = without({"--no-open", "--quiet"}, {"--port", "--target", "--models"}, arguments);
     std::optional<view::Server> server(
         std::in_place, port_from(line),
         view::Server::Handlers{.log = [](const std::string& text) { warn(text); },

@@ -191,6 +191,22 @@ class ServerTest(unittest.TestCase):
         self.assertIn(b" 422 ", wrong[:20])
         self.assertIn(b"colour", wrong)
 
+    def test_options_of_the_command_hold_for_the_picture_too(self):
+        done = subprocess.Popen([COMMAND, "view", "--no-open", "--quiet", "--models", "all", "--port=0", "--set", "object.0.color=[1,2,3]",
+                                 self.view.file], env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+        port, token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/", done.stdout.readline().strip()).groups()
+        with socket.create_connection(("127.0.0.1", int(port)), timeout=LONGEST) as connection:
+            connection.sendall(f"GET /{token}/reference.png HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
+            parts = []
+            while part := connection.recv(65536):
+                parts.append(part)
+        done.send_signal(signal.SIGINT)
+        self.assertEqual(done.wait(LONGEST), 0)
+        done.stdout.close()
+        expected = self.view.folder / "expected.png"
+        subprocess.run([COMMAND, "render", "--quiet", self.view.file, "-o", expected, "--set", "object.0.color=[1,2,3]"], env=ENVIRONMENT, check=True)
+        self.assertEqual(b"".join(parts).split(b"\r\n\r\n", 1)[1], expected.read_bytes())
+
     def test_options_that_change_no_picture_are_refused(self):
         for query in ("output=/tmp/x", "plugin-dir=/tmp", "set", "set=%", "set=%zz", "set=%00", "=", "set=a&-o=b", "&"):
             self.assertEqual(self.view.status(f"/{self.view.token}/reference.png?{query}"), 400, query)

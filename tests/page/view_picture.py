@@ -1,0 +1,31 @@
+"""A picture of `candela view`, for the documentation: the renderer's own picture beside the page's, and an error in the file.
+
+    /usr/bin/python3 tests/page/view_picture.py CANDELA SCENE PICTURE.png
+"""
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from browser import DRAWS_BY_ITSELF, Browser
+
+command, scene, picture = sys.argv[1:]
+with tempfile.TemporaryDirectory() as folder:
+    file = pathlib.Path(shutil.copy(scene, folder))
+    server = subprocess.Popen([command, "view", "--no-open", "--quiet", file.name], cwd=folder, stdout=subprocess.PIPE, text=True)
+    browser = Browser(*DRAWS_BY_ITSELF)
+    try:
+        browser.resize(1400, 900)
+        browser.open(server.stdout.readline().strip())
+        browser.enter("#reference-mode", "wipe")
+        text = file.read_text()
+        file.write_text(text.replace("intensity", "intensty", 1))
+        time.sleep(20)  # until the picture is at rest
+        browser.driver.save_screenshot(picture)
+    finally:
+        browser.close()
+        server.send_signal(signal.SIGINT)
+        server.wait()
