@@ -30,8 +30,9 @@ struct Pixel {
 
 std::optional<Pixel> pixel_from(std::string_view text) {
     Pixel pixel;
-    const char* const end = text.data() + text.size();
-    const auto x = std::from_chars(text.data(), end, pixel.x);
+    const char* const begin = text.data();
+    const char* const end = begin + text.size();
+    const auto x = std::from_chars(begin, end, pixel.x);
     if (x.ec != std::errc{} || x.ptr == end || *x.ptr != ',') return std::nullopt;
     const auto y = std::from_chars(x.ptr + 1, end, pixel.y);
     if (y.ec != std::errc{} || y.ptr != end) return std::nullopt;

@@ -59,7 +59,8 @@ std::vector<float> all_numbers_in(std::string text) {
     std::ranges::replace_if(text, [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
     std::istringstream in(text);
     std::vector<float> numbers{std::istream_iterator<float>(in), {}};
-    return in.eof() ? numbers : std::vector<float>();
+    if (!in.eof()) numbers.clear();
+    return numbers;
 }
 
 /// A text as a value of a parameter's type. Throws std::invalid_argument if it is none.
@@ -93,7 +94,7 @@ candela::Value value_from(const Parameter& p, const std::string& text) {
             return rows;
         }
         case ParamType::numbers: {
-            const std::vector<float> all = all_numbers_in(text);
+            std::vector<float> all = all_numbers_in(text);
             require(!all.empty());
             return all;
         }
