@@ -225,7 +225,7 @@ class Tracer {
         const std::size_t semicolon = std::min(text_.find(';', at_), end);
         const std::string written = text_.substr(at_, semicolon - at_);
         const std::size_t begin = at_;
-        if (word == "return" && trimmed(std::string_view(written).substr(word.size())) != "") {
+        if (word == "return" && !trimmed(std::string_view(written).substr(word.size())).empty()) {
             const std::size_t number = step(KernelStep::Kind::result, begin, "return", written);
             out_ +=
                 fmt::format("return candela_trace::result({}, ({}));", number, written.substr(word.size()));

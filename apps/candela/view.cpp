@@ -110,7 +110,7 @@ int run_view(const std::vector<std::string>& arguments) {
                            .plugin_folders = registry.search_path()},
         [&](view::Publication publication) { server->publish(std::move(publication)); });
     const std::string address = server->address();
-    std::cout << address << std::endl;  // somebody may be waiting for it
+    std::cout << address << '\n' << std::flush;  // somebody may be waiting for it
     if (!line.has("no-open")) open_browser(address);
     server->run();
     // Both wait for programs that they have started.
