@@ -234,7 +234,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
         stream_.expires_after(k_longest_answer);
         http::async_write(stream_, response_, [self = shared_from_this()](error_code, std::size_t) {
             error_code ignored;
-            self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+            static_cast<void>(self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored));
         });
     }
 
