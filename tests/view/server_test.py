@@ -121,7 +121,13 @@ class ServerTest(unittest.TestCase):
         self.assertEqual(list(self.view.temporary.iterdir()), [])
 
     def test_it_listens_on_this_machine_alone(self):
-        own = set(re.findall(r"socket:\[(\d+)\]", " ".join(os.readlink(f) for f in pathlib.Path(f"/proc/{self.view.process.pid}/fd").iterdir())))
+        sockets = []
+        for descriptor in pathlib.Path(f"/proc/{self.view.process.pid}/fd").iterdir():
+            try:
+                sockets += re.findall(r"socket:\[(\d+)\]", os.readlink(descriptor))
+            except FileNotFoundError:
+                pass  # closed since
+        own = set(sockets)
         listening = []
         for table in ("tcp", "tcp6"):
             for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
