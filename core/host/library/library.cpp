@@ -4,6 +4,7 @@ module;
 
 #include <boost/dll/runtime_symbol_info.hpp>
 #include <boost/dll/shared_library.hpp>
+#include <array>
 #include <exception>
 #include <filesystem>
 #include <map>
