@@ -2,6 +2,7 @@ module;
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <memory>
@@ -66,9 +67,13 @@ class Compiler {
     }
 
   private:
-    void tell() const {
+    /// `part` of the next step has been done already.
+    void tell(double part = 0) const {
         constexpr std::size_t k_steps = 3;  // that each object takes
-        if (progress_) progress_(steps_done_, k_steps * scene_.objects.size());
+        constexpr std::size_t k_parts = 1000;
+        if (!progress_) return;
+        const auto parts = static_cast<std::size_t>(k_parts * std::clamp(part, 0.0, 1.0));
+        progress_(k_parts * steps_done_ + parts, k_parts * k_steps * scene_.objects.size());
     }
     void count_step() {
         ++steps_done_;
@@ -139,8 +144,9 @@ class Compiler {
                 i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
             const PointNeeds needs = has_surface ? compiled_.objects[i].surface.needs() : PointNeeds{};
             guarded(object, PluginKind::shape, object.shape.name, [&] {
-                placed_[i] = place(*made<Shape>(object.shape),
-                                   {.uv = needs.uv, .derivatives = needs.derivatives}, object.transform);
+                placed_[i] =
+                    place(*made<Shape>(object.shape), {.uv = needs.uv, .derivatives = needs.derivatives},
+                          object.transform, [this](double part) { tell(part); });
             });
             if (placed_[i]) say_once(object, placed_[i]->warnings);
             count_step();

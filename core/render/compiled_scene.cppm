@@ -45,8 +45,8 @@ using Progress = std::function<void(std::size_t done, std::size_t all)>;
 /// Loads what the scene names, and nothing else, tessellates its objects and checks the constraints that only
 /// triangles can decide. Reports failures with the light or object concerned, and then returns nothing, as it
 /// does if errors were reported before; warns about meshes that are not closed. `threads`: as in
-/// RenderOptions. `progress` is called by one thread at a time: each object counts when it has its triangles,
-/// when it has been checked and when it has its normals.
+/// RenderOptions. `progress` is called by one thread at a time: each object counts when it has its triangles
+/// (a large one in parts), when it has been checked and when it has its normals.
 CANDELA_API std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
                                                  Diagnostics& diagnostics, int threads = 0,
                                                  const Progress& progress = {});

@@ -11,6 +11,7 @@ module;
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -48,6 +49,8 @@ std::uint64_t memory_for(const MeshLayout& layout) {
 /// Receives what a shape writes, before it is transformed.
 class Collector final : public MeshSink {
   public:
+    explicit Collector(const std::function<void(double)>& progress) : progress_(progress) {}
+
     MeshSpans allocate(const MeshLayout& layout) override {
         if (allocated_) throw std::logic_error("the shape asked for its arrays twice");
         allocated_ = true;
@@ -82,6 +85,9 @@ class Collector final : public MeshSink {
     }
 
     void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
+    void progress(double fraction) override {
+        if (progress_) progress_(fraction);
+    }
 
     Mesh mesh;
     Vec3Arrays authored_normal;
@@ -91,6 +97,7 @@ class Collector final : public MeshSink {
     std::vector<std::string> warnings;
 
   private:
+    const std::function<void(double)>& progress_;
     bool allocated_ = false;
 };
 
@@ -291,8 +298,9 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
 
 }  // namespace
 
-PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& to_world) {
-    Collector collected;
+PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& to_world,
+                  const std::function<void(double)>& progress) {
+    Collector collected(progress);
     shape.tessellate(request, collected);
     check(collected);
 

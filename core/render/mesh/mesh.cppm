@@ -5,6 +5,7 @@ module;
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,10 +59,11 @@ struct PlacedShape {
     std::vector<std::string> warnings;          // of the shape, as sentences
 };
 
-/// Tessellates `shape` and places it in the world.
+/// Tessellates `shape` and places it in the world. `progress` hears what the shape says of its own: 0 … 1.
 /// Throws what the shape throws (std::exception), and std::invalid_argument for a mesh without triangles,
 /// with an index out of range, or with a position that is not finite.
-CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& transform);
+CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& transform,
+                              const std::function<void(double)>& progress = {});
 
 /// Gives a mesh its face normals and the vertex normals of `shading`, with the threads that with_threads()
 /// allows. Throws what the shading model throws.

@@ -45,19 +45,20 @@ Format format_of(const std::filesystem::path& file) {
     throw mesh::BadFile("has not the extension of a mesh: .obj, .ply, .stl, .gltf or .glb");
 }
 
-mesh::Surface surface_of(const std::filesystem::path& file, mesh::Reach reach) {
+mesh::Surface surface_of(const std::filesystem::path& file, mesh::Reach reach,
+                         const mesh::Progress& progress) {
     const Format format = format_of(file);
     const mesh::Array<char> bytes = mesh::read_file(file);
     mesh::Surface surface;
     switch (format) {
         case Format::obj:
-            surface = mesh::read_obj(mesh::text_of(bytes));
+            surface = mesh::read_obj(mesh::text_of(bytes), progress);
             break;
         case Format::ply:
-            surface = mesh::read_ply(mesh::text_of(bytes));
+            surface = mesh::read_ply(mesh::text_of(bytes), progress);
             break;
         case Format::stl:
-            surface = mesh::read_stl(mesh::text_of(bytes));
+            surface = mesh::read_stl(mesh::text_of(bytes), progress);
             break;
         case Format::gltf:
             surface = mesh::read_gltf(mesh::text_of(bytes), file.parent_path(), reach);
@@ -104,19 +105,27 @@ class FileMesh final : public candela::Shape {
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         try {
-            write(surface_of(file_, reach_), request, sink);
+            const auto reading = [&](double part) { sink.progress(k_read * part); };
+            write(surface_of(file_, reach_, reading), request, sink);
         } catch (const mesh::BadFile& problem) {
             throw std::runtime_error(fmt::format("'{}' {}", file_, problem.what()));
         }
     }
 
   private:
+    // What has been done after each step, for ten million triangles.
+    static constexpr double k_read = 0.5, k_joined = 0.7, k_oriented = 0.8, k_split = 0.9;
+
     void write(mesh::Surface surface, const candela::MeshRequest& request, candela::MeshSink& sink) const {
+        sink.progress(k_read);
         mesh::Corners corners(surface);
+        sink.progress(k_joined);
         const mesh::OpenEdges open = mesh::open_edges(surface, corners);
         if (mesh::turn_outwards(surface, corners, open)) corners = mesh::Corners(surface);
+        sink.progress(k_oriented);
         mesh::SplitVertices split;
         if (!has_all_normals(surface)) split = mesh::split_at_creases(surface, corners, crease_angle_);
+        sink.progress(k_split);
         const mesh::Array<std::uint32_t>& indices = split.indices.empty() ? surface.indices : split.indices;
 
         const candela::MeshLayout layout{

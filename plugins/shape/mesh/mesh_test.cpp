@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers.hpp>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <utility>
+#include <vector>
 
 #include "candela/parallel.h"
 #include "support/command.h"
@@ -537,4 +539,38 @@ TEST_CASE("shape/mesh: the number of threads changes nothing") {
     CHECK(by_one.position.x == by_four.position.x);
     CHECK(by_one.closed);
     CHECK(by_one.triangle_count() == sphere.triangle_count());
+}
+
+TEST_CASE("shape/mesh: of a long text it says how much is read, and a scene's progress shows it") {
+    std::string text;
+    for (int i = 0; i < 100000; ++i) text += fmt::format("v {0} 0 0\nv {0} 1 0\nv {0} 0 1\n", 1e-5 * i);
+    for (int i = 0; i < 100000; ++i) text += fmt::format("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+    const auto directory = scratch_directory();
+    const auto file = write_file(directory / "long.obj", text);
+    std::vector<double> told;
+    candela::place(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {},
+                   [&](double done) { told.push_back(done); });
+    REQUIRE(told.size() > 8);
+    CHECK(std::ranges::is_sorted(told));
+    CHECK(told.front() < 0.2);
+    CHECK(told.back() < 1);
+
+    candela::SceneRequest request;
+    request.files = {
+        write_file(directory / "long.toml",
+                   "version = 1\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"lambert\"\n"
+                   "[observer]\nposition = [0, 0, -4]\nlook_at = [0, 0, 0]\n"
+                   "[[object]]\ntype = \"mesh\"\nfile = \"long.obj\"\n")};
+    candela::Diagnostics diagnostics;
+    const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
+    REQUIRE(draft);
+    REQUIRE_FALSE(diagnostics.has_errors());
+    std::vector<double> done;
+    candela::compile(*draft, test_registry(), diagnostics, 1, [&](std::size_t some, std::size_t all) {
+        done.push_back(static_cast<double>(some) / static_cast<double>(all));
+    });
+    CHECK_FALSE(diagnostics.has_errors());
+    CHECK(std::ranges::is_sorted(done));
+    CHECK(std::ranges::count_if(done, [](double d) { return d > 0 && d < 0.33; }) >= 8);
+    CHECK(done.back() == 1);
 }

@@ -29,7 +29,7 @@ struct Hash {
 
 class Reader {
   public:
-    explicit Reader(std::string_view text) : scanner_(text) {}
+    Reader(std::string_view text, const Progress& progress) : scanner_(text, progress) {}
 
     Surface read() {
         for (; !scanner_.at_end(); scanner_.next_line()) {
@@ -274,6 +274,6 @@ class Reader {
 
 }  // namespace
 
-Surface read_obj(std::string_view text) { return Reader(text).read(); }
+Surface read_obj(std::string_view text, const Progress& progress) { return Reader(text, progress).read(); }
 
 }  // namespace mesh

@@ -62,11 +62,12 @@ void skip(Values& values, const Element& element) {
 
 class Reader {
   public:
-    Reader(std::string_view bytes, const Header& header) : bytes_(bytes), header_(header) {}
+    Reader(std::string_view bytes, const Header& header, const Progress& progress)
+        : bytes_(bytes), header_(header), progress_(progress) {}
 
     Surface read() {
         if (header_.encoding == Encoding::text) {
-            read_all(TextValues(bytes_, header_));
+            read_all(TextValues(bytes_, header_, progress_));
         } else {
             read_all(BinaryValues(bytes_, header_));
         }
@@ -315,6 +316,7 @@ class Reader {
 
     std::string_view bytes_;
     const Header& header_;
+    const Progress& progress_;
     Surface surface_;
     Polygons polygons_;
     Array<std::uint32_t> fixed_triangles_;
@@ -327,9 +329,9 @@ class Reader {
 
 }  // namespace ply
 
-Surface read_ply(std::string_view bytes) {
+Surface read_ply(std::string_view bytes, const Progress& progress) {
     const ply::Header header = ply::read_header(bytes);
-    return ply::Reader(bytes, header).read();
+    return ply::Reader(bytes, header, progress).read();
 }
 
 }  // namespace mesh

@@ -93,8 +93,8 @@ class BinaryValues {
 /// Reads values of a text. They stand in their elements' lines, but only their order counts.
 class TextValues {
   public:
-    TextValues(std::string_view bytes, const Header& header)
-        : scanner_(bytes.substr(header.size)),
+    TextValues(std::string_view bytes, const Header& header, const Progress& progress)
+        : scanner_(bytes.substr(header.size), progress),
           lines_before_(header.lines),
           size_(bytes.size() - header.size) {}
 

@@ -1,5 +1,5 @@
 // One function per format: from bytes to a surface. All throw BadFile for what is no such file, check counts
-// against the bytes there are before they allocate, and have no state.
+// against the bytes there are before they allocate, and have no state. Texts tell how far they are read.
 #pragma once
 
 #include <filesystem>
@@ -7,17 +7,18 @@
 
 #include "file_bytes.h"
 #include "surface.h"
+#include "text_scanner.h"
 
 namespace mesh {
 
 /// The Polygon File Format, text or binary (Turk 1994).
-Surface read_ply(std::string_view bytes);
+Surface read_ply(std::string_view bytes, const Progress& progress);
 
 /// Stereolithography, text or binary (3D Systems 1989).
-Surface read_stl(std::string_view bytes);
+Surface read_stl(std::string_view bytes, const Progress& progress);
 
 /// Wavefront OBJ: polygons, no curves. Material libraries are not opened.
-Surface read_obj(std::string_view text);
+Surface read_obj(std::string_view text, const Progress& progress);
 
 /// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder`, and as far from
 /// it as `reach` allows.

@@ -86,7 +86,7 @@ Surface read_binary(std::string_view bytes) {
 
 class TextReader {
   public:
-    explicit TextReader(std::string_view text) : scanner_(text) {}
+    TextReader(std::string_view text, const Progress& progress) : scanner_(text, progress) {}
 
     Surface read() {
         expect("solid");
@@ -177,8 +177,8 @@ void note_contradictions(Surface& surface) {
 
 }  // namespace
 
-Surface read_stl(std::string_view bytes) {
-    Surface surface = is_binary(bytes) ? read_binary(bytes) : TextReader(bytes).read();
+Surface read_stl(std::string_view bytes, const Progress& progress) {
+    Surface surface = is_binary(bytes) ? read_binary(bytes) : TextReader(bytes, progress).read();
     note_contradictions(surface);
     return surface;
 }

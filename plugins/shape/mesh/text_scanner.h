@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace mesh {
 
@@ -17,10 +19,14 @@ std::optional<double> number_from(std::string_view word);
 /// An integer, or a number that is one ("3.0"); nothing if it does not fit.
 std::optional<std::int64_t> integer_from(std::string_view word);
 
+/// Called now and then with how much has been done, 0 … 1.
+using Progress = std::function<void(double)>;
+
 /// Goes through a text word by word. Lines end with LF, CR LF or CR.
 class TextScanner {
   public:
-    explicit TextScanner(std::string_view text) : text_(text) {}
+    explicit TextScanner(std::string_view text, Progress progress = {})
+        : text_(text), progress_(std::move(progress)) {}
 
     /// The next word, on whichever line; empty at the end.
     std::string_view word() {
@@ -49,7 +55,10 @@ class TextScanner {
     void skip_blank() {
         const char c = text_[at_++];
         if (c == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
-        if (c == '\n' || c == '\r') ++line_;
+        if (c != '\n' && c != '\r') return;
+        constexpr std::size_t k_lines_between = 1 << 16;
+        if (++line_ % k_lines_between == 0 && progress_)
+            progress_(static_cast<double>(at_) / static_cast<double>(text_.size()));
     }
     std::string_view rest_of_word() {
         const std::size_t begin = at_;
@@ -60,6 +69,7 @@ class TextScanner {
     std::string_view text_;
     std::size_t at_ = 0;
     std::size_t line_ = 1;
+    Progress progress_;
 };
 
 /// A word for a message: what is long is cut, what a terminal obeys or is no ASCII shown as '?'.

@@ -60,6 +60,8 @@ class CANDELA_API MeshSink {
     /// Tells the user, at the object's position in the scene, about something that is not as a file says: a
     /// whole sentence, without a full stop. Any number of times; the same sentence is shown once per scene.
     virtual void warn(std::string_view sentence);
+    /// Says how much of the work has been done, 0 … 1, where it may take seconds. Any number of times.
+    virtual void progress(double fraction);
 };
 
 /// A shape with one set of parameters. Any thread.
