@@ -145,6 +145,20 @@ void add_scene_options(CommandLine& line) {
     add_plugin_options(line);
 }
 
+std::vector<candela::Setting> settings_from(const CommandLine& line, const std::string& option) {
+    std::vector<candela::Setting> settings;
+    for (const std::string& setting : line.all(option)) {
+        const auto equals = setting.find('=');
+        if (equals == std::string::npos) {
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("--{0} '{1}' has no '='; write --{0} image.width=640", option, setting));
+        }
+        const std::string path = setting.substr(0, equals);
+        settings.push_back({fmt::format("--{} {}", option, path), path, setting.substr(equals + 1)});
+    }
+    return settings;
+}
+
 candela::SceneRequest scene_request_from(const CommandLine& line) {
     candela::SceneRequest request;
     for (const std::string& file : line.all("scene")) {
@@ -156,15 +170,8 @@ candela::SceneRequest scene_request_from(const CommandLine& line) {
         request.settings.push_back(
             {fmt::format("--{}", flag), fmt::format("image.{}", flag), line.get<std::string>(flag)});
     }
-    for (const std::string& setting : line.all("set")) {
-        const auto equals = setting.find('=');
-        if (equals == std::string::npos) {
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("--set '{}' has no '='; write --set image.width=640", setting));
-        }
-        const std::string path = setting.substr(0, equals);
-        request.settings.push_back({fmt::format("--set {}", path), path, setting.substr(equals + 1)});
-    }
+    for (candela::Setting& setting : settings_from(line, "set"))
+        request.settings.push_back(std::move(setting));
     if (line.has("shading")) request.shading = {line.get<std::string>("shading"), "--shading"};
     if (line.has("reflection")) request.reflection = {line.get<std::string>("reflection"), "--reflection"};
     request.use_defaults = line.has("defaults");

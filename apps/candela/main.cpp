@@ -25,6 +25,7 @@ constexpr std::array k_verbs = {
     Verb{"new", "write a starter scene", run_new},
     Verb{"render", "render a scene to a picture", run_render},
     Verb{"check", "check a scene and report its errors", run_check},
+    Verb{"edit", "write changes into a scene's files", run_edit},
     Verb{"explain", "explain how a pixel gets its colour", run_explain},
     Verb{"generate", "write a program that renders a scene", run_generate},
     Verb{"verify", "verify that generated programs render what Candela renders", run_verify},

@@ -14,6 +14,7 @@ struct Verb {
 int run_new(const std::vector<std::string>& arguments);
 int run_render(const std::vector<std::string>& arguments);
 int run_check(const std::vector<std::string>& arguments);
+int run_edit(const std::vector<std::string>& arguments);
 int run_explain(const std::vector<std::string>& arguments);
 int run_generate(const std::vector<std::string>& arguments);
 int run_verify(const std::vector<std::string>& arguments);

@@ -100,6 +100,12 @@ int run_view(const std::vector<std::string>& arguments) {
                                    [&](const std::vector<view::Change>& changes) {
                                        return rendered(for_render, changes,
                                                        pictures.path() / "reference.png");
+                                   },
+                               .save =
+                                   [&](const std::vector<view::Change>& changes) {
+                                       const view::Outcome outcome = saved(for_render, changes);
+                                       if (!outcome.is_success) warn("not saved: " + outcome.content);
+                                       return outcome;
                                    }});
     std::optional<SceneFollower> follower(
         std::in_place,

@@ -64,17 +64,31 @@ WithoutDescendants::~WithoutDescendants() {
     thread_.join();
 }
 
-view::Reference rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
-                         const fs::path& file) try {
+view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
+                       const fs::path& file) try {
     std::vector<std::string> words{"/proc/self/exe", "render", "--quiet", "--output", file.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     for (const view::Change& change : changes)
         words.push_back(fmt::format("{}={}", change.option, change.value));
     const candela::ProgramOutput result = candela::run_program(words);
-    if (result.exit_code != 0) return {.is_picture = false, .content = result.err};
-    return {.is_picture = true, .content = content_of(file)};
+    if (result.exit_code != 0) return {.is_success = false, .content = result.err};
+    return {.is_success = true, .content = content_of(file)};
 } catch (const std::exception& problem) {
-    return {.is_picture = false, .content = problem.what()};
+    return {.is_success = false, .content = problem.what()};
+}
+
+view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes) try {
+    std::vector<std::string> words{"/proc/self/exe", "edit", "--quiet"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    for (const view::Change& change : changes) {
+        const bool is_model = change.option != "--set";
+        words.push_back(is_model ? fmt::format("--change={}.model={}", change.option.substr(2), change.value)
+                                 : fmt::format("--change={}", change.value));
+    }
+    const candela::ProgramOutput result = candela::run_program(words);
+    return {.is_success = result.exit_code == 0, .content = result.err};
+} catch (const std::exception& problem) {
+    return {.is_success = false, .content = problem.what()};
 }
 
 SceneFollower::SceneFollower(Job job, std::function<void(view::Publication)> publish)

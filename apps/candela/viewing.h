@@ -27,8 +27,11 @@ class WithoutDescendants {
 };
 
 /// What `candela render` with these arguments makes of a scene, with somebody's changes; `file` is where.
-view::Reference rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
-                         const std::filesystem::path& file);
+view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
+                       const std::filesystem::path& file);
+
+/// Has `candela edit` with these arguments write somebody's changes into the scene's files.
+view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes);
 
 /// Makes a scene's page anew as often as one of the files changes that it is made from. `candela generate`
 /// makes it, in a process of its own: it has no library loaded that has been built again since, and may

@@ -91,9 +91,11 @@ Route route_of(const Request& request, std::string_view token, std::uint16_t por
     const Resource resource = path.empty()              ? Resource::page
                               : path == "events"        ? Resource::events
                               : path == "reference.png" ? Resource::reference
+                              : path == "save"          ? Resource::save
                                                         : Resource::none;
     if (resource == Resource::none) return {.status = 404};
-    if (request.method != "GET") return {.status = 405};
+    if (request.method != (resource == Resource::save ? "POST" : "GET")) return {.status = 405};
+    if (resource == Resource::save && request.origin.empty()) return {.status = 403};
     return {.status = 200, .resource = resource, .query = std::string(query)};
 }
 

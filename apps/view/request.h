@@ -17,7 +17,13 @@ struct Request {
     std::string_view origin;
 };
 
-enum class Resource { none, page, events, reference };
+enum class Resource {
+    none,
+    page,
+    events,
+    reference,
+    save,  // changes something, so browsers must say that it is this page that asks
+};
 
 /// What to do about a request.
 struct Route {

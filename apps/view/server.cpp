@@ -44,7 +44,7 @@ namespace {
 constexpr std::size_t k_most_connections = 64;
 constexpr std::size_t k_longest_header = 8192;  // bytes
 constexpr std::size_t k_most_refusals_logged = 10;
-constexpr int k_most_waiting = 8;  // for a picture
+constexpr int k_most_waiting = 8;  // for a picture or a file
 constexpr seconds k_longest_request{10};
 constexpr seconds k_longest_answer{60};
 constexpr seconds k_heartbeat{15};  // between signs of life to browsers that wait for events
@@ -56,9 +56,9 @@ std::string_view reason_of(unsigned status) {
         case 403:
             return "Requests for other hosts, or from other sites, are not answered.\n";
         case 503:
-            return "Too many pictures are asked for at once.\n";
+            return "Too much is asked for at once.\n";
         case 405:
-            return "Only GET is understood.\n";
+            return "This is not what can be done with this address.\n";
         default:
             return "There is nothing here. The address that candela view has printed is complete only with "
                    "its token.\n";
@@ -88,7 +88,7 @@ class Server::Implementation {
 
     void run() { context_.run(); }
     void stop() {
-        renderer_.stop();
+        worker_.stop();
         context_.stop();
     }
     void publish(Publication publication);
@@ -98,7 +98,7 @@ class Server::Implementation {
     void leave(Connection& connection) { std::erase(connections_, &connection); }
     void refused(unsigned status);
     /// False if too many wait for one.
-    bool render(std::vector<Change> changes, std::function<void(Reference)> answer);
+    bool work(Resource resource, std::vector<Change> changes, std::function<void(Outcome)> answer);
 
   private:
     void accept();
@@ -116,7 +116,7 @@ class Server::Implementation {
     tcp::acceptor acceptor_{context_};
     asio::signal_set signals_{context_};
     int waiting_ = 0;
-    asio::thread_pool renderer_{1};
+    asio::thread_pool worker_{1};
 };
 
 /// A browser's: one request and its answer, or events until either side ends.
@@ -174,8 +174,8 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
             return send(refusal(route.status));
         }
         if (route.resource == Resource::events) return open_events();
-        if (route.resource == Resource::reference) return render(route.query);
-        send(page(route.query));
+        if (route.resource == Resource::page) return send(page(route.query));
+        work(route);
     }
 
     Response response(http::status status) const {
@@ -193,7 +193,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
 
     Response refusal(unsigned status) const {
         Response answer = response(static_cast<http::status>(status));
-        if (status == 405) answer.set(http::field::allow, "GET");
+        if (status == 405) answer.set(http::field::allow, "GET, POST");
         answer.body() = reason_of(status);
         return answer;
     }
@@ -213,16 +213,17 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
         return answer;
     }
 
-    void render(const std::string& query) {
-        std::optional<std::vector<Change>> changes = changes_of(query);
+    void work(const Route& route) {
+        std::optional<std::vector<Change>> changes = changes_of(route.query);
         if (!changes) return send(refusal(400));
         stream_.expires_never();
-        const bool is_accepted =
-            server_.render(*std::move(changes), [self = shared_from_this()](Reference reference) {
-                Response answer = self->response(reference.is_picture ? http::status::ok
-                                                                      : http::status::unprocessable_entity);
-                if (reference.is_picture) answer.set(http::field::content_type, "image/png");
-                answer.body() = std::move(reference.content);
+        const bool is_picture = route.resource == Resource::reference;
+        const bool is_accepted = server_.work(
+            route.resource, *std::move(changes), [self = shared_from_this(), is_picture](Outcome outcome) {
+                Response answer = self->response(outcome.is_success ? http::status::ok
+                                                                    : http::status::unprocessable_entity);
+                if (outcome.is_success && is_picture) answer.set(http::field::content_type, "image/png");
+                answer.body() = std::move(outcome.content);
                 self->send(std::move(answer));
             });
         if (!is_accepted) send(refusal(503));
@@ -320,14 +321,16 @@ void Server::Implementation::accept() {
     });
 }
 
-bool Server::Implementation::render(std::vector<Change> changes, std::function<void(Reference)> answer) {
+bool Server::Implementation::work(Resource resource, std::vector<Change> changes,
+                                  std::function<void(Outcome)> answer) {
     if (waiting_ == k_most_waiting) return false;
     ++waiting_;
-    asio::post(renderer_, [this, changes = std::move(changes), answer = std::move(answer)]() mutable {
-        Reference reference = handlers_.render(changes);
-        asio::post(context_, [this, reference = std::move(reference), answer = std::move(answer)]() mutable {
+    const auto& handler = resource == Resource::save ? handlers_.save : handlers_.render;
+    asio::post(worker_, [this, &handler, changes = std::move(changes), answer = std::move(answer)]() mutable {
+        Outcome outcome = handler(changes);
+        asio::post(context_, [this, outcome = std::move(outcome), answer = std::move(answer)]() mutable {
             --waiting_;
-            answer(std::move(reference));
+            answer(std::move(outcome));
         });
     });
     return true;

@@ -12,9 +12,10 @@
 
 namespace view {
 
-/// What the renderer makes of the scene with somebody's changes: the bytes of a PNG file, or what is wrong.
-struct Reference {
-    bool is_picture = false;
+/// What becomes of somebody's changes: the bytes of a PNG file, or nothing where they are saved; or what is
+/// wrong.
+struct Outcome {
+    bool is_success = false;
     std::string content;
 };
 
@@ -25,8 +26,9 @@ class Server {
   public:
     struct Handlers {
         std::function<void(const std::string&)> log;  // what is refused; on the thread that calls run()
-        std::function<Reference(const std::vector<Change>&)>
-            render;  // on a thread of its own, one call at a time
+        // On a thread of their own, one call at a time.
+        std::function<Outcome(const std::vector<Change>&)> render;
+        std::function<Outcome(const std::vector<Change>&)> save;
     };
 
     /// Port 0: one that is free. Throws candela::Error (failure) where it cannot be listened on.

@@ -63,18 +63,20 @@ OLD = b"what was there before"
 
 
 class Case:
-    """A command line, and the file or folder that it makes (none: standard output is the result)."""
+    """A command line, the file or folder that it makes (none: standard output is the result), and what is there before."""
 
-    def __init__(self, name, words, result=None, replaces=False):
-        self.name, self.words, self.result, self.replaces = name, words, result, replaces
+    def __init__(self, name, words, result=None, old=None):
+        self.name, self.words, self.result, self.old = name, words, result, old
 
 
 CASES = [
     Case("render, a new picture", ["render", "scene.toml", "-o", "out/a.png"], "out/a.png"),
-    Case("render, replacing one", ["render", "scene.toml", "-o", "out/a.ppm"], "out/a.ppm", replaces=True),
+    Case("render, replacing one", ["render", "scene.toml", "-o", "out/a.ppm"], "out/a.ppm", old=OLD),
     Case("check", ["check", "scene.toml"]),
     Case("check --json", ["check", "--json", "scene.toml"]),
     Case("new", ["new", "out/new.toml"], "out/new.toml"),
+    Case("edit", ["edit", "out/scene.toml", "--change", "image.width=41"], "out/scene.toml",
+         old=SCENE.replace('include = ["more.toml"]\n', "").encode()),
     Case("generate", ["generate", "scene.toml", "--target", "cpp", "-o", "out/program"], "out/program"),
 ]
 
@@ -87,8 +89,8 @@ class Run:
         for name, text in {"scene.toml": SCENE, "more.toml": MORE, "wedge.ply": PLY}.items():
             (self.folder / name).write_text(text)
         (self.folder / "out").mkdir()
-        if case.replaces:
-            (self.folder / case.result).write_bytes(OLD)
+        if case.old is not None:
+            (self.folder / case.result).write_bytes(case.old)
         count = self.folder / "count"
         environment = dict(os.environ, LD_PRELOAD=str(options.library), CANDELA_FAIL_CALL=call,
                            CANDELA_FAIL_AT=str(number), CANDELA_FAIL_COUNT=str(count))
@@ -113,7 +115,7 @@ def complaint(case, call, run, whole):
     if run.code == 1:
         if "error: " not in message and b'"severity": "error"' not in run.out:
             return "exit code 1 without a message"
-        old = {case.result: OLD} if case.replaces else {}
+        old = {} if case.old is None else {case.result: case.old}
         # Once the file has its name, only its folder can still fail to be synced; the message says so.
         is_in_place = "its folder cannot be synced" in message and run.files == whole.files
         return None if run.files == old or is_in_place else "exit code 1, but there are files: " + ", ".join(run.files)

@@ -20,7 +20,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(is_answered == (route.resource != view::Resource::none), "what is answered is a resource");
     fuzz::require(route.status >= 200 && route.status < 500, "a status that HTTP has");
     if (!is_answered) return 0;
-    fuzz::require(request.method == "GET", "only GET is answered");
+    const bool is_save = route.resource == view::Resource::save;
+    fuzz::require(request.method == (is_save ? "POST" : "GET"), "only POST changes something");
+    fuzz::require(!is_save || !request.origin.empty(), "who changes something says where it comes from");
     fuzz::require(request.target.substr(1).starts_with(k_token) && request.target[k_token.size() + 1] == '/',
                   "only who knows the token is answered");
     fuzz::require(request.host == "127.0.0.1:8080" || request.host == "localhost:8080",

@@ -197,6 +197,63 @@ class Viewing(unittest.TestCase):
         self.assertEqual(shown, bytes(reference.pixels))
         self.assertIn("inset(", self.browser.run("return document.getElementById('reference-canvas').style.clipPath"))
 
+    def save_changes(self):
+        self.browser.one("#save-scene").click()
+        self.wait_for("!document.getElementById('save-scene').disabled")
+
+    def test_what_was_changed_in_the_page_is_saved_to_the_file_and_the_file_has_changed_only_there(self):
+        before = "# A comment.\n" + self.file.read_text()
+        self.file.write_text(before)
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.unfold_all()
+        self.browser.enter('[data-path="object.0.color"] input', "#20c040")
+        self.browser.enter('[data-path="light.0.value.intensity"] input', "0.875")
+        self.save_changes()
+        self.wait_until_shown(2)
+        after = self.file.read_text()
+        self.assertIn("color = [32, 192, 64]", after)
+        self.assertIn("intensity = 0.875", after)
+        old, new = before.splitlines(), after.splitlines()
+        self.assertLessEqual(len([line for line in new if line not in old]), 2)
+        self.assertLessEqual(len([line for line in old if line not in new]), 2)
+        # The page has nothing more to save, and shows the file.
+        self.assertEqual(self.browser.run("return document.getElementById('notice').hidden"), True)
+        self.assert_shows()
+        self.browser.one("#save-scene").click()
+        self.wait_for("document.getElementById('save-scene').textContent === 'All is as the scene says'")
+        self.assertEqual(self.file.read_text(), after)
+
+    def test_a_light_that_was_switched_off_is_off_in_the_file(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.unfold_all()
+        self.browser.one('[data-path="light.0.on"] input').click()
+        self.save_changes()
+        self.wait_until_shown(2)
+        self.assertIn("intensity = 0\n", self.file.read_text())
+        self.assert_shows()
+        self.browser.one("#save-scene").click()
+        self.wait_for("document.getElementById('save-scene').textContent === 'All is as the scene says'")
+
+    def test_what_cannot_be_saved_is_said_and_the_changes_stay(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.unfold_all()
+        self.browser.enter('[data-path="object.0.color"] input', "#20c040")
+        before = self.file.read_text()
+        broken = before.replace("[[light]]", "[[lihgt]]", 1)
+        save(self.file, broken)
+        self.problems()
+        self.save_changes()
+        self.assertIn("lihgt", self.browser.text("#notice"))
+        self.assertEqual(self.file.read_text(), broken)
+        save(self.file, before)
+        self.wait_for("document.getElementById('scene-problems').hidden")
+        self.save_changes()
+        self.wait_until_shown(2)
+        self.assertIn("color = [32, 192, 64]", self.file.read_text())
+
     def test_a_formula_that_draws_otherwise_is_seen_in_the_difference(self):
         self.view()
         self.wait_until_shown(1)

@@ -160,6 +160,44 @@ class ServerTest(unittest.TestCase):
         for own in (f"127.0.0.1:{self.view.port}", f"localhost:{self.view.port}"):
             self.assertEqual(self.view.status(path, host=own, Origin=f"http://{own}"), 302, own)
 
+    def save(self, query, **fields):
+        fields = {"Origin": f"http://127.0.0.1:{self.view.port}", **fields}
+        return self.view.get(f"/{self.view.token}/save?{query}", method="POST", **{k: v for k, v in fields.items() if v})
+
+    def test_changes_are_written_into_the_scenes_file_and_nowhere_else_in_it(self):
+        before = self.view.file.read_text()
+        answer = self.save("set=object.0.color%3D%5B7%2C8%2C9%5D")
+        self.assertIn(b" 200 ", answer.split(b"\r\n")[0])
+        self.assertEqual(self.view.file.read_text(), before.replace("[100, 90, 40]", "[7, 8, 9]"))
+        self.assertIn(b" 200 ", self.save("shading=flat").split(b"\r\n")[0])
+        self.assertIn('shading = {model = "flat"}', self.view.file.read_text())
+        # What is saved is followed like any other save.
+        end = time.monotonic() + LONGEST
+        while b'"color":[7.0,8.0,9.0]' not in self.view.page():
+            self.assertLess(time.monotonic(), end)
+
+    def test_what_would_make_the_scene_wrong_is_not_saved_and_said(self):
+        before = self.view.file.read_text()
+        for query, reason in (("set=object.0.color%3D%5B700%2C8%2C9%5D", b"outside its range"), ("set=object.3.color%3D%5B1%2C2%2C3%5D", b"there is no object 3"),
+                              ("", b"nothing is to be changed"), ("reflection=lambrt", b"lambert")):
+            answer = self.save(query)
+            self.assertIn(b" 422 ", answer.split(b"\r\n")[0], query)
+            self.assertIn(reason, answer)
+        for query in ("file=x", "set", "set=%0", "output=%2Fetc%2Fpasswd"):
+            self.assertIn(b" 400 ", self.save(query).split(b"\r\n")[0], query)
+        self.assertEqual(self.view.file.read_text(), before)
+
+    def test_only_this_page_saves(self):
+        before = self.view.file.read_text()
+        query = "set=object.0.color%3D%5B7%2C8%2C9%5D"
+        for origin in ("", "null", "http://evil.example", f"https://127.0.0.1:{self.view.port}"):
+            self.assertIn(b" 403 ", self.save(query, Origin=origin).split(b"\r\n")[0], origin)
+        own = f"http://127.0.0.1:{self.view.port}"
+        for method in ("GET", "PUT", "HEAD", "OPTIONS"):
+            self.assertEqual(self.view.status(f"/{self.view.token}/save?{query}", method=method, Origin=own), 405)
+        self.assertEqual(self.view.status(f"/{'0' * 32}/save?{query}", method="POST", Origin=own), 404)
+        self.assertEqual(self.view.file.read_text(), before)
+
     def test_the_page_is_not_for_frames_caches_and_other_sites(self):
         head = self.view.page().split(b"\r\n\r\n")[0]
         for field in (b"X-Frame-Options: DENY", b"Cache-Control: no-store", b"Referrer-Policy: no-referrer", b"X-Content-Type-Options: nosniff",

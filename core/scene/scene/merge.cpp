@@ -68,7 +68,8 @@ bool is_part_of_a_scene(const TableNode& table) {
 class Gatherer {
   public:
     /// What is quoted from a file that lies outside of `home`, see add_foreign().
-    Gatherer(fs::path home, Diagnostics& diagnostics) : home_(std::move(home)), diagnostics_(diagnostics) {}
+    Gatherer(fs::path home, const std::map<fs::path, std::string>& unsaved, Diagnostics& diagnostics)
+        : home_(std::move(home)), unsaved_(unsaved), diagnostics_(diagnostics) {}
 
     void add_file(const fs::path& file, const SourcePlace* included_at) {
         const std::string shown = file.string();
@@ -90,7 +91,7 @@ class Gatherer {
                                file_suggestion(file));
         } else if (included_at != nullptr && !is_within(canonical, home_)) {
             add_foreign(file, shown, *included_at);
-        } else if (auto table = read_document(file, shown, left_, diagnostics_)) {
+        } else if (auto table = read(canonical, file, shown)) {
             add(std::move(*table), file.parent_path());
         }
         --depth_;
@@ -116,6 +117,12 @@ class Gatherer {
     }
 
   private:
+    std::optional<TableNode> read(const fs::path& canonical, const fs::path& file, const std::string& shown) {
+        const auto unsaved = unsaved_.find(canonical);
+        return unsaved != unsaved_.end() ? read_document(unsaved->second, shown, left_, diagnostics_)
+                                         : read_document(file, shown, left_, diagnostics_);
+    }
+
     /// A scene from elsewhere may include any file that its reader can read, and messages may be shown to
     /// others. So nothing is said of what is in a file outside the scene's folder until it has turned out to
     /// be part of a scene.
@@ -203,6 +210,7 @@ class Gatherer {
     }
 
     fs::path home_;
+    const std::map<fs::path, std::string>& unsaved_;
     Diagnostics& diagnostics_;
     TableNode root_;
     std::unordered_map<std::string, std::size_t> index_;  // of the root's keys
@@ -213,20 +221,18 @@ class Gatherer {
     bool too_many_files_ = false;
 };
 
-/// A setting's path, split at its dots; "quoted parts" may contain dots.
-std::vector<std::string> parts_of(std::string_view path) {
-    std::vector<std::string> parts(1);
-    bool quoted = false;
-    for (const char c : path) {
-        if (c == '"') {
-            quoted = !quoted;
-        } else if (c == '.' && !quoted) {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
-    }
-    return parts;
+/// The name that a light or an object is given, or null.
+const std::string* name_of(const Node& node) {
+    const TableNode* const table = node.table();
+    const TableNode::Entry* const name = table != nullptr ? table->find("name") : nullptr;
+    return name != nullptr ? std::get_if<std::string>(&name->node.value) : nullptr;
+}
+
+std::optional<std::size_t> number_from(const std::string& text) {
+    std::size_t number = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
 }
 
 class Setter {
@@ -282,23 +288,15 @@ class Setter {
             fail(fmt::format("the scene has no {}", kind));
             return nullptr;
         }
+        if (const auto index = index_of(*all, which)) return (*all)[*index].table();
+        if (const auto number = number_from(which)) {
+            fail(fmt::format("there is no {} {}; they are numbered 0 to {}", kind, *number, all->size() - 1));
+            return nullptr;
+        }
         std::vector<std::string> names;
-        for (Node& node : *all) {
-            TableNode* const table = node.table();
-            const TableNode::Entry* const name = table != nullptr ? table->find("name") : nullptr;
-            const auto* const text = name != nullptr ? std::get_if<std::string>(&name->node.value) : nullptr;
-            if (text == nullptr) continue;
-            if (*text == which) return table;
-            names.push_back(*text);
-        }
-        std::size_t number = 0;
-        const auto [end, problem] = std::from_chars(which.data(), which.data() + which.size(), number);
-        if (problem == std::errc() && end == which.data() + which.size()) {
-            if (number < all->size()) return (*all)[number].table();
-            fail(fmt::format("there is no {} {}; they are numbered 0 to {}", kind, number, all->size() - 1));
-        } else {
-            fail(fmt::format("no {} is called '{}'", kind, which), suggestion(which, names));
-        }
+        for (const Node& node : *all)
+            if (const std::string* const name = name_of(node)) names.push_back(*name);
+        fail(fmt::format("no {} is called '{}'", kind, which), suggestion(which, names));
         return nullptr;
     }
 
@@ -309,6 +307,30 @@ class Setter {
 };
 
 }  // namespace
+
+std::vector<std::string> parts_of(std::string_view path) {
+    std::vector<std::string> parts(1);
+    bool quoted = false;
+    for (const char c : path) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == '.' && !quoted) {
+            parts.emplace_back();
+        } else {
+            parts.back() += c;
+        }
+    }
+    return parts;
+}
+
+std::optional<std::size_t> index_of(const ArrayNode& all, const std::string& which) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string* const name = name_of(all[i]);
+        if (name != nullptr && *name == which) return i;
+    }
+    const auto number = number_from(which);
+    return number && *number < all.size() ? number : std::nullopt;
+}
 
 namespace {
 
@@ -332,7 +354,7 @@ fs::path home_of(const SceneRequest& request) {
 }  // namespace
 
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics) {
-    Gatherer gatherer(home_of(request), diagnostics);
+    Gatherer gatherer(home_of(request), request.unsaved, diagnostics);
     MergedDocument merged;
     if (request.files.empty()) {
         merged.place.file = "default scene";

@@ -30,6 +30,8 @@ struct SceneRequest {
     /// The contents of those among `files` that can only be read once, such as pipes, or that are no files
     /// but text. Paths in them are relative to the working directory.
     std::map<std::filesystem::path, std::string> streams{};
+    /// What stands for the contents of a file, by its canonical path: edited, and not saved yet.
+    std::map<std::filesystem::path, std::string> unsaved{};
     std::vector<Setting> settings;
     std::optional<ModelSetting> shading;                   // of every object
     std::optional<ModelSetting> reflection;                // likewise

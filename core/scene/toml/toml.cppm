@@ -10,6 +10,7 @@ module;
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -94,5 +95,33 @@ CANDELA_API std::string toml_text(std::string_view text);
 CANDELA_API std::string toml_text(double x);
 CANDELA_API std::string toml_text(float x);
 CANDELA_API std::string toml_key(std::string_view key);
+/// Any value, on one line.
+CANDELA_API std::string toml_text(const Node& node);
+
+/// A part of a text, and what is to stand in its place.
+struct TextEdit {
+    std::size_t begin = 0, end = 0;  // bytes
+    std::string text;
+};
+
+// Edits of the text that a document was parsed from.
+
+/// Whether a table has a header or braces, instead of being made by dotted keys in the lines of another.
+CANDELA_API bool has_lines_of_its_own(std::string_view text, const Node& table);
+
+CANDELA_API TextEdit replacement(std::string_view text, const Node& value, const std::string& by);
+
+/// Keys, which may be dotted, and values as TOML.
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+/// Adds entries after the last one of a table, or of the document, which has no header.
+CANDELA_API TextEdit insertion(std::string_view text, const TableNode& table, const SourcePlace* header,
+                               const Entries& entries);
+
+/// Adds a table at the end.
+CANDELA_API TextEdit new_table(std::string_view text, const std::string& name, const Entries& entries);
+
+/// Applies edits, those at one place in their order. Throws Error (bad_request) if two overlap.
+CANDELA_API std::string edited(std::string_view text, const std::vector<TextEdit>& edits);
 
 }  // namespace candela

@@ -1,7 +1,10 @@
 module;
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 module candela.scene:merge;
@@ -18,6 +21,12 @@ struct MergedDocument {
     TableNode root;                            // as if everything were in one file, `include` followed
     std::vector<std::filesystem::path> files;  // absolute
 };
+
+/// A setting's path, split at its dots; "quoted parts" may contain dots.
+std::vector<std::string> parts_of(std::string_view path);
+
+/// The index of the light or object with that name, or with that index from 0; nothing if there is none.
+std::optional<std::size_t> index_of(const ArrayNode& all, const std::string& which);
 
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics);
 

@@ -1,7 +1,7 @@
 import { element } from "./elements.js";
 import { fragmentOf } from "./link.js";
 import { announce, showError, showNotice } from "./messages.js";
-import { commandLineOf } from "./options.js";
+import { commandLineOf, queryOf } from "./options.js";
 
 async function copyToClipboard(text) {
     try {
@@ -68,5 +68,32 @@ export function connectActions(settings, render) {
         } catch (error) {
             showError(error);
         }
+    });
+}
+
+/** Where `candela view` serves the page, what has been changed in it can be written into the scene's files. */
+export function connectSaving(settings) {
+    const button = document.getElementById("save-scene");
+    button.hidden = false;
+    button.addEventListener("click", async () => {
+        const query = queryOf(settings);
+        if (query === "") {
+            showOn(button, "All is as the scene says");
+            return;
+        }
+        button.disabled = true;
+        settings.expectSaved(new Map(settings.changes));
+        let problem = "";
+        try {
+            const response = await fetch(`save?${query}`, { method: "POST" });
+            if (response.ok) announce("The changes are saved.");
+            else problem = (await response.text()).trim();
+        } catch (error) {
+            problem = error.message;
+        }
+        button.disabled = false;
+        if (problem !== "") settings.expectSaved(new Map());
+        showNotice(problem === "" ? "" : `The changes are not saved. ${problem}`);
+        showOn(button, problem === "" ? "Saved" : "Not saved");
     });
 }

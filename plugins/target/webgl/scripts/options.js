@@ -26,6 +26,9 @@ export function optionsOf(settings) {
     return options.sort(([, a], [, b]) => Number(a.endsWith(".intensity=0")) - Number(b.endsWith(".intensity=0")));
 }
 
+/** The same as a query of an address. */
+export const queryOf = (settings) => optionsOf(settings).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
+
 const quoted = (text) => (/^[\w.,=:+/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** The same as words of a shell. */

@@ -1,4 +1,4 @@
-import { connectActions, pngUrl } from "./actions.js";
+import { connectActions, connectSaving, pngUrl } from "./actions.js";
 import { appearanceOf } from "./appearance.js";
 import { Controls } from "./controls.js";
 import { element } from "./elements.js";
@@ -77,8 +77,10 @@ export class Page {
             this.openViewport();
         });
         document.body.classList.add("open");
-        if (followScene((scene) => this.show(scene), showError))
+        if (followScene((scene) => this.show(scene), showError)) {
+            connectSaving(settings);
             this.reference = new Reference(settings, this.canvas, (width, height) => this.pixels(width, height));
+        }
     }
 
     setProportion() {

@@ -1,4 +1,4 @@
-import { optionsOf } from "./options.js";
+import { queryOf } from "./options.js";
 
 const DELAY_MS = 120;  // a hand that moves a slider does not wait for pictures
 
@@ -52,10 +52,9 @@ export class Reference {
     }
 
     async update(request) {
-        const query = optionsOf(this.settings).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
         let picture = null, problem = "";
         try {
-            const response = await fetch(`reference.png?${query}`);
+            const response = await fetch(`reference.png?${queryOf(this.settings)}`);
             if (response.ok) picture = await createImageBitmap(await response.blob(), { colorSpaceConversion: "none" });
             else problem = await response.text();
         } catch (error) {

@@ -17,12 +17,19 @@ export class Settings {
         this.changes = new Map();
         this.cache = new Map();
         this.listeners = [];
+        this.saved = new Map();
+    }
+
+    /** These changes are in the scene that comes next. */
+    expectSaved(changes) {
+        this.saved = changes;
     }
 
     /** Settings for another state of the scene: with the changes of these that it has a place for, and whose values it left alone. */
     continuedIn(scene) {
         const result = new Settings(scene);
         for (const [path, value] of this.changes) {
+            if (this.saved.has(path) && areEqual(this.saved.get(path), value)) continue;
             const before = this.find(path), now = result.find(path);
             const isSame = now !== null && areEqual(canonicalValue(now.parameter, before.initial), now.initial);
             if (isSame && validateValue(now.parameter, value) === null) result.set(path, value);
@@ -36,7 +43,7 @@ export class Settings {
     /** As continuedIn(), in place. Listeners are not told. */
     replaceScene(scene) {
         const { changes } = this.continuedIn(scene);
-        Object.assign(this, { scene, changes, cache: new Map() });
+        Object.assign(this, { scene, changes, cache: new Map(), saved: new Map() });
     }
 
     observerParameters() {

@@ -1,0 +1,193 @@
+// Changes of a scene, written into its files.
+module;
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+module candela.scene;
+
+import :merge;
+import candela.diagnostics;
+import candela.files;
+import candela.registry;
+import candela.toml;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Turns changes of a merged document into edits of the files that it was merged from.
+class Editor {
+  public:
+    Editor(const MergedDocument& document, Diagnostics& diagnostics)
+        : document_(document), diagnostics_(diagnostics) {}
+
+    /// The scene with this change is valid: its path leads somewhere.
+    void change(const Setting& setting) {
+        std::vector<std::string> parts = parts_of(setting.path);
+        const auto value = parse_value(setting.value, {setting.origin, 0, 0, 0}, diagnostics_);
+        if (!value) return;
+        Place place{.table = &document_.root};
+        std::size_t next = 0;
+        if (parts[0] == "light" || parts[0] == "object") {
+            const ArrayNode& all = *document_.root.find(parts[0])->node.array();
+            const Node& element = all[*index_of(all, parts[1])];
+            place = {.holder = &element, .table = element.table()};
+            next = 2;
+        }
+        for (; next + 1 < parts.size() && place.table != nullptr; ++next) step(place, parts[next]);
+        for (; next + 1 < parts.size(); ++next) place.key += toml_key(parts[next]) + ".";
+        write(place, parts.back(), toml_text(*value));
+    }
+
+    std::map<fs::path, std::string> texts() {
+        std::map<fs::path, std::string> result;
+        for (const auto& [where, entries] : additions_) {
+            const auto& [file, holder] = where;
+            edits_[file].push_back(insertion(text_of(file),
+                                             holder != nullptr ? *holder->table() : document_.root,
+                                             holder != nullptr ? &holder->place : nullptr, entries));
+        }
+        for (const auto& [name, entries] : new_tables_) {
+            const std::string& file = document_.place.file;
+            edits_[file].push_back(new_table(text_of(file), name, entries));
+        }
+        for (const auto& [file, edits] : edits_) {
+            std::string text = edited(text_of(file), edits);
+            if (text == text_of(file)) continue;
+            std::error_code problem;
+            const fs::path canonical = fs::weakly_canonical(file, problem);
+            result[problem ? fs::path(file) : canonical] = std::move(text);
+        }
+        return result;
+    }
+
+  private:
+    /// Where a value is, or would be.
+    struct Place {
+        const Node* holder = nullptr;      // the table in whose lines or braces it stands; null: the document
+        const TableNode* table = nullptr;  // null if it is not there
+        std::string key{};                 // from the holder on, with a dot at its end
+    };
+
+    const std::string& text_of(const std::string& file) {
+        const auto [found, is_new] = texts_.try_emplace(file);
+        if (is_new) {
+            auto text = read_text_file(file);
+            if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file));
+            found->second = *std::move(text);
+        }
+        return found->second;
+    }
+
+    void step(Place& place, const std::string& part) {
+        const TableNode::Entry* const entry = place.table->find(part);
+        if (entry == nullptr) {
+            place.table = nullptr;
+            place.key += toml_key(part) + ".";
+            return;
+        }
+        place.table = entry->node.table();
+        if (has_lines_of_its_own(text_of(entry->node.place.file), entry->node)) {
+            place.holder = &entry->node;
+            place.key.clear();
+        } else {
+            place.key += toml_key(part) + ".";
+        }
+    }
+
+    void write(const Place& place, const std::string& key, const std::string& value) {
+        const TableNode::Entry* const entry = place.table != nullptr ? place.table->find(key) : nullptr;
+        if (entry != nullptr) {
+            const std::string& file = entry->node.place.file;
+            edits_[file].push_back(replacement(text_of(file), entry->node, value));
+            return;
+        }
+        const std::string path = place.key + toml_key(key);
+        if (place.holder == nullptr && place.table == nullptr) {
+            const std::size_t dot = path.find('.');
+            new_tables_[path.substr(0, dot)].emplace_back(path.substr(dot + 1), value);
+            return;
+        }
+        const std::string& file =
+            place.holder != nullptr ? place.holder->place.file : place.table->entries.front().node.place.file;
+        additions_[{file, place.holder}].emplace_back(path, value);
+    }
+
+    const MergedDocument& document_;
+    Diagnostics& diagnostics_;
+    std::map<std::string, std::string> texts_;            // of files, by the names that diagnostics show
+    std::map<std::string, std::vector<TextEdit>> edits_;  // likewise
+    std::map<std::pair<std::string, const Node*>, Entries> additions_;  // to a file's table, or to the file
+    std::map<std::string, Entries> new_tables_;
+};
+
+/// The last one for each path. Names and indices of the same light or object count as the same.
+std::vector<Setting> last_ones(const std::vector<Setting>& changes, const MergedDocument& document) {
+    std::map<std::vector<std::string>, std::size_t> last;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        std::vector<std::string> parts = parts_of(changes[i].path);
+        const TableNode::Entry* const entry = document.root.find(parts[0]);
+        if ((parts[0] == "light" || parts[0] == "object") && entry != nullptr)
+            parts[1] = std::to_string(*index_of(*entry->node.array(), parts[1]));
+        last[std::move(parts)] = i;
+    }
+    std::vector<Setting> result;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        for (const auto& [path, index] : last)
+            if (index == i) result.push_back(changes[i]);
+    }
+    return result;
+}
+
+std::optional<std::string> text_of_scene(const SceneRequest& request, Registry& registry,
+                                         Diagnostics& diagnostics) {
+    const auto scene = read_scene(request, registry, diagnostics);
+    if (!scene) return std::nullopt;
+    return scene_text(*scene);
+}
+
+}  // namespace
+
+std::map<fs::path, std::string> edited_files(const SceneRequest& request, const std::vector<Setting>& changes,
+                                             Registry& registry, Diagnostics& diagnostics) {
+    SceneRequest wanted = request;
+    wanted.ask = nullptr;
+    wanted.settings.insert(wanted.settings.end(), changes.begin(), changes.end());
+    const auto goal = text_of_scene(wanted, registry, diagnostics);
+    if (!goal) return {};
+
+    SceneRequest plain = request;
+    plain.settings.clear();
+    Diagnostics known;
+    const auto document = merge_documents(plain, known);
+    if (!document) throw Error(ErrorCategory::failure, "a file of the scene is being changed");
+    Editor editor(*document, diagnostics);
+    for (const Setting& change : last_ones(changes, *document)) editor.change(change);
+    std::map<fs::path, std::string> texts = editor.texts();
+
+    SceneRequest saved = request;
+    saved.ask = nullptr;
+    saved.unsaved = texts;
+    Diagnostics found;
+    if (text_of_scene(saved, registry, found) != goal) {
+        throw Error(
+            ErrorCategory::bad_request,
+            "with these changes in its files the scene would not be what it is with them beside its "
+            "files; something that prevails over them is said elsewhere, such as an object's own model "
+            "or an option");
+    }
+    return texts;
+}
+
+}  // namespace candela
