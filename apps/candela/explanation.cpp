@@ -41,6 +41,14 @@ std::string shading_point_text(const PointTrace& point) {
                        kernel_vector_text(point.dpdu), kernel_vector_text(point.dpdv));
 }
 
+std::string triangle_text(const PointTrace& point) {
+    const auto& p = point.corner_position;
+    const auto& n = point.corner_normal;
+    return fmt::format("Triangle({}, {}, {}, {}, {}, {})", kernel_vector_text(p[0]), kernel_vector_text(p[1]),
+                       kernel_vector_text(p[2]), kernel_vector_text(n[0]), kernel_vector_text(n[1]),
+                       kernel_vector_text(n[2]));
+}
+
 /// The values that an instance has been made with, and the tables that it has made of them.
 std::vector<ParamValue> values_of(const PluginDescriptor& plugin, const candela::ParamSet& parameters,
                                   candela::ColorEncoding encoding, const candela::Instance& instance) {
@@ -78,10 +86,12 @@ void Explanation::add_calls(const FragmentProbe& fragment, candela::Registry& re
     const candela::SurfaceModels& models = compiled.objects[fragment.object].surface;
     for (const PointTrace& point : fragment.points) {
         points_.push_back(
-            {&point, add({.plugin = shading,
-                          .values = values_of(*shading, object.shading.parameters, encoding, *models.shading),
-                          .function = "normal",
-                          .arguments = shading_point_text(point)})});
+            {&point,
+             add({.plugin = shading,
+                  .values = values_of(*shading, object.shading.parameters, encoding, *models.shading),
+                  .function = "normal",
+                  .arguments = shading_point_text(point) +
+                               (models.shading->needs().triangle ? ", " + triangle_text(point) : "")})});
         const std::string surface = surface_text(point, compiled.objects[fragment.object].surface.color);
         for (const LightTrace& light : point.lights) {
             const candela::Model& model = scene.lights[light.light].model;

@@ -154,8 +154,8 @@ class Writer {
         }
     }
     static bool is_shown(const std::string& argument) {
-        constexpr std::array<std::string_view, 4> k_shown{"Surface ", "Receiver ", "ShadingPoint ",
-                                                          "vec3 to_light"};
+        constexpr std::array<std::string_view, 5> k_shown{"Surface ", "Receiver ", "ShadingPoint ",
+                                                          "Triangle ", "vec3 to_light"};
         return std::ranges::any_of(k_shown,
                                    [&](std::string_view begin) { return argument.starts_with(begin); });
     }

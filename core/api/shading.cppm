@@ -13,4 +13,5 @@ using candela::ShadingModel;
 using candela::ShadingNeeds;
 using candela::ShadingPointBatch;
 using candela::ShadingRate;
+using candela::TriangleBatch;
 }  // namespace candela

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstring>
@@ -165,6 +166,13 @@ BatchSubject shading_subject(const Values& values) {
             k_inputs,
             {{"normals", {"normal"}, false, true, [=](std::size_t count, const Arrays& in, Arrays& out) {
                   const candela::ShadingNeeds needs = model->needs();
+                  const bool has_triangle =
+                      needs.triangle && model->shading_rate() != candela::ShadingRate::vertex;
+                  candela::TriangleBatch triangle;
+                  for (std::size_t k = 0; k < 3; ++k) {
+                      triangle.position[k] = in.vec3(k_corner_positions + 3 * k);
+                      triangle.normal[k] = in.vec3(k_corner_normals + 3 * k);
+                  }
                   model->normals({.count = count,
                                   .face_normal = in.vec3(k_normal),
                                   .vertex_normal = in.vec3(k_vertex_normal),
@@ -172,7 +180,8 @@ BatchSubject shading_subject(const Values& values) {
                                   .uv = needs.uv ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]}
                                                  : candela::ConstVec2Span{},
                                   .dpdu = needs.derivatives ? in.vec3(k_dpdu) : candela::ConstVec3Span{},
-                                  .dpdv = needs.derivatives ? in.vec3(k_dpdv) : candela::ConstVec3Span{}},
+                                  .dpdv = needs.derivatives ? in.vec3(k_dpdv) : candela::ConstVec3Span{},
+                                  .triangle = has_triangle ? &triangle : nullptr},
                                  out.vec3(0));
               }}}};
 }
@@ -190,12 +199,31 @@ BatchSubject batch_subject(const Values& values) {
     }
 }
 
+void put_triangle(Arrays& in, std::size_t i, const std::array<Vec3, 3>& normals) {
+    const Vec3 n = in.at(k_normal, i), t = in.at(k_tangent, i), weight = in.at(k_barycentric, i);
+    const Vec3 aside = cross(n, t);
+    const std::array<Vec3, 3> corner{1.5f * t, -0.5f * t + 0.75f * aside, -0.75f * t - 0.5f * aside};
+    const Vec3 place = weight.x * corner[0] + weight.y * corner[1] + weight.z * corner[2];
+    for (std::size_t k = 0; k < 3; ++k) {
+        in.vec3(k_corner_positions + 3 * k).set(i, in.at(k_position, i) + corner[k] - place);
+        in.vec3(k_corner_normals + 3 * k).set(i, normals[k]);
+    }
+}
+
 Arrays inputs_for(std::size_t count, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> unit(0, 1);
     const auto direction = [&] {
         return candela::normalized({normal(random), normal(random), normal(random)});
+    };
+    // Of their own, so that all other inputs are what they are without triangles.
+    std::mt19937 random_corner(seed + 1000);
+    std::normal_distribution<float> normal_corner;
+    const auto bent = [&](Vec3 n) {
+        const float x = normal_corner(random_corner), y = normal_corner(random_corner),
+                    z = normal_corner(random_corner);
+        return candela::normalized(n + 0.3f * candela::normalized({x, y, z}));
     };
     Arrays in(k_inputs, count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -219,6 +247,8 @@ Arrays inputs_for(std::size_t count, unsigned seed) {
         in.vec3(k_dpdv).set(i, 0.5f * cross(n, du) + 0.1f * du);
         in[k_uv][i] = unit(random);
         in[k_uv + 1][i] = unit(random);
+        const Vec3 n0 = bent(n), n1 = bent(n), n2 = bent(n);
+        put_triangle(in, i, {n0, n1, n2});
     }
     return in;
 }
@@ -235,6 +265,7 @@ Arrays aligned_inputs() {
         in.vec3(k_observer).set(i, views[i % k_cases]);
         in.vec3(k_light).set(i, lights[i % k_cases]);
         in.vec3(k_vertex_normal).set(i, (i % 2 == 0 ? 1.0f : 0.5f) * n);
+        put_triangle(in, i, {n, n, n});
         if (i < in.count() / 2) continue;
         in.vec3(k_normal).set(i, {0, 1, 0});
         in.vec3(k_tangent).set(i, {1, 0, 0});
@@ -246,6 +277,8 @@ Arrays aligned_inputs() {
         in.vec3(k_light).set(i, axes[i / 5 % 5]);
         in.vec3(k_dpdu).set(i, {2, 0, 0});
         in.vec3(k_dpdv).set(i, {0, 0, -2});
+        const Vec3 up{0, 1, 0};
+        put_triangle(in, i, {up, up, up});
     }
     return in;
 }
@@ -259,7 +292,9 @@ Vec3 turned(Vec3 p) {
 Arrays turned(const Arrays& in) {
     Arrays result = in;
     for (const std::size_t vector :
-         {k_normal, k_observer, k_tangent, k_light, k_vertex_normal, k_dpdu, k_dpdv}) {
+         {k_normal, k_observer, k_tangent, k_light, k_vertex_normal, k_dpdu, k_dpdv, k_corner_positions,
+          k_corner_positions + 3, k_corner_positions + 6, k_corner_normals, k_corner_normals + 3,
+          k_corner_normals + 6}) {
         for (std::size_t i = 0; i < in.count(); ++i) result.vec3(vector).set(i, turned(in.at(vector, i)));
     }
     return result;

@@ -1,6 +1,7 @@
 // The plugins that work on batches, seen alike: arrays of floats in, arrays of floats out.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -80,18 +81,22 @@ inline constexpr std::size_t k_barycentric = 21;
 inline constexpr std::size_t k_vertex_normal = 24;
 inline constexpr std::size_t k_dpdu = 27;
 inline constexpr std::size_t k_dpdv = 30;
-inline constexpr std::size_t k_uv = 33;  // two
-inline constexpr std::size_t k_inputs = 35;
+inline constexpr std::size_t k_uv = 33;                // two
+inline constexpr std::size_t k_corner_positions = 35;  // of the triangle: three vectors
+inline constexpr std::size_t k_corner_normals = 44;    // likewise
+inline constexpr std::size_t k_inputs = 53;
 }  // namespace inputs
 
 BatchSubject batch_subject(const Values& values);
 
 /// Inputs as a renderer gives them, the same for one `seed`: unit vectors, positions, colours.
 Arrays inputs_for(std::size_t count, unsigned seed = 1);
+/// Gives point `i` a triangle around its position, in the plane of its face normal, of about one metre.
+void put_triangle(Arrays& in, std::size_t i, const std::array<candela::Vec3, 3>& normals);
 /// Inputs whose vectors coincide, oppose each other or are orthogonal: V = N, L = V, a vertex normal that is
 /// the face normal …
 Arrays aligned_inputs();
-/// The same inputs in a world that is turned: all vectors are, positions are not.
+/// The same inputs in a world that is turned: all vectors and triangles are, positions are not.
 Arrays turned(const Arrays& in);
 candela::Vec3 turned(candela::Vec3 v);
 

@@ -110,13 +110,21 @@ std::string body_of(PluginKind kind) {
             }
             return function("illuminate", receiver, "const auto r = SAMPLED(illuminate, s);",
                             put(0, "r.to_light") + put(3, "r.diffuse") + put(6, "r.specular"));
-        case PluginKind::shading:
-            return function("normals",
-                            fmt::format("ShadingPoint s{{{}, {}, {}, vec2(in[{}][i], in[{}][i]), {}, {}}};\n",
-                                        three("in", in::k_normal), three("in", in::k_vertex_normal),
-                                        three("in", in::k_barycentric), in::k_uv, in::k_uv + 1,
-                                        three("in", in::k_dpdu), three("in", in::k_dpdv)),
-                            "const auto r = CALL(normal, s);", put(0, "r"));
+        case PluginKind::shading: {
+            std::string point = fmt::format(
+                "ShadingPoint s{{{}, {}, {}, vec2(in[{}][i], in[{}][i]), {}, {}}};\n",
+                three("in", in::k_normal), three("in", in::k_vertex_normal), three("in", in::k_barycentric),
+                in::k_uv, in::k_uv + 1, three("in", in::k_dpdu), three("in", in::k_dpdv));
+            if (!make<candela::ShadingModel>(default_values())->needs().triangle)
+                return function("normals", point, "const auto r = CALL(normal, s);", put(0, "r"));
+            std::string corners;
+            for (const std::size_t first : {in::k_corner_positions, in::k_corner_normals}) {
+                for (std::size_t k = 0; k < 3; ++k)
+                    corners += (corners.empty() ? "" : ", ") + three("in", first + 3 * k);
+            }
+            point += fmt::format("Triangle t{{{}}};\n", corners);
+            return function("normals", point, "const auto r = CALL(normal, s, t);", put(0, "r"));
+        }
         default:
             return function("position", "", "const auto r = CALL(position, in[0][i], in[1][i]);",
                             put(0, "r"));

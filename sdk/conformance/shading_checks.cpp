@@ -108,6 +108,8 @@ TEST_CASE("plane: on a plane, every normal is the plane's", "[shading]") {
             in.vec3(24).set(i, (i % 2 == 0 ? 0.5f : 1.0f) * up);
             in.vec3(27).set(i, {0, 0, 2});
             in.vec3(30).set(i, {3, 0, 1});
+            in.vec3(inputs::k_tangent).set(i, {0, 0, 1});
+            put_triangle(in, i, {up, up, up});
         }
         const Arrays out = outputs_of(batch_subject(values).calls.front(), in);
         for (std::size_t i = 0; i < 100; ++i) {
@@ -173,12 +175,18 @@ TEST_CASE("degenerate: triangles without area, and vertices without triangles, l
             if (i < 16) in.vec3(24).set(i, {0, 0, 0});
             in.vec3(27).set(i, i < 8 ? Vec3{} : Vec3{1, 1, 1});
             in.vec3(30).set(i, {1, 1, 1});
+            // Vertices that coincide, two or all, and normals that cancel each other.
+            const Vec3 n = in.at(inputs::k_normal, i);
+            const std::size_t corner = inputs::k_corner_positions;
+            put_triangle(in, i, {n, i % 4 == 0 ? -n : n, n});
+            in.vec3(corner + 3).set(i, in.at(corner, i));
+            if (i % 2 == 0) in.vec3(corner + 6).set(i, in.at(corner, i));
         }
         const Arrays out = outputs_of(batch_subject(values).calls.front(), in);
         for (std::size_t i = 0; i < 32; ++i) {
             const Vec3 n = out.at(0, i);
             if (!std::isfinite(n.x + n.y + n.z))
-                FAIL("where interpolated normals or derivatives vanish, normals() gives ["
+                FAIL("where interpolated normals, derivatives or edges vanish, normals() gives ["
                      << n.x << ", " << n.y << ", " << n.z << "], with " << values.text);
         }
     }

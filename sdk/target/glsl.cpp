@@ -14,6 +14,8 @@ CANDELA_EMBED(candela_target_trigonometry, CANDELA_TARGET_TEMPLATES "/trigonomet
 CANDELA_EMBED(candela_target_lit, CANDELA_TARGET_TEMPLATES "/lit.glsl");
 CANDELA_EMBED(candela_target_vertex, CANDELA_TARGET_TEMPLATES "/vertex.glsl");
 CANDELA_EMBED(candela_target_fragment, CANDELA_TARGET_TEMPLATES "/fragment.glsl");
+CANDELA_EMBED(candela_target_triangle_vertex, CANDELA_TARGET_TEMPLATES "/triangle_vertex.glsl");
+CANDELA_EMBED(candela_target_triangle_fragment, CANDELA_TARGET_TEMPLATES "/triangle_fragment.glsl");
 CANDELA_EMBED(candela_target_screen, CANDELA_TARGET_TEMPLATES "/screen.glsl");
 CANDELA_EMBED(candela_target_accumulate, CANDELA_TARGET_TEMPLATES "/accumulate.glsl");
 CANDELA_EMBED(candela_target_encode, CANDELA_TARGET_TEMPLATES "/encode.glsl");
@@ -178,10 +180,22 @@ std::string reflection_text(const ExportedReflection& model) {
 std::string shading_text(const ExportedShading& model) {
     constexpr const char* k_rates[] = {"#define INTENSITY_RATE flat\n", "#define INTENSITY_RATE\n",
                                        "#define LIT_AT_FRAGMENT\n"};
-    return fmt::format("{}\n{}{}{}vec3 shading_normal(ShadingPoint p) {{ return {}; }}\n",
+    const char* const triangle =
+        model.needs.triangle ? "#define NEEDS_TRIANGLE\nTriangle seen_triangle;\n" : "";
+    return fmt::format("{}\n{}{}{}{}vec3 shading_normal(ShadingPoint p) {{ return {}; }}\n",
                        model.plugin->kernel.text, uniform_of(model, "shading"),
                        preparation_of(model, "shading", "SHADING"), k_rates[static_cast<int>(model.rate)],
-                       call(model, "normal", constants_name(model, "shading"), "p"));
+                       triangle,
+                       call(model, "normal", constants_name(model, "shading"),
+                            model.needs.triangle ? "p, seen_triangle" : "p"));
+}
+
+/// The shaders of one stage; programs in whose scenes no model sees its triangle have no word of it.
+std::string stage_text(bool needs_triangle, const char* text, const char* declarations, const char* place,
+                       const char* statement) {
+    if (!needs_triangle) return filled(text, {{place, ""}});
+    return declarations +
+           filled(text, {{place, fmt::format("#ifdef NEEDS_TRIANGLE\n    {}\n#endif\n", statement)}});
 }
 
 }  // namespace
@@ -193,8 +207,11 @@ GlslParts glsl_of(const ExportedScene& scene) {
     parts.lights = lights_text(scene);
     for (const auto& model : scene.reflections) parts.reflections.push_back(reflection_text(model));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
-    parts.vertex = lit + candela_target_vertex;
-    parts.fragment = lit + candela_target_fragment;
+    const bool needs_triangle = sees_triangles(scene);
+    parts.vertex = lit + stage_text(needs_triangle, candela_target_vertex, candela_target_triangle_vertex,
+                                    "PASS_TRIANGLE", "pass_triangle();");
+    parts.fragment = lit + stage_text(needs_triangle, candela_target_fragment,
+                                      candela_target_triangle_fragment, "READ_TRIANGLE", "read_triangle();");
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;
     parts.encode = candela_target_encode;
@@ -209,6 +226,10 @@ GlslParts glsl_of(const ExportedScene& scene) {
     parts.prelude += needed_parts(glsl_tables(), users);
     parts.prelude += needed_parts(kernel_prelude(), users) + "\n";
     return parts;
+}
+
+bool sees_triangles(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.shadings, [](const auto& model) { return model.needs.triangle; });
 }
 
 std::vector<LightBlock> light_blocks(const ExportedScene& scene) {

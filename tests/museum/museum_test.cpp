@@ -124,6 +124,8 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"reflection-default-out-of-range", "parameters", "failed",
          "the default of 'kd': [1.5, 1.5, 1.5] is outside its range"},
         {"shading-long-normals", "unit", "failed", "a vector of length 2"},
+        {"shading-nan-in-slivers", "degenerate", "failed",
+         "where interpolated normals, derivatives or edges vanish"},
         {"shading-last-face-wins", "order", "failed", "numbered otherwise"},
         {"shape-inside-out", "closed", "failed", "it is inside out"},
         {"shape-hole-in-it", "closed", "failed", "3 edges that do not lie between two triangles"},

@@ -108,3 +108,32 @@ TEST_CASE("batches of faces and of vertices are filled up likewise") {
     require_filled(points, 3);
     CHECK(points.facing[15] == -1);
 }
+
+TEST_CASE(
+    "each point of a batch has the vertices of its own triangle, and their normals, where they are needed") {
+    const SquareSeen seen;
+    candela::SurfacePoints points;
+    const auto require_corners = [&](std::size_t i, std::uint32_t triangle) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const candela::MeshVertex& vertex = seen.mesh.vertices[seen.mesh.indices[3 * triangle + k]];
+            REQUIRE(points.corner_position[k].span()[i] == vertex.position);
+            REQUIRE(points.corner_normal[k].span()[i] == vertex.normal);
+        }
+    };
+    candela::gather_fragments(seen.projected, runs_of({3}), {.uv = true}, points);
+    CHECK(points.corner_position[0].empty());
+
+    const std::vector<std::uint32_t> lengths = {3, 40, 7, 1};
+    candela::gather_fragments(seen.projected, runs_of(lengths), {.triangle = true}, points);
+    std::size_t first = 0;
+    for (std::size_t run = 0; run < lengths.size(); ++run) {
+        for (std::size_t i = 0; i < lengths[run]; ++i) require_corners(first + i, run % 2);
+        first += lengths[run];
+    }
+    for (std::size_t i = points.count; i < points.filled; ++i) require_corners(i, 1);
+
+    const std::array<std::uint32_t, 2> faces = {1, 0};
+    candela::gather_faces(seen.projected, faces, {.triangle = true}, points);
+    require_corners(0, 1);
+    for (std::size_t i = 1; i < points.filled; ++i) require_corners(i, 0);
+}

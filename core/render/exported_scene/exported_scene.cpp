@@ -364,6 +364,13 @@ class Exporter {
         exported.plugin = &model(PluginKind::shading, name, {"normal"});
         exported.rate = instance->shading_rate();
         exported.needs = instance->needs();
+        if (exported.needs.triangle && !request_.abilities.triangle &&
+            !request_.abilities.models_without_kernel) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("shading/{} sees the vertices of its triangle, which the programs of "
+                                    "this target do not show to a shading model",
+                                    name));
+        }
         put(to_.shadings, exported);
     }
 

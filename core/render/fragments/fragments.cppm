@@ -3,6 +3,7 @@ module;
 
 #include "candela/api.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -35,12 +36,17 @@ struct CANDELA_API SurfacePoints {
     bool any_from_behind = false;
     AlignedVector<float> u, v;  // filled if requested and the mesh has them, otherwise zero
     Vec3Arrays dpdu, dpdv;
+    std::array<Vec3Arrays, 3> corner_position;  // of each point's triangle; empty until first requested
+    std::array<Vec3Arrays, 3> corner_normal;    // unit
 };
 
 /// Which attributes of a point are needed beyond those that every model reads.
 struct PointNeeds {
     bool uv = false;
     bool derivatives = false;
+    bool triangle = false;  // of fragments, faces and places; a vertex has none
+
+    constexpr bool any() const { return uv || derivatives || triangle; }
 };
 
 /// Adjacent pixels of a row to which one triangle contributes equal shares.

@@ -52,7 +52,30 @@ Vec3 blend(const Corners& c, const Vec3& weight) {
     return weight.x * c[0] + weight.y * c[1] + weight.z * c[2];
 }
 
-/// uv and derivatives of points whose barycentric coordinates are known.
+void resize(SurfacePoints& points, std::array<Vec3Arrays, 3> SurfacePoints::* corners) {
+    for (Vec3Arrays& arrays : points.*corners) arrays.resize(k_batch_size + k_lanes);
+}
+
+/// The vertices of a triangle, at each of its points.
+void repeat_corners(const Mesh& mesh, const Indices& vertices, std::size_t first, std::size_t count,
+                    SurfacePoints& points) {
+    if (points.corner_position[0].empty()) {
+        resize(points, &SurfacePoints::corner_position);
+        resize(points, &SurfacePoints::corner_normal);
+    }
+    const auto repeat = [&](Vec3Arrays& arrays, const Vec3& value) {
+        std::fill_n(&arrays.x[first], count, value.x);
+        std::fill_n(&arrays.y[first], count, value.y);
+        std::fill_n(&arrays.z[first], count, value.z);
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        const MeshVertex& vertex = mesh.vertices[vertices[k]];
+        repeat(points.corner_position[k], vertex.position);
+        repeat(points.corner_normal[k], vertex.normal);
+    }
+}
+
+/// uv, derivatives and triangle of points whose barycentric coordinates are known.
 void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
                       std::size_t count, SurfacePoints& points) {
     const ConstVec3Span weight = std::as_const(points.barycentric).span();
@@ -86,6 +109,7 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
             points.dpdv.span().set(i, blend(dpdv, weight[i]));
         }
     }
+    if (needs.triangle) repeat_corners(mesh, vertices, first, count, points);
 }
 
 /// Evaluates point `i` of a batch, a position on a triangle.
@@ -98,7 +122,7 @@ void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, Point
     points.face_normal.span().set(i, mesh.face_normal.span()[triangle]);
     points.vertex_normal.span().set(i, blend({a.normal, b.normal, c.normal}, weight));
     points.barycentric.span().set(i, weight);
-    if (needs.uv || needs.derivatives) blend_attributes(mesh, vertices, needs, i, 1, points);
+    if (needs.any()) blend_attributes(mesh, vertices, needs, i, 1, points);
 }
 
 }  // namespace
@@ -235,6 +259,10 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
         fill_all(points.dpdu);
         fill_all(points.dpdv);
     }
+    if (needs.triangle) {
+        for (Vec3Arrays& arrays : points.corner_position) fill_all(arrays);
+        for (Vec3Arrays& arrays : points.corner_normal) fill_all(arrays);
+    }
 }
 
 /// From this many fragments on, a triangle is worth a loop of its own.
@@ -269,14 +297,14 @@ void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> 
 
     points.any_from_behind = false;
     std::fill_n(points.facing.begin(), points.filled, 1.0f);
-    if (source.mesh.closed && !needs.uv && !needs.derivatives) return;
+    if (source.mesh.closed && !needs.any()) return;
     each_triangle(runs, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
         if (source.is_back(triangle)) {
             points.any_from_behind = true;
             std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
                       points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
         }
-        if (needs.uv || needs.derivatives)
+        if (needs.any())
             blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first, end - first,
                              points);
     });
@@ -309,6 +337,7 @@ void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, C
 void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> vertices, PointNeeds needs,
                      SurfacePoints& points) {
     const Mesh& mesh = source.mesh;
+    needs.triangle = false;
     points.count = vertices.size();
     points.any_from_behind = false;
     for (std::size_t i = 0; i < vertices.size(); ++i) {

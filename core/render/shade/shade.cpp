@@ -126,11 +126,18 @@ std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
 PointNeeds SurfaceModels::needs() const {
     const ShadingNeeds needs = shading->needs();
     return {.uv = needs.uv || reflection->needs_uv(),
-            .derivatives = needs.derivatives || reflection->needs_tangent()};
+            .derivatives = needs.derivatives || reflection->needs_tangent(),
+            .triangle = needs.triangle};
 }
 
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {
     const ShadingNeeds needs = surface.shading->needs();
+    TriangleBatch triangle;
+    const bool has_triangle = needs.triangle && surface.shading->shading_rate() != ShadingRate::vertex;
+    for (std::size_t k = 0; has_triangle && k < 3; ++k) {
+        triangle.position[k] = points.corner_position[k].span();
+        triangle.normal[k] = points.corner_normal[k].span();
+    }
     const ShadingPointBatch batch{
         .count = points.filled,
         .face_normal = points.face_normal.span(),
@@ -138,7 +145,8 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
         .barycentric = points.barycentric.span(),
         .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
         .dpdu = needs.derivatives ? points.dpdu.span() : ConstVec3Span{},
-        .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{}};
+        .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{},
+        .triangle = has_triangle ? &triangle : nullptr};
     surface.shading->normals(batch, normal);
 }
 

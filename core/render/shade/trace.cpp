@@ -32,7 +32,8 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
     Vec3Arrays intensity;
     intensity.resize(k_batch_size);
     shade(surface, interior, points, intensity.span());
-    const PointNeeds needs = surface.needs();
+    PointNeeds needs = surface.needs();
+    needs.triangle &= surface.shading->shading_rate() != ShadingRate::vertex;
     const bool needs_tangent = surface.reflection->needs_tangent();
     PointTrace trace{.position = first_of(points.position),
                      .normal = first_of(normal_),
@@ -51,6 +52,10 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
                      .specular = first_of(specular_),
                      .intensity = first_of(intensity)};
 
+    for (std::size_t k = 0; needs.triangle && k < 3; ++k) {
+        trace.corner_position[k] = first_of(points.corner_position[k]);
+        trace.corner_normal[k] = first_of(points.corner_normal[k]);
+    }
     const std::size_t count = surface.reflection->shows_surroundings() ? points.count : points.filled;
     const ReceiverBatch receivers{
         .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};

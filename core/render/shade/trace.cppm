@@ -1,6 +1,7 @@
 // What shading a point passes through, step by step.
 module;
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct PointTrace {
     Vec3 barycentric{};
     float u = 0, v = 0;
     Vec3 dpdu{}, dpdv{};
+    std::array<Vec3, 3> corner_position{};  // of its triangle; zero unless the shading model needs them
+    std::array<Vec3, 3> corner_normal{};
     bool from_behind = false;  // the surface is open and its normal has been turned round
     std::vector<LightTrace> lights{};
     Vec3 surroundings{};                    // what a transparent surface shows of them

@@ -38,8 +38,8 @@ class CppWriter {
     std::string run() {
         require_different_names(scene_);
         const std::string text = candela_cpp_scene;
-        const std::string glue =
-            lights() + loops() + reflection() + shading() + objects_.shapes() + objects_.statements() + text;
+        const std::string glue = lights() + loops() + reflection() + shading() + if_triangles(k_triangle_of) +
+                                 objects_.shapes() + objects_.statements() + text;
         std::string kernels = model_kernels();
         const std::string library = vectors_for(kernels);
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
@@ -92,6 +92,11 @@ class CppWriter {
              {"REFLECTION", reflection()},
              {"LIGHT_LOOPS", loops()},
              {"TANGENT", tangent()},
+             {"TRIANGLE_OF", if_triangles(k_triangle_of)},
+             {"TRIANGLE_PARAMETER", if_triangles(", const Triangle& triangle")},
+             {"TRIANGLE_ARGUMENT", if_triangles(", triangle")},
+             {"THIS_TRIANGLE", if_triangles(", triangle_of(o, triangle)")},
+             {"NO_TRIANGLE", if_triangles(", {}")},
              {"PICTURE_FILE", std::string(picture_file_source())},
              {"USAGE", usage()},
              {"HELP", help()},
@@ -104,6 +109,20 @@ class CppWriter {
     }
 
   private:
+    static constexpr const char* k_triangle_of =
+        "Triangle triangle_of(const Object& o, int triangle) {\n"
+        "    const int* const v = &o.mesh.corners[3 * static_cast<std::size_t>(triangle)];\n"
+        "    const auto p = [&](int k) { return o.mesh.position[static_cast<std::size_t>(v[k])]; };\n"
+        "    const auto n = [&](int k) { return o.vertex_normal[static_cast<std::size_t>(v[k])]; };\n"
+        "    return {p(0), p(1), p(2), n(0), n(1), n(2)};\n"
+        "}\n\n";
+    /// A program in which no model sees its triangle has no word of it.
+    std::string if_triangles(const char* text) const {
+        const bool sees =
+            std::ranges::any_of(scene_.shadings, [](const auto& m) { return m.needs.triangle; });
+        return sees ? text : "";
+    }
+
     std::string model_kernels() const {
         std::string text;
         std::set<std::string> done;
@@ -298,6 +317,9 @@ class CppWriter {
     }
 
     std::string shading() const {
+        std::vector<std::pair<const char*, const char*>> of_normal = {{"const Object&", "o"},
+                                                                      {"const ShadingPoint&", "p"}};
+        if (!if_triangles("t").empty()) of_normal.emplace_back("const Triangle&", "t");
         constexpr const char* k_rates[] = {"Rate::face", "Rate::vertex", "Rate::pixel"};
         return "// Where an object is lit, which normal it has there, and how much a face weighs in the "
                "normal of its corner.\n" +
@@ -305,9 +327,9 @@ class CppWriter {
                         shading_choice([&](const ExportedShading& m) {
                             return std::string(k_rates[static_cast<int>(m.rate)]);
                         })) +
-               function("vec3", "shading_normal", {{"const Object&", "o"}, {"const ShadingPoint&", "p"}},
-                        shading_choice([](const ExportedShading& m) {
-                            return call(m, "normal", "o." + shading_member(m), "p");
+               function("vec3", "shading_normal", of_normal, shading_choice([](const ExportedShading& m) {
+                            return call(m, "normal", "o." + shading_member(m),
+                                        m.needs.triangle ? "p, t" : "p");
                         })) +
                function("float", "corner_weight", {{"const Object&", "o"}, {"const FaceCorner&", "c"}},
                         shading_choice([](const ExportedShading& m) {
@@ -413,6 +435,7 @@ class CppTarget final : public Target {
   public:
     explicit CppTarget(const sdk::NoParams&) {}
 
+    TargetAbilities abilities() const noexcept override { return {.triangle = true}; }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(), CppWriter(scene).run());
         target::write(files, "CMakeLists.txt", candela_cpp_cmake);

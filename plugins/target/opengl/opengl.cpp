@@ -78,6 +78,10 @@ class OpenGlWriter {
             {"BIND_TABLES", if_tables("        glActiveTexture(GL_TEXTURE3);\n        table_numbers();\n")},
             {"SET_TABLES",
              if_tables("        set(program, {\"table_numbers\", Uniform::whole, {3, 0, 0}});\n")},
+            {"ATTRIBUTES", sees_triangles(scene_) ? "14" : "8"},
+            {"TRIANGLE_COMMENT", if_triangles(", and the triangle's vertices and normals")},
+            {"TRIANGLE_SIZES", if_triangles(", 3, 3, 3, 3, 3, 3")},
+            {"PUT_TRIANGLE", if_triangles(k_put_triangle)},
             {"OBJECTS", objects},
             {"PICTURE_FILE", std::string(picture_file_source())}};
         values.insert(values.end(), about.begin(), about.end());
@@ -89,6 +93,13 @@ class OpenGlWriter {
     }
 
   private:
+    static constexpr const char* k_put_triangle =
+        "            for (std::size_t corner = 0; corner < 3; ++corner) {\n"
+        "                put(8 + corner, vector(mesh.position, v[corner]));\n"
+        "                put(11 + corner, vector(mesh.normals[normals], v[corner]));\n"
+        "            }\n";
+    const char* if_triangles(const char* text) const { return sees_triangles(scene_) ? text : ""; }
+
     template <class Model, class RateOf>
     static std::string models(std::span<const Model> all, const std::vector<std::string>& glsl,
                               RateOf rate_of) {
@@ -267,6 +278,7 @@ class OpenGlTarget final : public Target {
   public:
     explicit OpenGlTarget(const sdk::NoParams&) {}
 
+    TargetAbilities abilities() const noexcept override { return {.triangle = true}; }
     void write(const ExportedScene& scene, FileSink& files) const override { OpenGlWriter(scene).run(files); }
     const char* main_file() const noexcept override { return "scene.cpp"; }
     bool can_draw() const noexcept override { return true; }

@@ -215,6 +215,7 @@ Json scene_json(const ExportedScene& scene) {
         Json& model = shadings[scene.shadings[i].plugin->name] =
             model_json(scene.shadings[i], glsl.shadings[i]);
         model["rate"] = rate_name(scene.shadings[i].rate);
+        model["sees_triangle"] = scene.shadings[i].needs.triangle;
     }
     for (std::size_t i = 0; i < scene.objects.size(); ++i) objects.push_back(object_json(scene, i));
     return {{"title", scene.title},
@@ -246,6 +247,7 @@ class WebGlTarget final : public Target {
   public:
     explicit WebGlTarget(const sdk::NoParams&) {}
 
+    TargetAbilities abilities() const noexcept override { return {.triangle = true}; }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(),
                       filled(candela_webgl_page, {{"TITLE", html_text(scene.title)},

@@ -8,6 +8,11 @@
 //     float x_corner_weight(FaceCorner c)                 the weight of a face at one of its corners, or
 //     float x_corner_weight(XShading shading, FaceCorner c)
 //
+// A model that reads the vertices of its triangle, and their normals, takes it as the last argument:
+//
+//     vec3 x_normal(ShadingPoint p, Triangle t)          or
+//     vec3 x_normal(XShading shading, ShadingPoint p, Triangle t)
+//
 // A model that needs texture coordinates or derivatives names its ShadingNeeds as the last argument of
 // KernelShading, in CANDELA_KERNEL_PLUGIN.
 #pragma once
@@ -17,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "candela/multiversion.h"
@@ -25,10 +31,18 @@
 
 namespace candela::sdk {
 
+/// Whether a kernel's x_normal takes a Triangle: what it does not take is not filled.
+template <class Params, auto normal>
+inline constexpr bool takes_triangle =
+    std::is_invocable_v<decltype(normal), Params, kernel::ShadingPoint, kernel::Triangle> ||
+    std::is_invocable_v<decltype(normal), kernel::ShadingPoint, kernel::Triangle>;
+
 template <class Params, auto normal, ShadingNeeds needs>
 struct NormalLoop {
     CANDELA_BATCH_LOOP static void run(Params params, ShadingPointBatch points, Vec3Span normals) {
         const std::size_t count = points.count;
+        TriangleBatch corners;
+        if constexpr (needs.triangle) corners = *points.triangle;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             kernel::ShadingPoint p;
@@ -43,21 +57,40 @@ struct NormalLoop {
                 p.dpdu = load(points.dpdu, i);
                 p.dpdv = load(points.dpdv, i);
             }
-            store(normals, i, call<normal>(params, p));
+            if constexpr (needs.triangle) {
+                kernel::Triangle t;
+                t.p0 = load(corners.position[0], i);
+                t.p1 = load(corners.position[1], i);
+                t.p2 = load(corners.position[2], i);
+                t.n0 = load(corners.normal[0], i);
+                t.n1 = load(corners.normal[1], i);
+                t.n2 = load(corners.normal[2], i);
+                store(normals, i, call<normal>(params, p, t));
+            } else {
+                store(normals, i, call<normal>(params, p));
+            }
         }
     }
 };
 
 template <class Params, ShadingRate rate, auto normal, ShadingNeeds needs_ = ShadingNeeds{}>
 class KernelShading : public ShadingModel {
+    static constexpr bool k_takes_triangle = takes_triangle<Params, normal>;
+    static_assert(!k_takes_triangle || rate != ShadingRate::vertex,
+                  "a model that is lit per vertex has no Triangle: a vertex belongs to several");
+    static_assert(k_takes_triangle || !needs_.triangle,
+                  "a model that needs its triangle takes a Triangle after the ShadingPoint");
+    static constexpr ShadingNeeds k_needs{
+        .uv = needs_.uv, .derivatives = needs_.derivatives, .triangle = k_takes_triangle};
+
   public:
     static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal")};
 
     explicit KernelShading(const Params& params) : params_(params) {}
     ShadingRate shading_rate() const noexcept override { return rate; }
-    ShadingNeeds needs() const noexcept override { return needs_; }
+    ShadingNeeds needs() const noexcept override { return k_needs; }
     void normals(const ShadingPointBatch& points, const Vec3Span& normals) const override {
-        multiversion<NormalLoop<Params, normal, needs_>>(params_, points, normals);
+        multiversion<NormalLoop<Params, normal, k_needs>>(params_, points, normals);
     }
 
   protected:

@@ -21,6 +21,7 @@ void main() {
     // all distances.
     gl_FragDepth = is_orthographic ? 1.0 - gl_FragCoord.z : near * gl_FragCoord.w;
 #ifdef LIT_AT_FRAGMENT
+@READ_TRIANGLE@
     ShadingPoint point = ShadingPoint(at_face_normal, at_vertex_normal, at_barycentric, at_uv, at_dpdu, at_dpdv);
 #ifdef TWO_SIDED
     float facing = gl_FrontFacing ? 1.0 : -1.0;

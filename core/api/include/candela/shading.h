@@ -1,6 +1,7 @@
 // The interface of shading-model plugins.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -35,6 +36,13 @@ struct MeshView {
 struct ShadingNeeds {
     bool uv = false;
     bool derivatives = false;
+    bool triangle = false;  // not at rate `vertex`: a vertex belongs to several triangles
+};
+
+/// The triangle of each point, by its vertices, counter-clockwise seen from outside. World space.
+struct TriangleBatch {
+    std::array<ConstVec3Span, 3> position;  // metres
+    std::array<ConstVec3Span, 3> normal;    // vertex normals, unit
 };
 
 /// Points at which normals are needed: centroids, vertices or fragments, depending on the shading rate. World
@@ -47,6 +55,7 @@ struct ShadingPointBatch {
     ConstVec2Span uv;             // null unless needed
     ConstVec3Span dpdu;           // partial derivatives of position; null unless needed
     ConstVec3Span dpdv;
+    const TriangleBatch* triangle = nullptr;  // null unless needed, and at rate `vertex`
 };
 
 /// A shading model (CA: "how the normal vector is calculated for polygons in the scene"). Any thread, any

@@ -171,6 +171,7 @@ class CANDELA_API ProgramRunner {
 struct TargetAbilities {
     bool models_without_kernel = false;  // of lights, shading and reflection; shapes always have triangles
     bool surroundings = false;           // pictures all around, and models that show what is behind an object
+    bool triangle = false;               // kernels of shading models that see their triangle: ShadingNeeds
 };
 
 /// Something that a scene can be turned into: a program, a page, a file. Any thread.

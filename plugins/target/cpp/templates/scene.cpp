@@ -203,9 +203,9 @@ vec3 lights_at(const Object& o, const Surface& s, const Receiver& r) {
 }
 
 // The intensity that a place of an object sends to the observer.
-vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point, bool is_back) {
+vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@, bool is_back) {
     Surface s;
-    s.normal = (is_back ? -1.0f : 1.0f) * shading_normal(o, point);
+    s.normal = (is_back ? -1.0f : 1.0f) * shading_normal(o, point@TRIANGLE_ARGUMENT@);
     s.to_observer = k_is_perspective ? normalize(k_eye - place) : -k_forward;
 @TANGENT@
     s.color = o.color;
@@ -223,6 +223,7 @@ T blend(const std::vector<T>& values, const Mesh& mesh, int triangle, vec3 b) {
     return b.x * at(0) + b.y * at(1) + b.z * at(2);
 }
 
+@TRIANGLE_OF@
 vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back) {
     const Mesh& m = o.mesh;
     ShadingPoint p;
@@ -232,7 +233,7 @@ vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back) {
     p.uv = blend(m.uv, m, triangle, b);
     p.dpdu = blend(m.dpdu, m, triangle, b);
     p.dpdv = blend(m.dpdv, m, triangle, b);
-    return intensity_at(o, blend(m.position, m, triangle, b), p, is_back);
+    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@, is_back);
 }
 
 vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back) {
@@ -243,7 +244,7 @@ vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back) {
     p.uv = o.mesh.uv.empty() ? vec2(0.0f) : o.mesh.uv[v];
     p.dpdu = at(o.mesh.dpdu);
     p.dpdv = at(o.mesh.dpdv);
-    return intensity_at(o, o.mesh.position[v], p, is_back);
+    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@, is_back);
 }
 
 vec3 intensity_seen(const Object& o, const Seen& seen) {

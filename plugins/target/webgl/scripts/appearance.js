@@ -62,7 +62,7 @@ export function appearanceOf(settings) {
         const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
         const shadingModel = scene.shading_models[shading], reflectionModel = scene.reflection_models[reflection];
         return {
-            shading, reflection, rate: shadingModel.rate, closed: object.closed,
+            shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
             uniforms: [
                 ["object_color", toUniform(COLOR, settings.get(`object.${i}.color`), isSrgb)],
                 ...modelUniforms(

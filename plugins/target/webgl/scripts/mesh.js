@@ -3,6 +3,8 @@ import { cross, normalize, subtract } from "./vectors.js";
 
 /** The vertex shader's inputs, in the order of their locations. */
 const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", "uv", "dpdu", "dpdv", "barycentric"];
+/** Those of shading models that see their triangle: equal ones at its three vertices. */
+const TRIANGLE_ATTRIBUTES = ["p0", "p1", "p2", "n0", "n1", "n2"];
 
 function boundsOf(positions) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -31,6 +33,11 @@ function averagePerTriangle(values, size) {
         }
     }
     return result;
+}
+
+/** Each triangle's three values replaced by one of them. */
+function repeatCorner(values, corner) {
+    return values.map((_, i) => values[i - (i % 9) + 3 * corner + (i % 3)]);
 }
 
 function faceNormals(positions) {
@@ -62,11 +69,14 @@ export class Mesh {
     }
 
     /** For each attribute the name of its buffer, or three numbers where it is the same everywhere. */
-    attributeSources(rate, normalSet) {
+    attributeSources(rate, normalSet, seesTriangle) {
         const { uv, dpdu, dpdv } = this.mesh;
         const mean = rate === "face" ? " mean" : "";
         const normals = `normals ${normalSet}${mean}`;
+        const triangle = TRIANGLE_ATTRIBUTES.map((name) =>
+            [name, `${name[0] === "p" ? "position" : `normals ${normalSet}`} of ${name[1]}`]);
         return {
+            ...(seesTriangle ? Object.fromEntries(triangle) : {}),
             position: "position",
             place: `position${mean}`,
             vertex_normal: normals,
@@ -83,6 +93,7 @@ export class Mesh {
             const base = name.slice(0, -" mean".length);
             return averagePerTriangle(this.bufferValues(base), base === "uv" ? 2 : 3);
         }
+        if (/ of [012]$/.test(name)) return repeatCorner(this.bufferValues(name.slice(0, -" of 0".length)), Number(name.at(-1)));
         if (name === "position") return this.positions;
         if (name === "face normals") return faceNormals(this.positions);
         if (name === "barycentric") return Float32Array.from({ length: 3 * this.vertexCount }, (_, i) => (i % 9) % 4 === 0);
@@ -108,7 +119,7 @@ export class Mesh {
         const { gl } = this;
         const vertexArray = gl.createVertexArray();
         gl.bindVertexArray(vertexArray);
-        ATTRIBUTES.forEach((attribute, i) => {
+        [...ATTRIBUTES, ...TRIANGLE_ATTRIBUTES].forEach((attribute, i) => {
             if (typeof sources[attribute] !== "string") return;
             const buffer = this.buffer(sources[attribute]);
             gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
@@ -133,11 +144,11 @@ export class Mesh {
     }
 
     /** `rate`: how often the shading model evaluates light, per "face", "vertex" or "fragment". */
-    draw(rate, shading) {
+    draw({ rate, shading, seesTriangle }) {
         const { gl } = this;
         const normalSet = this.mesh.normals_of[shading];
-        const sources = this.attributeSources(rate, normalSet);
-        gl.bindVertexArray(this.vertexArray(sources, `${rate} ${normalSet}`));
+        const sources = this.attributeSources(rate, normalSet, seesTriangle);
+        gl.bindVertexArray(this.vertexArray(sources, `${rate} ${normalSet} ${seesTriangle}`));
         // Constant attributes are state of the context, not of the vertex array.
         ATTRIBUTES.forEach((attribute, i) => {
             if (typeof sources[attribute] !== "string") gl.vertexAttrib3f(i, ...sources[attribute]);

@@ -104,7 +104,7 @@ export class Renderer {
             }
             for (const [name, uniform] of object.uniforms) program.setUniform(name, uniform);
             object.closed ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
-            this.meshes[i].draw(object.rate, object.shading);
+            this.meshes[i].draw(object);
         });
         gl.disable(gl.SCISSOR_TEST);
     }

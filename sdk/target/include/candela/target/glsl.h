@@ -41,6 +41,11 @@ struct LightBlock {
     std::size_t first = 0;   // the texel where they begin
     std::size_t size = 0;    // texels per light
 };
+/// Whether a shading model of the scene sees its triangle. If so, shaders read more of each vertex than the
+/// first eight attributes: at locations 8 to 10 the positions of its triangle's vertices, at 11 to 13 their
+/// unit normals. A target says that it provides them with TargetAbilities::triangle.
+bool sees_triangles(const ExportedScene& scene);
+
 /// Of each light model of the scene.
 std::vector<LightBlock> light_blocks(const ExportedScene& scene);
 
