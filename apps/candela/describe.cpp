@@ -47,6 +47,7 @@ const candela::PluginFile& plugin_called(const std::string& id, candela::Registr
 std::string indented(const std::string& text) {
     std::string result;
     std::istringstream lines(text);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     for (std::string line; std::getline(lines, line);)
         result += "  " + wrapped(candela::printable(line), 2, 4) + '\n';
     return result;

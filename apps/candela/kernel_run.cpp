@@ -96,6 +96,7 @@ void write_text(const fs::path& file, const std::string& text) {
 /// The first line of the compiler's messages that says what is wrong.
 std::string first_error(const std::string& messages) {
     std::istringstream lines(messages);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     for (std::string line; std::getline(lines, line);) {
         if (line.find("error:") != std::string::npos) return line;
     }
@@ -154,9 +155,12 @@ std::string KernelRun::source(const std::vector<KernelCall>& calls) {
 
 void KernelRun::read(const std::string& printed) {
     std::istringstream lines(printed);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     std::size_t call = 0;
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
+        words.exceptions(
+            std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
         std::string kind;
         std::size_t number = 0;
         words >> kind >> number;

@@ -96,9 +96,9 @@ void TemporaryFolder::enter() {
     }
 }
 
-void TemporaryFolder::release() {
+void TemporaryFolder::release() noexcept {
     for (Entry& folder : folders) {
-        if (!folder.is_there || path_ != folder.path.data()) continue;
+        if (!folder.is_there || std::strcmp(path_.c_str(), folder.path.data()) != 0) continue;
         folder.is_there = false;
         folder.is_taken = false;
     }

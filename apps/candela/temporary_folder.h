@@ -20,7 +20,7 @@ class TemporaryFolder {
 
     const std::filesystem::path& path() const { return path_; }
     /// From now on, it is a folder like any other, or no longer there.
-    void release();
+    void release() noexcept;
 
   private:
     void enter();

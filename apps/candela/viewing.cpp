@@ -44,6 +44,7 @@ std::vector<fs::path> names_listed_in(const fs::path& list) {
 std::string without_lines_about(const fs::path& folder, const std::string& text) {
     std::string rest;
     std::istringstream lines(text);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     for (std::string line; std::getline(lines, line);)
         if (!line.starts_with(folder.string())) rest += line + "\n";
     return rest;

@@ -1,5 +1,6 @@
 module;
 
+#include "candela/number_list.h"
 #include "candela/params.h"
 
 export module candela.params;
@@ -8,6 +9,7 @@ export namespace candela {
 using candela::k_no_maximum;
 using candela::k_no_minimum;
 using candela::name_of;
+using candela::NumberList;
 using candela::ParamSpec;
 using candela::ParamType;
 using candela::ParamValue;

@@ -119,6 +119,7 @@ void judge(Outcome& outcome, const std::string& text) {
     int status = 0;
     const auto worsen = [&](Verdict verdict) { outcome.verdict = std::max(outcome.verdict, verdict); };
     std::istringstream lines(text);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     for (std::string line; std::getline(lines, line);) {
         const std::size_t space = line.find(' ');
         const std::string verdict = line.substr(0, space);

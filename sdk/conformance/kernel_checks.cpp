@@ -100,6 +100,7 @@ TEST_CASE("kernel names: all that it declares begins with its own name, as sever
     static const std::regex k_declared(
         R"(^(?:struct\s+(\w+)|#\s*define\s+(\w+)|(?:KERNEL|const|constexpr|inline|static)\s[\w\s]*?\b(\w+)\s*[({=\[]))");
     std::istringstream lines(kernel.text);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
@@ -160,6 +161,8 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
         // "ERROR: 0:12: …", after a line with the file's name: "#line" has set the number.
         static const std::regex k_error("ERROR: \\d+:(\\d+):");
         std::istringstream lines(compiled.text);
+        lines.exceptions(
+            std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
         std::string errors;
         for (std::string line; std::getline(lines, line) && errors.size() < 400;) {
             if (std::regex_search(line, k_error))

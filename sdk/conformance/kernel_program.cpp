@@ -171,6 +171,7 @@ std::string source() {
 /// Lines that say what is wrong, few enough to read: those that hold `word` and begin with `begin`.
 std::string lines_with(const std::string& word, const std::string& begin, const std::string& log) {
     std::istringstream lines(log);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     std::string result;
     int shown = 0;
     for (std::string line; std::getline(lines, line) && shown < 4;) {

@@ -169,7 +169,7 @@ candela::Value value_at(const Parameter& p, double t, const Vec3& turn) {
         }
         case ParamType::numbers: {
             // One number, or up to sixteen.
-            std::vector<float> list;
+            candela::NumberList list;
             for (int i = 0; i <= static_cast<int>(15 * t); ++i)
                 list.push_back(static_cast<float>(at(i % 2 == 0 ? t : 1 - t)));
             return list;

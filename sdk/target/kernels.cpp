@@ -61,6 +61,7 @@ std::vector<Paragraph> paragraphs_of(const std::string& text) {
         R"((?:^|\n)(?:struct\s+(\w+)\s*\{|(?:KERNEL|inline|static|const)\s[\w\s:<>,]*?(\w+)\s*[({=]))");
     std::vector<Paragraph> all;
     std::istringstream lines(text);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     std::string line, current;
     const auto end = [&] {
         if (current.empty()) return;

@@ -1,9 +1,15 @@
 #include <candela/abi.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <limits>
+#include <new>
 #include <optional>
 #include <string>
 #include <variant>
@@ -232,4 +238,33 @@ TEST_CASE("suggestions are near, and absent where nothing is") {
     CHECK(candela::closest("opsition", words) == "position");
     CHECK_FALSE(candela::closest("wavelength", words));
     CHECK_FALSE(candela::closest("x", std::vector<std::string>{}));
+}
+
+TEST_CASE("a value that cannot be copied for want of memory stays as it is, and so does the process") {
+#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+    SKIP("sanitizers need address space");
+#else
+    const std::vector<std::optional<candela::Value>> values{std::string(std::size_t{256} << 20, 'x')};
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        // Room for little more than there is.
+        std::ifstream pages("/proc/self/statm");
+        rlim_t used = 0;
+        pages >> used;
+        const rlim_t limit = used * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + (rlim_t{16} << 20);
+        const rlimit room{.rlim_cur = limit, .rlim_max = limit};
+        if (::setrlimit(RLIMIT_AS, &room) != 0) std::_Exit(2);
+        try {
+            const std::vector<std::optional<candela::Value>> copies = values;
+            std::_Exit(copies.empty() ? 3 : 4);
+        } catch (const std::bad_alloc&) {
+            std::_Exit(0);
+        }
+    }
+    int status = -1;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+#endif
 }

@@ -50,7 +50,7 @@ Json json_of(const Value& value) {
                 rows.push_back((*this)(Vec3{m[i], m[i + 1], m[i + 2]}));
             return rows;
         }
-        Json operator()(const std::vector<float>& list) const {
+        Json operator()(const NumberList& list) const {
             Json numbers = Json::array();
             for (const float x : list) numbers.push_back(shortest(x));
             return numbers;

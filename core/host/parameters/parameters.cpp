@@ -62,7 +62,7 @@ Value default_of(const ParamSpec& spec) {
             return rows;
         }
         case ParamType::numbers:
-            return std::vector<float>(value.list.begin(), value.list.end());
+            return NumberList(value.list.begin(), value.list.end());
         default:
             return vec3_of(value);
     }
@@ -83,7 +83,7 @@ bool holds(const Value& value, ParamType type) {
         case ParamType::matrix:
             return std::holds_alternative<Matrix>(value);
         case ParamType::numbers: {
-            const auto* const list = std::get_if<std::vector<float>>(&value);
+            const auto* const list = std::get_if<NumberList>(&value);
             return list != nullptr && !list->empty();
         }
         default:
@@ -99,7 +99,7 @@ std::vector<double> numbers_of(const Value& value) {
     std::vector<double> numbers;
     if (const auto* rows = std::get_if<Matrix>(&value))
         std::ranges::transform(*rows, std::back_inserter(numbers), shortest);
-    if (const auto* list = std::get_if<std::vector<float>>(&value))
+    if (const auto* list = std::get_if<NumberList>(&value))
         std::ranges::transform(*list, std::back_inserter(numbers), shortest);
     return numbers;
 }
@@ -157,7 +157,7 @@ std::string text_of(const Value& value) {
             return fmt::format("[[{}, {}, {}], [{}, {}, {}], [{}, {}, {}]]", m[0], m[1], m[2], m[3], m[4],
                                m[5], m[6], m[7], m[8]);
         }
-        std::string operator()(const std::vector<float>& list) const {
+        std::string operator()(const NumberList& list) const {
             return fmt::format("[{}]", fmt::join(list, ", "));
         }
     };
@@ -350,7 +350,7 @@ std::vector<ParamValue> ParamSet::delivered(ColorEncoding encoding) const {
                 std::ranges::copy(std::get<Matrix>(value), result[i].number);
                 break;
             case ParamType::numbers:
-                result[i].list = std::get<std::vector<float>>(value);
+                result[i].list = std::get<NumberList>(value);
                 break;
             case ParamType::color: {
                 const Rgb rgb = decoded(std::get<Vec3>(value), encoding);

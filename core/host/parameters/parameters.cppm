@@ -23,7 +23,7 @@ export namespace candela {
 
 /// A value as a person writes it. Vec3 holds vector, point, direction, color and rgb; the last two hold
 /// matrix and numbers.
-using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, std::vector<float>>;
+using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, NumberList>;
 
 /// A `ParamSpec` that owns its memory.
 struct Parameter {

@@ -63,7 +63,7 @@ ParamValue written_value(const Value& value, const Parameter& parameter) {
         result.number[2] = vector->z;
     }
     if (const auto* rows = std::get_if<Matrix>(&value)) std::ranges::copy(*rows, result.number);
-    if (const auto* list = std::get_if<std::vector<float>>(&value)) result.list = *list;
+    if (const auto* list = std::get_if<NumberList>(&value)) result.list = *list;
     if (const auto* text = std::get_if<std::string>(&value)) {
         if (parameter.type == ParamType::choice) {
             const auto at = std::ranges::find(parameter.choices, *text);

@@ -53,7 +53,7 @@ std::string value_text(const Value& value, ParamType type) {
         const auto row = [&](std::size_t i) { return vector_text({(*m)[i], (*m)[i + 1], (*m)[i + 2]}); };
         return fmt::format("[{}, {}, {}]", row(0), row(3), row(6));
     }
-    if (const auto* const list = std::get_if<std::vector<float>>(&value)) {
+    if (const auto* const list = std::get_if<NumberList>(&value)) {
         std::string text;
         for (const float x : *list) text += (text.empty() ? "" : ", ") + toml_text(x);
         return fmt::format("[{}]", text);

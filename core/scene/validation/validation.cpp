@@ -69,7 +69,7 @@ std::optional<Value> matrix(const Node& node) {
 std::optional<Value> numbers(const Node& node) {
     const ArrayNode* const array = node.array();
     if (array == nullptr || array->empty()) return std::nullopt;
-    std::vector<float> result;
+    NumberList result;
     for (const Node& each : *array) {
         const auto x = number(each, false);
         if (!x) return std::nullopt;

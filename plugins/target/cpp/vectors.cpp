@@ -87,7 +87,8 @@ std::string vectors_for(const std::string& kernels) {
     if (!swizzles.empty()) text += k_swizzle;
 
     std::istringstream lines{std::string(candela_cpp_vectors)};
-    std::string current;  // the struct that a line is in
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+    std::string current;                 // the struct that a line is in
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("struct ")) current = line.substr(7, 4);
         const bool is_in_vain = std::ranges::any_of(

@@ -8,18 +8,18 @@
 #include <string>
 #include <string_view>
 #include <variant>
-#include <vector>
 
 #include "candela/api.h"
 #include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/number_list.h"
 
 namespace candela {
 
 /// The value of a parameter as a person writes it in a scene: degrees, colours 0-255.
 struct Setting {
     std::string_view name;
-    std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, std::vector<float>> value;
+    std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, NumberList> value;
 };
 
 /// An instance of the plugin in `directory`, which has both its library and its manifest; parameters that are
