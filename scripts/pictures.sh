@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Renders the pictures of the documentation anew: docs/pictures/*.png.
+# Renders the pictures of the documentation anew: docs/pictures/*.
 #   scripts/pictures.sh [directory]     somewhere else
 # The contact sheet is one scene: in each cell a coarse sphere and a coarse teapot with a shading and a reflection model of
 # their own, all in the same light.
@@ -110,6 +110,9 @@ sandbox=()
 [ "$(id -u)" -ne 0 ] || sandbox=(--no-sandbox)
 chromium --headless=new "${sandbox[@]}" --use-angle=swiftshader --enable-unsafe-swiftshader --hide-scrollbars --window-size=1400,900 \
     --user-data-dir="$page/profile" --virtual-time-budget=8000 --screenshot="$out/page.png" "file://$page/scene.html" 2>/dev/null
+
+"$root/build/release/bin/candela" plot phong:shininess=20,ks=0.5,kd=0.3 blinn-phong:shininess=80,ks=0.5,kd=0.3 ggx:roughness=0.2,ks=0.2,ior=4,kd=0.3 \
+    -o "$out/lobes.svg"
 
 # The same while somebody works on the scene.
 /usr/bin/python3 -B "$root/tests/page/view_picture.py" "$root/build/release/bin/candela" "$root/docs/examples/still-life.toml" "$out/view.png"

@@ -32,6 +32,7 @@ constexpr std::array k_verbs = {
     Verb{"view", "show a scene in the browser, and its changes as they are saved", run_view},
     Verb{"bench", "time each stage of rendering a scene", run_bench},
     Verb{"diff", "compare two pictures", run_diff},
+    Verb{"plot", "draw the lobes of reflection models", run_plot},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
     Verb{"plugin", "create, test and diagnose plugins", run_plugin},

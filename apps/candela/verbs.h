@@ -21,6 +21,7 @@ int run_verify(const std::vector<std::string>& arguments);
 int run_view(const std::vector<std::string>& arguments);
 int run_bench(const std::vector<std::string>& arguments);
 int run_diff(const std::vector<std::string>& arguments);
+int run_plot(const std::vector<std::string>& arguments);
 int run_list(const std::vector<std::string>& arguments);
 int run_describe(const std::vector<std::string>& arguments);
 int run_plugin(const std::vector<std::string>& arguments);

@@ -1,0 +1,206 @@
+#include "lobe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+
+#include "diagnostics_text.h"
+
+import candela.diagnostics;
+import candela.math;
+import candela.parameters;
+import candela.reflection;
+import candela.scene;
+import candela.text;
+
+using candela::Error;
+using candela::ErrorCategory;
+using candela::Vec3;
+
+namespace {
+
+constexpr double k_step = 0.5;  // degrees
+constexpr int k_half = 179;     // steps on each side: grazing directions themselves are left out
+
+/// A scene whose object has the model: what can be wrong with a material is found where it always is.
+candela::SceneRequest request_for(const NamedModel& model) {
+    constexpr const char* k_name = "plot";
+    candela::SceneRequest request;
+    request.files = {k_name};
+    request.streams[k_name] = fmt::format(
+        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\nmodel = \"phong\"\n"
+        "[reflection]\nmodel = \"{}\"\n[[light]]\ntype = \"directional\"\ndirection = [0, -1, 0]\n"
+        "[[object]]\ntype = \"sphere\"\ncolor = [255, 255, 255]\n",
+        model.name);
+    for (const auto& [name, value] : model.values) {
+        const std::string origin = fmt::format("reflection/{}:{}", model.name, name);
+        request.settings.push_back({origin, "object.0.material." + name, value});
+    }
+    return request;
+}
+
+std::unique_ptr<candela::ReflectionModel> instance_of(const NamedModel& model, candela::Registry& registry) {
+    registry.require(candela::PluginKind::reflection, model.name);
+    candela::Diagnostics diagnostics;
+    const auto scene = candela::read_scene(request_for(model), registry, diagnostics);
+    if (!scene) {
+        std::string problems;
+        for (const candela::Diagnostic& problem : diagnostics.sorted()) {
+            if (problem.severity != candela::Severity::error) continue;
+            problems += fmt::format("{}{}: {}{}", problems.empty() ? "" : "; ", problem.place.file,
+                                    problem.message, problem.hint.empty() ? "" : ", " + problem.hint);
+        }
+        throw Error(ErrorCategory::bad_request, problems);
+    }
+    const candela::Model& reflection = scene->objects.front().reflection;
+    return registry.create<candela::ReflectionModel>(reflection.name, reflection.parameters,
+                                                     scene->image.color_management);
+}
+
+/// In the plane z = 0, whose normal is +y.
+Vec3 direction_at(double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return {static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
+}
+
+/// Rec. ITU-R BT.709: the luminance of linear RGB.
+double luminance(const Vec3& rgb) {
+    return 0.2126 * static_cast<double>(rgb.x) + 0.7152 * static_cast<double>(rgb.y) +
+           0.0722 * static_cast<double>(rgb.z);
+}
+
+LobePoint point_at(const candela::ReflectionModel& model, double incidence, double angle) {
+    const auto span = [](const Vec3& v) { return candela::ConstVec3Span{&v.x, &v.y, &v.z}; };
+    const auto target = [](Vec3& v) { return candela::Vec3Span{&v.x, &v.y, &v.z}; };
+    const Vec3 normal{0, 1, 0}, tangent{1, 0, 0}, origin{}, one{1, 1, 1};
+    const Vec3 to_light = direction_at(-incidence), to_observer = direction_at(angle);
+    const float zero = 0;
+    Vec3 ambient{}, diffuse{}, specular{};
+    model.reflect({.count = 1,
+                   .normal = span(normal),
+                   .to_observer = span(to_observer),
+                   .tangent = span(tangent),
+                   .color = {1, 1, 1},
+                   .position = span(origin),
+                   .uv = {&zero, &zero}},
+                  {.to_light = span(to_light), .diffuse = span(one), .specular = span(one)},
+                  {.ambient = target(ambient), .diffuse = target(diffuse), .specular = target(specular)});
+    return {.angle = angle, .diffuse = luminance(diffuse), .specular = luminance(specular)};
+}
+
+double mean_square(const Lobe& a, const Lobe& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.points.size(); ++i)
+        sum += std::pow(a.points[i].intensity() - b.points[i].intensity(), 2);
+    return sum / static_cast<double>(a.points.size());
+}
+
+const candela::Parameter& number_called(const std::string& name, const NamedModel& model,
+                                        candela::Registry& registry) {
+    const auto& parameters =
+        registry.require(candela::PluginKind::reflection, model.name).manifest.parameters;
+    std::vector<std::string> numbers;
+    for (const candela::Parameter& parameter : parameters) {
+        if (parameter.type != candela::ParamType::real) continue;
+        if (parameter.name == name) return parameter;
+        numbers.push_back(parameter.name);
+    }
+    const std::string meant = candela::suggestion(name, numbers);
+    throw Error(
+        ErrorCategory::bad_request,
+        fmt::format("reflection/{} has no number '{}' that could be varied; it has {}{}{}", model.name, name,
+                    numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", ")),
+                    meant.empty() ? "" : "; ", meant));
+}
+
+}  // namespace
+
+std::string NamedModel::label() const {
+    std::string text = name;
+    for (const auto& [key, value] : values)
+        text += fmt::format("{}{}={}", &values.front().first == &key ? ":" : ",", key, value);
+    return text;
+}
+
+std::pair<std::string, std::string> value_from(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos)
+        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is no value; write it as in ks=0.5", text));
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+NamedModel model_from(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    std::string name = text.substr(0, colon);
+    if (const std::size_t slash = name.find('/'); slash != std::string::npos) {
+        if (name.substr(0, slash) != "reflection") {
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("'{}' is no reflection model; those are what can be plotted", name));
+        }
+        name.erase(0, slash + 1);
+    }
+    NamedModel model{.name = name};
+    if (colon == std::string::npos) return model;
+    // Commas within brackets belong to a value.
+    int depth = 0;
+    std::string part;
+    for (const char c : text.substr(colon + 1) + ",") {
+        if (c == ',' && depth == 0) {
+            model.values.push_back(value_from(part));
+            part.clear();
+            continue;
+        }
+        depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+        part += c;
+    }
+    return model;
+}
+
+double Lobe::peak() const {
+    double peak = 0;
+    for (const LobePoint& point : points) peak = std::max(peak, point.intensity());
+    return peak;
+}
+
+Lobe lobe_of(const NamedModel& model, double incidence, candela::Registry& registry) {
+    const auto instance = instance_of(model, registry);
+    Lobe lobe{.label = model.label(), .points = {}};
+    for (int i = -k_half; i <= k_half; ++i) lobe.points.push_back(point_at(*instance, incidence, k_step * i));
+    return lobe;
+}
+
+Match match_lobe(const Lobe& target, const NamedModel& model, const std::string& parameter, double incidence,
+                 candela::Registry& registry) {
+    const candela::Parameter& range = number_called(parameter, model, registry);
+    const double least = std::max(static_cast<double>(range.minimum), 1e-3);
+    const double most = std::min(static_cast<double>(range.maximum), 1e5);
+    // Exponents and roughnesses alike: what matters is by which factor they change.
+    const double from = std::log(least), to = std::log(std::max(most, 2 * least));
+    const auto error_at = [&](double logarithm) {
+        NamedModel tried = model;
+        std::erase_if(tried.values, [&](const auto& value) { return value.first == parameter; });
+        tried.values.emplace_back(parameter, fmt::format("{}", static_cast<float>(std::exp(logarithm))));
+        return mean_square(target, lobe_of(tried, incidence, registry));
+    };
+    // There may be several minima: the lowest of a coarse search, then Brent's method (1973) around it.
+    constexpr int k_coarse = 64;
+    const double step = (to - from) / k_coarse;
+    int best = 0;
+    double lowest = error_at(from);
+    for (int i = 1; i <= k_coarse; ++i) {
+        const double error = error_at(from + i * step);
+        if (error < lowest) lowest = error, best = i;
+    }
+    constexpr int k_bits = 24;
+    std::uintmax_t rounds = 100;
+    const auto [at, error] =
+        boost::math::tools::brent_find_minima(error_at, std::max(from, from + (best - 1) * step),
+                                              std::min(to, from + (best + 1) * step), k_bits, rounds);
+    return {.value = std::exp(at),
+            .error = std::sqrt(std::min(error, lowest)) / std::max(target.peak(), 1e-30)};
+}

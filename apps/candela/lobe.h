@@ -1,0 +1,51 @@
+// What reflection models make of light from one direction, in the plane of incidence.
+#pragma once
+
+#include <string>
+#include <vector>
+
+import candela.registry;
+
+/// A model as a person names it: "reflection/phong:shininess=20,ks=0.5".
+struct NamedModel {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> values{};  // parameters and values, as in a scene
+
+    std::string label() const;
+};
+
+/// Throws candela::Error (bad_request) for what is no such text or another kind of plugin.
+NamedModel model_from(const std::string& text);
+/// "shininess=20". Throws likewise.
+std::pair<std::string, std::string> value_from(const std::string& text);
+
+/// A direction towards the observer, and the intensity that a white surface sends there of a light of
+/// intensity 1: what the model adds to I_d and I_s, as luminance (Rec. 709).
+struct LobePoint {
+    double angle = 0;  // degrees from the normal; positive on the side where a mirror would send the light
+    double diffuse = 0;
+    double specular = 0;
+
+    double intensity() const { return diffuse + specular; }
+};
+
+struct Lobe {
+    std::string label;
+    std::vector<LobePoint> points;  // by angle, all lobes at the same ones
+
+    double peak() const;
+};
+
+/// The lobe of light that falls in at `incidence` degrees from the normal. Throws candela::Error for what is
+/// wrong with the model.
+Lobe lobe_of(const NamedModel& model, double incidence, candela::Registry& registry);
+
+struct Match {
+    double value = 0;
+    double error = 0;  // root mean square of the difference, relative to the target's peak
+};
+
+/// The value of a parameter of `model` with which its lobe is nearest to `target`, by least squares over the
+/// angles. Throws candela::Error (bad_request) where the model has no such parameter, or it is not a number.
+Match match_lobe(const Lobe& target, const NamedModel& model, const std::string& parameter, double incidence,
+                 candela::Registry& registry);

@@ -1,0 +1,128 @@
+// candela plot: the lobes of reflection models.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command_line.h"
+#include "lobe.h"
+#include "lobe_text.h"
+#include "reporting.h"
+#include "verbs.h"
+
+import candela.files;
+import candela.parameters;
+import candela.text;
+
+namespace po = boost::program_options;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+double incidence_from(const CommandLine& line) {
+    const auto degrees = line.get<double>("incidence");
+    if (!(degrees >= 0 && degrees < 90)) {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--incidence is {}; it can be 0 to less than 90 degrees", degrees));
+    }
+    return degrees;
+}
+
+std::vector<NamedModel> models_from(const CommandLine& line) {
+    std::vector<NamedModel> models;
+    for (const std::string& text : line.all("model")) models.push_back(model_from(text));
+    if (models.empty()) {
+        throw Error(
+            ErrorCategory::bad_request,
+            "candela plot needs a model, as in candela plot reflection/phong:shininess=20 -o lobe.svg");
+    }
+    return models;
+}
+
+/// Gives a value to all models that have such a parameter, unless they say their own.
+void set_where_known(std::vector<NamedModel>& models, const std::string& text, candela::Registry& registry) {
+    const auto value = value_from(text);
+    std::vector<std::string> known;
+    bool is_known = false;
+    for (NamedModel& model : models) {
+        for (const candela::Parameter& parameter :
+             registry.require(candela::PluginKind::reflection, model.name).manifest.parameters) {
+            known.push_back(parameter.name);
+            if (parameter.name != value.first) continue;
+            is_known = true;
+            const auto is_same = [&](const auto& own) { return own.first == value.first; };
+            if (std::ranges::none_of(model.values, is_same)) model.values.push_back(value);
+        }
+    }
+    if (is_known) return;
+    const std::string meant = candela::suggestion(value.first, known);
+    throw Error(ErrorCategory::bad_request, fmt::format("--set {}: none of the models has this parameter{}{}",
+                                                        text, meant.empty() ? "" : "; ", meant));
+}
+
+/// Gives every model but the first the value of the parameter with which it is nearest to the first.
+void match_to_first(std::vector<NamedModel>& models, const std::string& parameter, double incidence,
+                    candela::Registry& registry) {
+    if (models.size() < 2) {
+        throw Error(ErrorCategory::bad_request,
+                    "--match needs a model to be matched, and one or more that are to match it");
+    }
+    const Lobe target = lobe_of(models.front(), incidence, registry);
+    for (std::size_t i = 1; i < models.size(); ++i) {
+        const Match match = match_lobe(target, models[i], parameter, incidence, registry);
+        std::erase_if(models[i].values, [&](const auto& value) { return value.first == parameter; });
+        models[i].values.emplace_back(parameter, fmt::format("{:.4g}", match.value));
+        std::cout << candela::printable(fmt::format(
+                         "{} is nearest to {}; the difference is {:.2g} % of the peak (root mean square)",
+                         models[i].label(), target.label, 100 * match.error))
+                  << '\n';
+    }
+}
+
+}  // namespace
+
+int run_plot(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela plot MODEL... [options]",
+        "Draws what reflection models reflect of light from one direction, as a polar diagram in "
+        "the plane of\nincidence (SVG), or as a table (CSV). MODEL: reflection/ggx, or with values of "
+        "its parameters\nreflection/ggx:roughness=0.3,f0=0.9. Several are drawn over one another.");
+    line.positional("model", -1);
+    line.options()("output,o", po::value<std::string>()->value_name("FILE"),
+                   "the diagram, .svg or .csv; default: the table on standard output")(
+        "set", po::value<std::vector<std::string>>()->value_name("NAME=VALUE"),
+        "a parameter's value for all models that have it; may be repeated")(
+        "incidence", po::value<double>()->value_name("DEGREES")->default_value(45, "45"),
+        "between the light and the surface's normal")("log", "a logarithmic radius, over four decades")(
+        "match", po::value<std::string>()->value_name("NAME"),
+        "find the value of this parameter with which each model is nearest to the first one");
+    add_plugin_options(line);
+    if (!line.parse(arguments)) return 0;
+
+    const std::string output = line.has("output") ? line.get<std::string>("output") : "";
+    const std::string extension = candela::extension_of(output);
+    if (!output.empty() && extension != "svg" && extension != "csv") {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is neither .svg nor .csv; a diagram can be either", output));
+    }
+    const double incidence = incidence_from(line);
+    std::vector<NamedModel> models = models_from(line);
+    candela::Registry registry = registry_from(line);
+    for (const std::string& value : line.all("set")) set_where_known(models, value, registry);
+    if (line.has("match")) match_to_first(models, line.get<std::string>("match"), incidence, registry);
+    if (line.has("match") && output.empty()) return 0;
+    std::vector<Lobe> lobes;
+    for (const NamedModel& model : models) lobes.push_back(lobe_of(model, incidence, registry));
+    const auto scale = line.has("log") ? RadialScale::logarithmic : RadialScale::linear;
+    if (output.empty()) {
+        std::cout << lobes_csv(lobes);
+    } else {
+        candela::write_text_file(output,
+                                 extension == "svg" ? lobes_svg(lobes, incidence, scale) : lobes_csv(lobes));
+    }
+    return 0;
+}

@@ -1,0 +1,191 @@
+// candela plot against closed forms of the models' equations, and against a least-squares fit computed here.
+#include <algorithm>
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+using Catch::Approx;
+
+namespace {
+
+constexpr double k_degree = 0.017453292519943295;
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The first line's cells, of which some are quoted.
+std::vector<std::string> header_of(const std::string& line) {
+    std::vector<std::string> cells(1);
+    bool is_quoted = false;
+    for (const char c : line) {
+        if (c == '"') {
+            is_quoted = !is_quoted;
+        } else if (c == ',' && !is_quoted) {
+            cells.emplace_back();
+        } else {
+            cells.back() += c;
+        }
+    }
+    return cells;
+}
+
+struct Table {
+    std::vector<std::string> columns;
+    std::vector<std::vector<double>> rows;
+
+    explicit Table(const std::string& csv) {
+        std::istringstream lines(csv);
+        std::string line;
+        std::getline(lines, line);
+        columns = header_of(line);
+        while (std::getline(lines, line)) {
+            std::istringstream cells(line);
+            rows.emplace_back();
+            for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+        }
+    }
+
+    double at(double angle, const std::string& column) const {
+        const auto found = std::ranges::find(columns, column);
+        const auto row = std::ranges::find_if(rows, [&](const auto& r) { return r.front() == angle; });
+        INFO(column << " at " << angle);
+        REQUIRE(found != columns.end());
+        REQUIRE(row != rows.end());
+        return row->at(static_cast<std::size_t>(found - columns.begin()));
+    }
+};
+
+Table plotted(std::vector<std::string> words) {
+    words.insert(words.begin(), "plot");
+    const CommandResult result = run_candela(words);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return Table(result.out);
+}
+
+/// cos, and nothing from behind.
+double cosine(double degrees) { return std::max(0.0, std::cos(degrees * k_degree)); }
+
+double number_behind(const std::string& text, const std::string& words) {
+    const std::size_t at = text.find(words);
+    REQUIRE(at != std::string::npos);
+    return std::stod(text.substr(at + words.size()));
+}
+
+}  // namespace
+
+TEST_CASE("plot: Phong's lobe is a power of the cosine to the mirror direction, over Lambert's constant") {
+    const std::string model = "phong:kd=0.5,ks=0.25,shininess=20";
+    const Table table = plotted({"reflection/" + model, "--incidence", "30"});
+    CHECK(table.rows.size() == 359);
+    for (const double angle : {-89.5, -70.0, -20.0, 0.0, 30.0, 45.0, 89.5}) {
+        CHECK(table.at(angle, model + " diffuse") == Approx(0.5 * std::cos(30 * k_degree)).epsilon(1e-5));
+        const double specular = 0.25 * std::pow(cosine(angle - 30), 20);
+        CHECK(table.at(angle, model + " specular") == Approx(specular).epsilon(1e-4).margin(1e-7));
+        CHECK(table.at(angle, model + " intensity") ==
+              Approx(0.5 * std::cos(30 * k_degree) + specular).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("plot: a value for all models yields to a model's own, and lists stay together") {
+    const Table table = plotted({"phong:shininess=5", "blinn-phong", "lambert:kd=[0.2,0.2,0.2]",
+                                 "--set=shininess=40", "--set", "kd=0", "--set", "ks=1"});
+    // Half of the light from 45 degrees, as seen along the normal: H is at 22.5 degrees.
+    CHECK(table.at(0, "phong:shininess=5,kd=0,ks=1 specular") ==
+          Approx(std::pow(std::cos(45 * k_degree), 5)).epsilon(1e-4));
+    CHECK(table.at(0, "blinn-phong:shininess=40,kd=0,ks=1 specular") ==
+          Approx(std::pow(std::cos(22.5 * k_degree), 40)).epsilon(1e-4));
+}
+
+TEST_CASE("plot: --match finds the exponent of Blinn-Phong's lobe that is nearest to Phong's") {
+    const CommandResult result = run_candela(
+        {"plot", "phong:shininess=20", "blinn-phong", "--match", "shininess", "--incidence", "30"});
+    INFO(result.out << result.err);
+    REQUIRE(result.exit_code == 0);
+    // In this plane R.V = cos(a), N.H = cos(a / 2) with a from the mirror direction: the same least squares
+    // here.
+    double best = 0, least = 1e30;
+    for (double n = 40; n < 160; n += 0.01) {
+        double sum = 0;
+        for (double angle = -89.5; angle < 90; angle += 0.5) {
+            const double a = angle - 30;
+            sum += std::pow(std::pow(cosine(a), 20) - std::pow(cosine(a / 2), n), 2);
+        }
+        if (sum < least) least = sum, best = n;
+    }
+    const double found = number_behind(result.out, "blinn-phong:shininess=");
+    CHECK(found == Approx(best).epsilon(1e-3));
+    // Fisher and Woo (1994), "R.E versus N.H specular highlights", Graphics Gems IV: about four times.
+    CHECK(found == Approx(80).epsilon(0.05));
+    CHECK(number_behind(result.out, "the difference is ") ==
+          Approx(100 * 0.3 * std::sqrt(least / 359) / (0.7 * std::cos(30 * k_degree) + 0.3)).epsilon(0.1));
+}
+
+TEST_CASE("plot: a diagram is SVG, with a curve for each model, whose radius is the intensity") {
+    const fs::path file = scratch_directory() / "lobes.svg";
+    const CommandResult result = run_candela(
+        {"plot", "reflection/lambert:kd=0.5", "reflection/phong", "--incidence", "60", "-o", file.string()});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.out.empty());
+    // An independent parser. Lambert's: 0.5 cos 60 everywhere, on a diagram whose rim is a power of ten times
+    // 1, 2 or 5.
+    const CommandResult parsed = run_program({"python3", "-c", R"(
+import math, sys, xml.etree.ElementTree as tree
+root = tree.parse(sys.argv[1]).getroot()
+name = "{http://www.w3.org/2000/svg}"
+assert root.tag == name + "svg" and root.find(name + "title").text.endswith("lambert:kd=0.5, phong")
+curves = [[tuple(map(float, p.split(","))) for p in c.get("points").split()] for c in root.iter(name + "polyline")]
+assert [len(c) for c in curves] == [359, 359]
+rim = max(float(t.text) for t in root.iter(name + "text") if t.get("font-size") == "11" and "°" not in t.text)
+radii = [math.hypot(x - 360, y - 335) / 300 * rim for x, y in curves[0]]
+print(min(radii), max(radii)))",
+                                              file.string()});
+    INFO(parsed.err);
+    REQUIRE(parsed.exit_code == 0);
+    std::istringstream radii(parsed.out);
+    double least = 0, most = 0;
+    radii >> least >> most;
+    CHECK(least == Approx(0.25).epsilon(1e-3));
+    CHECK(most == Approx(0.25).epsilon(1e-3));
+}
+
+TEST_CASE("plot: what it cannot draw is said, with what there is, and no file is made") {
+    struct Wrong {
+        std::vector<std::string> words;
+        const char* message;
+    };
+    for (const Wrong& wrong : {
+             Wrong{{}, "needs a model"},
+             Wrong{{"light/point"}, "no reflection model"},
+             Wrong{{"phong", "lambert", "--set", "shinines=3"}, "did you mean 'shininess'"},
+             Wrong{{"phong:shininess"}, "is no value"},
+             Wrong{{"phong:shinines=3"}, "did you mean 'shininess'"},
+             Wrong{{"phong:shininess=-3"}, "outside its range"},
+             Wrong{{"phong", "--incidence", "90"}, "less than 90"},
+             Wrong{{"phong", "-o", "lobe.png"}, ".svg nor .csv"},
+             Wrong{{"phong", "--match", "shininess"}, "--match needs"},
+             Wrong{{"phong", "lambert", "--match", "shininess"}, "has no number 'shininess'"},
+         }) {
+        std::vector<std::string> words = wrong.words;
+        words.insert(words.begin(), "plot");
+        const fs::path folder = scratch_directory();
+        const CommandResult result =
+            run_candela(words, {.input = {}, .environment = {}, .directory = folder});
+        INFO(result.err);
+        CHECK(result.exit_code == 2);
+        CHECK(holds(result.err, wrong.message));
+        CHECK(result.out.empty());
+        CHECK(fs::is_empty(folder));
+    }
+    const CommandResult unknown = run_candela({"plot", "reflection/phnog"});
+    CHECK(unknown.exit_code == 1);
+    CHECK(holds(unknown.err, "did you mean 'phong'"));
+    CHECK(run_candela({"plot", "phong", "-o", "/nonexistent/lobe.svg"}).exit_code == 1);
+}
