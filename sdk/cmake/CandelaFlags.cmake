@@ -11,6 +11,7 @@ if(NOT CANDELA_SANITIZE)
 endif()
 
 if(CANDELA_SANITIZE)
+    set(CANDELA_IS_SANITIZED ON)
     add_compile_options(-fsanitize=${CANDELA_SANITIZE} -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${CANDELA_SANITIZE})
     if(CANDELA_SANITIZE MATCHES undefined)

@@ -16,11 +16,18 @@
 #   AUTHOR     whose it is, for `candela describe` and `candela list --json`
 #   LICENSE    as SPDX names it: MIT, Apache-2.0, GPL-3.0-or-later …
 #   CONFORMANCE_VALUES  parameters' values for "conforms", such as a file that the plugin needs: file=/full/path
+#
+# If the loop over the points that a kernel's function is called for is not vectorised (with clang, and optimisation), a warning
+# names the line of the kernel; an error if COMPILE_WARNING_AS_ERROR or -Werror in CMAKE_CXX_FLAGS says so.
+#
+# With -DCANDELA_SANITIZE=thread a second test, "<kind>/<name> has no data races", has ThreadSanitizer watch the plugin while
+# it is called from several threads at once. (Not of a target.) What is linked, other than LIBRARIES, is not part of it.
 
 # Once a folder, not once a build: what is set here is not seen in a folder beside, which finds Candela for itself.
 include_guard()
 
 set(CANDELA_PLUGIN_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
+include(${CMAKE_CURRENT_LIST_DIR}/CandelaThreads.cmake)
 
 # How batch loops are compiled, in plugins and in the core: wide vectors where the function's own target has them. (That
 # square roots set no errno must be the same for all who import a module, so candela::api says that.)
@@ -95,7 +102,7 @@ function(candela_add_plugin id)
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS "${PLUGIN_EMBED}")
     endif()
     target_link_libraries(${target} PRIVATE candela::sdk candela_batch_flags ${PLUGIN_LIBRARIES})
-    if(NOT CANDELA_SANITIZE)
+    if(NOT CANDELA_IS_SANITIZED)
         if(NOT CANDELA_IS_HARDENED)
             target_compile_options(${target} PRIVATE ${CANDELA_HARDENING_COMPILE_OPTIONS})
             target_link_options(${target} PRIVATE ${CANDELA_HARDENING_LINK_OPTIONS})
@@ -107,18 +114,32 @@ function(candela_add_plugin id)
     endif()
     # Only candela_* leaves the library: what two plugins both define could otherwise clash.
     target_link_options(${target} PRIVATE -Wl,--version-script=${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
-    if(NOT CANDELA_SANITIZE)
+    if(NOT CANDELA_IS_SANITIZED)
         # A missing symbol fails here, not when somebody loads the plugin. (Sanitizer runtimes live in the host.)
         target_link_options(${target} PRIVATE -Wl,-z,defs)
+    endif()
+
+    # Why a kernel's loop is scalar, clang knows where in the kernel, but says of the SDK's header. So it is told to note it
+    # down, and the manifest's writer reads that.
+    set(loops)
+    if(PLUGIN_KERNEL AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT CANDELA_IS_SANITIZED)
+        target_compile_options(${target} PRIVATE
+            "$<$<NOT:$<CONFIG:Debug>>:-Wno-pass-failed;-fsave-optimization-record;-foptimization-record-passes=loop-vectorize>")
+        set(verdict warning)
+        if(CANDELA_WERROR OR CMAKE_COMPILE_WARNING_AS_ERROR OR CMAKE_CXX_FLAGS MATCHES "-Werror( |$)")
+            set(verdict error)
+        endif()
+        set(loops --scalar-loops=${verdict} --kernel=${kernel} $<TARGET_OBJECTS:${target}>)
     endif()
 
     # The manifest, from the plugin's own descriptor.
     add_custom_command(TARGET ${target} POST_BUILD
         COMMAND candela::manifest $<TARGET_FILE:${target}> $<TARGET_FILE_DIR:${target}>/${file}.json
-            "--author=${PLUGIN_AUTHOR}" "--license=${PLUGIN_LICENSE}"
-        VERBATIM)
+            "--author=${PLUGIN_AUTHOR}" "--license=${PLUGIN_LICENSE}" ${loops}
+        VERBATIM COMMAND_EXPAND_LISTS)
     set_target_properties(${target} PROPERTIES CANDELA_MANIFEST ${file}.json)
 
+    set(data)
     if(PLUGIN_DATA)
         cmake_path(ABSOLUTE_PATH PLUGIN_DATA NORMALIZE OUTPUT_VARIABLE data)
         file(GLOB_RECURSE files CONFIGURE_DEPENDS "${data}/*")
@@ -137,8 +158,21 @@ function(candela_add_plugin id)
         set_target_properties(${target} PROPERTIES CANDELA_DATA ${file})
     endif()
 
+    set(is_sanitized_too OFF)
+    if(CANDELA_SANITIZE STREQUAL "thread" AND NOT CANDELA_IS_SANITIZED AND NOT kind STREQUAL "target")
+        set(is_sanitized_too ON)
+        candela_add_thread_sanitized(${target} SOURCES ${PLUGIN_SOURCES} LIBRARIES ${PLUGIN_LIBRARIES} DATA "${data}")
+    endif()
+
     # A test of all that a host relies on.
     if(TARGET candela::conformance AND (CANDELA_CONFORMANCE_TESTS OR NOT DEFINED CANDELA_CONFORMANCE_TESTS))
+        if(is_sanitized_too)
+            candela_find_symbolizer(symbolizer)
+            add_test(NAME "${id} has no data races"
+                COMMAND candela_threads $<TARGET_FILE:${target}_threads> ${PLUGIN_CONFORMANCE_VALUES})
+            set_tests_properties("${id} has no data races" PROPERTIES
+                LABELS conformance TIMEOUT 900 ENVIRONMENT "${symbolizer}")
+        endif()
         list(TRANSFORM PLUGIN_CONFORMANCE_VALUES PREPEND --set=)
         add_test(NAME "${id} conforms"
             COMMAND candela::conformance $<TARGET_FILE:${target}> ${PLUGIN_CONFORMANCE_VALUES})

@@ -1,5 +1,8 @@
-// candela-manifest PLUGIN.so OUTPUT.json [--author=NAME] [--license=SPDX]: writes a plugin's manifest from
-// its own descriptor. Run by candela_add_plugin().
+// candela-manifest PLUGIN.so OUTPUT.json [--author=NAME] [--license=SPDX]
+//                  [--scalar-loops=warning|error --kernel=FILE OBJECT...]
+//
+// Writes a plugin's manifest from its own descriptor. Run by candela_add_plugin(). Beside the object files
+// lies what clang has noted of their loops; those that are scalar are said first, as warnings or errors.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -10,44 +13,92 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
+
+#include "loops.h"
 
 import candela.diagnostics;
 import candela.library;
 import candela.registry;
 
-int main(int argc, char** argv) {
-    std::string author, license;
-    const std::array<std::pair<std::string_view, std::string*>, 2> options{
-        {{"--author=", &author}, {"--license=", &license}}};
-    bool is_understood = argc >= 3;
-    for (int i = 3; i < argc; ++i) {
-        const std::string_view word = argv[i];
-        const auto option =
-            std::ranges::find_if(options, [&](const auto& o) { return word.starts_with(o.first); });
-        if (option == options.end())
-            is_understood = false;
-        else
-            *option->second = word.substr(option->first.size());
-    }
-    if (!is_understood) {
-        std::fputs("usage: candela-manifest PLUGIN.so OUTPUT.json [--author=NAME] [--license=SPDX]\n",
-                   stderr);
-        return 2;
-    }
-    try {
-        const candela::PluginDescriptor& descriptor = candela::load_plugin(argv[1], nullptr);
-        candela::Manifest manifest = candela::manifest_of(descriptor, candela::host_abi());
-        candela::require_name(author, "author");
-        candela::require_name(license, "license");
-        manifest.author = author;
-        manifest.license = license;
-        const std::string json = candela::to_json(manifest);
-        const std::filesystem::path beside = std::string(argv[2]) + ".new";
-        {
-            std::ofstream out(beside, std::ios::binary);
-            if (!(out << json) || !out.flush()) throw std::runtime_error("cannot write " + beside.string());
+namespace {
+
+struct Options {
+    std::string plugin, output, author, license, scalar_loops, kernel;
+    std::vector<std::filesystem::path> objects;
+
+    /// Returns whether the words are understood.
+    bool read(int argc, char** argv) {
+        if (argc < 3) return false;
+        plugin = argv[1];
+        output = argv[2];
+        const std::array<std::pair<std::string_view, std::string*>, 4> named{
+            {{"--author=", &author},
+             {"--license=", &license},
+             {"--scalar-loops=", &scalar_loops},
+             {"--kernel=", &kernel}}};
+        for (int i = 3; i < argc; ++i) {
+            const std::string_view word = argv[i];
+            const auto option =
+                std::ranges::find_if(named, [&](const auto& o) { return word.starts_with(o.first); });
+            if (option != named.end()) {
+                *option->second = word.substr(option->first.size());
+            } else if (word.starts_with("--")) {
+                return false;
+            } else {
+                objects.emplace_back(word);
+            }
         }
-        std::filesystem::rename(beside, argv[2]);
+        return scalar_loops.empty() || scalar_loops == "warning" || scalar_loops == "error";
+    }
+};
+
+/// Says which loops are scalar; returns whether that is an error.
+bool judge_loops(const Options& options) {
+    bool is_error = false;
+    for (std::filesystem::path record : options.objects) {
+        record.replace_extension(".opt.yaml");
+        for (const ScalarLoop& loop : scalar_loops(record, options.kernel)) {
+            std::fprintf(stderr,
+                         "%s: %s: this keeps the loop over points from being vectorized, so that the plugin "
+                         "is several times slower: %s\n",
+                         loop.place.c_str(), options.scalar_loops.c_str(), loop.why.c_str());
+            is_error = options.scalar_loops == "error";
+        }
+    }
+    return is_error;
+}
+
+void write_manifest(const Options& options) {
+    const candela::PluginDescriptor& descriptor = candela::load_plugin(options.plugin, nullptr);
+    candela::Manifest manifest = candela::manifest_of(descriptor, candela::host_abi());
+    candela::require_name(options.author, "author");
+    candela::require_name(options.license, "license");
+    manifest.author = options.author;
+    manifest.license = options.license;
+    const std::string json = candela::to_json(manifest);
+    const std::filesystem::path beside = options.output + ".new";
+    {
+        std::ofstream out(beside, std::ios::binary);
+        if (!(out << json) || !out.flush()) throw std::runtime_error("cannot write " + beside.string());
+    }
+    std::filesystem::rename(beside, options.output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        Options options;
+        if (!options.read(argc, argv)) {
+            std::fputs(
+                "usage: candela-manifest PLUGIN.so OUTPUT.json [--author=NAME] [--license=SPDX]\n"
+                "                        [--scalar-loops=warning|error --kernel=FILE OBJECT...]\n",
+                stderr);
+            return 2;
+        }
+        if (!options.scalar_loops.empty() && judge_loops(options)) return 1;
+        write_manifest(options);
         return 0;
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "candela-manifest: %s\n", problem.what());

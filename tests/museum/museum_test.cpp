@@ -275,3 +275,22 @@ TEST_CASE("a library under another name, or with a dependency that is missing, i
     CHECK(verdicts.messages("handshake").find("build it again") == std::string::npos);
     CHECK(verdicts.messages("handshake").find("Bad file descriptor") == std::string::npos);
 }
+
+#ifdef CANDELA_TEST_THREADS
+TEST_CASE("a data race that changes no result is found by ThreadSanitizer, where a plugin is built with it") {
+    const auto threads = [](const std::string& name) {
+        const fs::path library = fs::path(CANDELA_TEST_THREADS_MUSEUM) / (name + ".so");
+        return run_program({"env", CANDELA_TEST_SYMBOLIZER, CANDELA_TEST_THREADS, library.string()});
+    };
+    CHECK(judged(exhibit("reflection-counts-its-calls")).exit_code == 0);
+    const CommandResult racing = threads("reflection-counts-its-calls");
+    INFO(racing.out << racing.err);
+    CHECK(racing.exit_code != 0);
+    CHECK(racing.err.find("WARNING: ThreadSanitizer: data race") != std::string::npos);
+    CHECK(racing.err.find("reflection-counts-its-calls.cpp:9") != std::string::npos);
+    const CommandResult sound = threads("reflection-faultless");
+    INFO(sound.out << sound.err);
+    CHECK(sound.exit_code == 0);
+    CHECK(sound.err == "");
+}
+#endif

@@ -3,6 +3,7 @@
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <exception>
 
@@ -38,6 +39,14 @@ TEST_CASE("a plugin's test is told what is wrong with its settings, as a user wo
                ContainsSubstring("at least 0"));
     CHECK_THAT(message([] { candela::sdk::make<candela::Shape>(CANDELA_TEST_PLUGINS, "point"); }),
                ContainsSubstring("no shape plugin is called 'point'"));
+}
+
+TEST_CASE("a plugin's test gets what a reflection model reflects in a line") {
+    // Half the light falls in at 60 degrees.
+    const candela::sdk::Reflection parts =
+        candela::sdk::reflected(CANDELA_TEST_PLUGINS, "lambert", {{"ka", 0.25}, {"kd", 0.5}}, 0, 60);
+    CHECK_THAT(parts.diffuse.x, Catch::Matchers::WithinAbs(0.25, 1e-6));
+    CHECK(parts.specular == candela::Vec3{});
 }
 
 TEST_CASE("a plugin's test sees the triangles of a shape") {

@@ -82,6 +82,12 @@ inline Reflection reflected(const ReflectionModel& model, float observer, float 
     return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}, {out[6], out[7], out[8]}};
 }
 
+/// The same of the reflection model in `directory` that `settings` make; throws what make() throws.
+inline Reflection reflected(std::string_view directory, std::string_view name,
+                            std::initializer_list<Setting> settings, float observer, float light) {
+    return reflected(*make<ReflectionModel>(directory, name, settings), observer, light);
+}
+
 /// The triangles of a shape, in object space.
 class Triangles final : public MeshSink {
   public:

@@ -6,6 +6,6 @@
 using Catch::Matchers::WithinAbs;
 
 TEST_CASE("light from 60 degrees off the normal: half of kd is reflected") {
-    const auto model = candela::sdk::make<candela::ReflectionModel>(CANDELA_PLUGIN_DIR, "@NAME@", {{"kd", 0.8}});
-    CHECK_THAT(candela::sdk::reflected(*model, 0, 60).diffuse.x, WithinAbs(0.4, 1e-6));
+    const auto parts = candela::sdk::reflected(CANDELA_PLUGIN_DIR, "@NAME@", {{"kd", 0.8}}, 0, 60);
+    CHECK_THAT(parts.diffuse.x, WithinAbs(0.4, 1e-6));
 }

@@ -3,24 +3,13 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
-#include <initializer_list>
 
+using candela::sdk::reflected;
 using Catch::Matchers::WithinRel;
 
-namespace {
-
-/// Both angles in degrees from the normal.
-candela::sdk::Reflection reflected(std::initializer_list<candela::Setting> settings, float observer,
-                                   float light) {
-    const auto model =
-        candela::sdk::make<candela::ReflectionModel>(CANDELA_PLUGIN_DIR, "clear-coat", settings);
-    return candela::sdk::reflected(*model, observer, light);
-}
-
-}  // namespace
-
 TEST_CASE("seen and lit straight on, glass of 1.5 mirrors 4 % and lets 96 % through, twice") {
-    const candela::sdk::Reflection parts = reflected({{"kd", 0.5}, {"ior", 1.5}, {"roughness", 0.5}}, 0, 0);
+    const candela::sdk::Reflection parts =
+        reflected(CANDELA_PLUGIN_DIR, "clear-coat", {{"kd", 0.5}, {"ior", 1.5}, {"roughness", 0.5}}, 0, 0);
     CHECK_THAT(parts.diffuse.x, WithinRel(0.5 * 0.96 * 0.96, 1e-5));
     // F D G / 4, with D = 1 / alpha^2 and G = 1.
     CHECK_THAT(parts.specular.x, WithinRel(0.04 / 0.25 / 4, 1e-5));
@@ -28,6 +17,6 @@ TEST_CASE("seen and lit straight on, glass of 1.5 mirrors 4 % and lets 96 % thro
 
 TEST_CASE("at 60 degrees on both sides the ground gets what Schlick's formula lets through") {
     const double through = 1 - (0.04 + 0.96 * std::pow(0.5, 5));
-    CHECK_THAT(reflected({{"kd", 1.0}, {"ior", 1.5}}, 60, -60).diffuse.x,
+    CHECK_THAT(reflected(CANDELA_PLUGIN_DIR, "clear-coat", {{"kd", 1.0}, {"ior", 1.5}}, 60, -60).diffuse.x,
                WithinRel(0.5 * through * through, 1e-5));
 }

@@ -3,30 +3,19 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
-#include <initializer_list>
 
+using candela::sdk::reflected;
 using Catch::Matchers::WithinRel;
-
-namespace {
-
-/// Both angles in degrees from the normal.
-candela::sdk::Reflection reflected(std::initializer_list<candela::Setting> settings, float observer,
-                                   float light) {
-    const auto model = candela::sdk::make<candela::ReflectionModel>(CANDELA_PLUGIN_DIR, "sheen", settings);
-    return candela::sdk::reflected(*model, observer, light);
-}
-
-}  // namespace
 
 TEST_CASE(
     "roughness 1/2, seen straight on and lit from 60 degrees: pi D = 1/2, and a quarter of that, and half") {
     // The half-way vector is at 30 degrees: (2 + 2) sin^2 / 2 = 1/2; N.L + N.V - N.L N.V = 1.
-    CHECK_THAT(reflected({{"ks", 1.0}, {"roughness", 0.5}}, 0, 60).specular.x,
+    CHECK_THAT(reflected(CANDELA_PLUGIN_DIR, "sheen", {{"ks", 1.0}, {"roughness", 0.5}}, 0, 60).specular.x,
                WithinRel(0.5 * 0.25 * 0.5, 1e-4));
 }
 
 TEST_CASE("lit and seen straight on there is no sheen") {
-    CHECK(reflected({{"ks", 1.0}}, 0, 0).specular.x < 1e-6f);
+    CHECK(reflected(CANDELA_PLUGIN_DIR, "sheen", {{"ks", 1.0}}, 0, 0).specular.x < 1e-6f);
 }
 
 TEST_CASE("its fibres cover the surface: D cos, over the hemisphere, is 1") {
@@ -35,8 +24,9 @@ TEST_CASE("its fibres cover the surface: D cos, over the hemisphere, is 1") {
     for (int i = 0; i < 900; ++i) {
         const double degrees = (i + 0.5) / 10, theta = degrees * 0.017453292519943295;
         if (degrees >= 44.9) break;
-        const double at =
-            reflected({{"ks", 1.0}, {"roughness", 1.0}}, 0, static_cast<float>(2 * degrees)).specular.x;
+        const double at = reflected(CANDELA_PLUGIN_DIR, "sheen", {{"ks", 1.0}, {"roughness", 1.0}}, 0,
+                                    static_cast<float>(2 * degrees))
+                              .specular.x;
         covered +=
             at * 4 / std::cos(2 * theta) * std::cos(theta) * std::sin(theta) * 2 * 0.0017453292519943295;
     }

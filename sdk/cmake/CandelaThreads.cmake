@@ -1,0 +1,73 @@
+# Plugins under ThreadSanitizer: a second library of each, and a program that calls it from several threads at once.
+include_guard()
+
+set(CANDELA_THREADS_DIR ${CMAKE_CURRENT_LIST_DIR})
+
+# candela_find_thread_sanitizer(<variable>): whether the compiler makes programs with it.
+function(candela_find_thread_sanitizer result)
+    include(CheckCXXSourceCompiles)
+    set(CMAKE_REQUIRED_FLAGS -fsanitize=thread)
+    check_cxx_source_compiles("int main() { return 0; }" CANDELA_HAS_THREAD_SANITIZER)
+    set(${result} ${CANDELA_HAS_THREAD_SANITIZER} PARENT_SCOPE)
+endfunction()
+
+# candela_find_symbolizer(<variable>): what the environment needs so that reports name lines: a symbolizer for clang's runtime,
+# or leave to run addr2line, which is wherever programs are linked. g++'s runtime needs neither.
+function(candela_find_symbolizer result)
+    string(REGEX MATCH "^[0-9]+" version "${CMAKE_CXX_COMPILER_VERSION}")
+    cmake_path(GET CMAKE_CXX_COMPILER PARENT_PATH beside)
+    find_program(CANDELA_SYMBOLIZER NAMES llvm-symbolizer llvm-symbolizer-${version}
+        HINTS ${beside} /usr/lib/llvm-${version}/bin)
+    mark_as_advanced(CANDELA_SYMBOLIZER)
+    set(options TSAN_OPTIONS=allow_addr2line=1)
+    if(CANDELA_SYMBOLIZER)
+        set(options TSAN_OPTIONS=external_symbolizer_path=${CANDELA_SYMBOLIZER})
+    endif()
+    set(${result} ${options} PARENT_SCOPE)
+endfunction()
+
+# candela_add_thread_sanitized(<target> SOURCES <file>... LIBRARIES <target>... [DATA <dir>]): for a target of
+# candela_add_plugin(), the same plugin as <target>_threads, and the program candela_threads, which is given that library.
+function(candela_add_thread_sanitized target)
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "" "DATA" "SOURCES;LIBRARIES")
+    candela_find_thread_sanitizer(is_there)
+    if(NOT is_there)
+        message(FATAL_ERROR "CANDELA_SANITIZE is thread, but ${CMAKE_CXX_COMPILER} makes no programs with -fsanitize=thread "
+            "(of clang 19, Debian has what is missing in libclang-rt-19-dev)")
+    endif()
+    if(NOT TARGET candela_threads)
+        add_executable(candela_threads ${CANDELA_THREADS_DIR}/CandelaThreads.cpp)
+        target_compile_features(candela_threads PRIVATE cxx_std_20)
+        set_target_properties(candela_threads PROPERTIES CXX_STANDARD_REQUIRED ON CXX_SCAN_FOR_MODULES OFF)
+        target_compile_options(candela_threads PRIVATE -fsanitize=thread -g -O1)
+        target_link_options(candela_threads PRIVATE -fsanitize=thread)
+        target_link_libraries(candela_threads PRIVATE candela::sdk ${CMAKE_DL_LIBS})
+    endif()
+
+    set(sanitized ${target}_threads)
+    add_library(${sanitized} MODULE ${ARG_SOURCES})
+    target_compile_features(${sanitized} PRIVATE cxx_std_20)
+    get_target_property(file ${target} OUTPUT_NAME)
+    set_target_properties(${sanitized} PROPERTIES
+        PREFIX "" OUTPUT_NAME ${file} SUFFIX .so LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/threads
+        CXX_STANDARD_REQUIRED ON CXX_SCAN_FOR_MODULES OFF
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
+    target_compile_definitions(${sanitized} PRIVATE $<TARGET_PROPERTY:${target},COMPILE_DEFINITIONS>)
+    target_include_directories(${sanitized} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
+    target_compile_options(${sanitized} PRIVATE -fsanitize=thread -g -O1
+        # Instrumented loops are not vectorised, and clang would say so of each.
+        $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>)
+    target_link_options(${sanitized} PRIVATE -fsanitize=thread
+        -Wl,--version-script=${CANDELA_THREADS_DIR}/plugin.map)
+    target_link_libraries(${sanitized} PRIVATE candela::sdk ${ARG_LIBRARIES})
+    add_dependencies(${sanitized} ${target} candela_threads)
+    set(folder $<TARGET_FILE_DIR:${sanitized}>)
+    set(data)
+    if(ARG_DATA)
+        set(data COMMAND ${CMAKE_COMMAND} -E copy_directory ${ARG_DATA} ${folder}/${file})
+    endif()
+    # The manifest says of it what it says of the plugin.
+    add_custom_command(TARGET ${sanitized} POST_BUILD
+        COMMAND ${CMAKE_COMMAND} -E copy $<TARGET_FILE_DIR:${target}>/${file}.json ${folder} ${data}
+        VERBATIM)
+endfunction()
