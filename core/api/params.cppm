@@ -1,6 +1,5 @@
 module;
 
-#include "candela/number_list.h"
 #include "candela/params.h"
 
 export module candela.params;

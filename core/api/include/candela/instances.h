@@ -12,7 +12,6 @@
 #include "candela/api.h"
 #include "candela/descriptor.h"
 #include "candela/math.h"
-#include "candela/number_list.h"
 
 namespace candela {
 
