@@ -21,9 +21,10 @@ with tempfile.TemporaryDirectory() as folder:
         browser.resize(1400, 900)
         browser.open(server.stdout.readline().strip())
         browser.enter("#reference-mode", "wipe")
+        time.sleep(20)  # until both pictures are at rest
         text = file.read_text()
         file.write_text(text.replace("intensity", "intensty", 1))
-        time.sleep(20)  # until the picture is at rest
+        time.sleep(20)
         browser.driver.save_screenshot(picture)
     finally:
         browser.close()

@@ -196,6 +196,13 @@ class Viewing(unittest.TestCase):
         shown = bytes(value for i, value in enumerate(shown) if i % 4 < 3)
         self.assertEqual(shown, bytes(reference.pixels))
         self.assertIn("inset(", self.browser.run("return document.getElementById('reference-canvas').style.clipPath"))
+        # Messages take room from the picture; the two stay where they were to one another.
+        self.changed("[[light]]", "[[lihgt]]")
+        self.problems()
+        self.wait_for("""(() => {
+            const [a, b] = ["picture-canvas", "reference-canvas"].map((id) => document.getElementById(id).getBoundingClientRect());
+            return ["left", "top", "width", "height"].every((side) => Math.abs(a[side] - b[side]) < 1);
+        })()""")
 
     def save_changes(self):
         self.browser.one("#save-scene").click()

@@ -36,7 +36,10 @@ export class Reference {
         document.getElementById("reference").hidden = false;
         this.mode.addEventListener("change", () => this.invalidate());
         this.share.addEventListener("input", () => this.place());
-        new ResizeObserver(() => this.place()).observe(canvas);
+        // The canvas moves without another size, too, when there is less room around it.
+        const observer = new ResizeObserver(() => this.place());
+        observer.observe(canvas);
+        observer.observe(this.overlay.parentElement);
         settings.listeners.push(() => this.invalidate());
     }
 
