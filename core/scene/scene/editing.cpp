@@ -10,6 +10,7 @@ module;
 #include <string>
 #include <system_error>
 #include <utility>
+#include <variant>
 #include <vector>
 
 module candela.scene;
@@ -54,9 +55,9 @@ class Editor {
         std::map<fs::path, std::string> result;
         for (const auto& [where, entries] : additions_) {
             const auto& [file, holder] = where;
-            edits_[file].push_back(insertion(text_of(file),
-                                             holder != nullptr ? *holder->table() : document_.root,
-                                             holder != nullptr ? &holder->place : nullptr, entries));
+            edits_[file].push_back(insertion(
+                text_of(file), holder != nullptr ? std::get<TableNode>(holder->value) : document_.root,
+                holder != nullptr ? &holder->place : nullptr, entries));
         }
         for (const auto& [name, entries] : new_tables_) {
             const std::string& file = document_.place.file;

@@ -41,8 +41,7 @@ template <class Params, auto normal, ShadingNeeds needs>
 struct NormalLoop {
     CANDELA_BATCH_LOOP static void run(Params params, ShadingPointBatch points, Vec3Span normals) {
         const std::size_t count = points.count;
-        TriangleBatch corners;
-        if constexpr (needs.triangle) corners = *points.triangle;
+        const TriangleBatch corners = needs.triangle ? *points.triangle : TriangleBatch{};
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             kernel::ShadingPoint p;
