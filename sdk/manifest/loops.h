@@ -11,7 +11,9 @@ struct ScalarLoop {
     std::string why;    // as the compiler says it
 };
 
-/// Places and causes, each once, of the batch loops (candela/multiversion.h) of an object file that are scalar;
-/// empty where there are none. `record`: what clang has noted of the file's loops (-fsave-optimization-record,
-/// pass loop-vectorize). Places in `kernel` are told, and others only where there are none.
-std::vector<ScalarLoop> scalar_loops(const std::filesystem::path& record, const std::filesystem::path& kernel);
+/// Places and causes, each once, of the batch loops (candela/multiversion.h) of an object file that are
+/// scalar; empty where there are none. `record`: what clang has noted of the file's loops
+/// (-fsave-optimization-record, pass loop-vectorize). Places in `kernel` are told, and others only where
+/// there are none.
+std::vector<ScalarLoop> scalar_loops(const std::filesystem::path& record,
+                                     const std::filesystem::path& kernel);

@@ -2,9 +2,9 @@ module;
 
 #include <fmt/format.h>
 
+#include <array>
 #include <boost/dll/runtime_symbol_info.hpp>
 #include <boost/dll/shared_library.hpp>
-#include <array>
 #include <exception>
 #include <filesystem>
 #include <map>
