@@ -80,4 +80,24 @@ done
 quiet candela generate --target cpp --plugin-dir build/plugins --set light.lamp.type=ies --set 'light.lamp.direction=[0,-1,-1]' \
     --set light.lamp.file="$scratch/lamp/downlight.ies" -o "$scratch/program"
 ! grep -rq downlight "$scratch/program" || fail "the generated program speaks of the file"
+say "what a shading model reads of its triangle is explained"
+quiet candela explain --shading pn-normals --plugin-dir build/plugins --pixel 256,300
+grep -q "pn_normals_of_edge" "$scratch/log" || { cat "$scratch/log" >&2; fail "the kernel's steps are not explained"; }
+
+say "a model that sees its triangle may be lit per face, but not per vertex, which belongs to several triangles"
+mkdir facets
+for file in pn-normals/*; do
+    sed 's/pn-normals/facets/g; s/pn_normals/facets/g; s/facets, fragment,/facets, face,/' "$file" >"facets/$(basename "${file/%pn-normals*/facets${file##*pn-normals}}")"
+done
+quiet "$cmake" -G Ninja -S facets -B facets/build -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$prefix"
+quiet "$cmake" --build facets/build
+quiet candela plugin test facets/build/shading-facets.so
+for target in cpp opengl webgl; do
+    quiet candela verify --target $target --plugin-dir facets/build --shading facets --width 160 --height 120
+    grep -q match "$scratch/log" || { cat "$scratch/log" >&2; fail "$target was not verified with a model that sees its triangle"; }
+done
+grep -q 'facets, face,' facets/facets.cpp || fail "it is lit otherwise"
+sed -i 's/facets, face,/facets, vertex,/' facets/facets.cpp
+! "$cmake" --build facets/build >"$scratch/log" 2>&1 || fail "a model that is lit per vertex takes a Triangle"
+grep -q "a vertex belongs to several" "$scratch/log" || { cat "$scratch/log" >&2; fail "it is not said why"; }
 say "all well"
