@@ -102,7 +102,12 @@ function(candela_add_plugin id)
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS "${PLUGIN_EMBED}")
     endif()
     target_link_libraries(${target} PRIVATE candela::sdk candela_batch_flags ${PLUGIN_LIBRARIES})
-    if(NOT CANDELA_IS_SANITIZED)
+    # With "thread", the plugin itself is as always, and a second library of it is watched.
+    set(is_instrumented ${CANDELA_IS_SANITIZED})
+    if(CANDELA_SANITIZE AND NOT CANDELA_SANITIZE STREQUAL "thread")
+        set(is_instrumented ON)
+    endif()
+    if(NOT is_instrumented)
         if(NOT CANDELA_IS_HARDENED)
             target_compile_options(${target} PRIVATE ${CANDELA_HARDENING_COMPILE_OPTIONS})
             target_link_options(${target} PRIVATE ${CANDELA_HARDENING_LINK_OPTIONS})
@@ -114,7 +119,7 @@ function(candela_add_plugin id)
     endif()
     # Only candela_* leaves the library: what two plugins both define could otherwise clash.
     target_link_options(${target} PRIVATE -Wl,--version-script=${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
-    if(NOT CANDELA_IS_SANITIZED)
+    if(NOT is_instrumented)
         # A missing symbol fails here, not when somebody loads the plugin. (Sanitizer runtimes live in the host.)
         target_link_options(${target} PRIVATE -Wl,-z,defs)
     endif()
@@ -122,20 +127,20 @@ function(candela_add_plugin id)
     # Why a kernel's loop is scalar, clang knows where in the kernel, but says of the SDK's header. So it is told to note it
     # down, and the manifest's writer reads that.
     set(loops)
-    if(PLUGIN_KERNEL AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT CANDELA_IS_SANITIZED)
+    if(PLUGIN_KERNEL AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT is_instrumented)
         target_compile_options(${target} PRIVATE
             "$<$<NOT:$<CONFIG:Debug>>:-Wno-pass-failed;-fsave-optimization-record;-foptimization-record-passes=loop-vectorize>")
         set(verdict warning)
         if(CANDELA_WERROR OR CMAKE_COMPILE_WARNING_AS_ERROR OR CMAKE_CXX_FLAGS MATCHES "-Werror( |$)")
             set(verdict error)
         endif()
-        set(loops --scalar-loops=${verdict} --kernel=${kernel} $<TARGET_OBJECTS:${target}>)
+        set(loops $<$<NOT:$<CONFIG:Debug>>:--scalar-loops=${verdict};--kernel=${kernel};$<TARGET_OBJECTS:${target}>>)
     endif()
 
     # The manifest, from the plugin's own descriptor.
     add_custom_command(TARGET ${target} POST_BUILD
         COMMAND candela::manifest $<TARGET_FILE:${target}> $<TARGET_FILE_DIR:${target}>/${file}.json
-            "--author=${PLUGIN_AUTHOR}" "--license=${PLUGIN_LICENSE}" ${loops}
+            "--author=${PLUGIN_AUTHOR}" "--license=${PLUGIN_LICENSE}" "${loops}"
         VERBATIM COMMAND_EXPAND_LISTS)
     set_target_properties(${target} PROPERTIES CANDELA_MANIFEST ${file}.json)
 
@@ -159,9 +164,14 @@ function(candela_add_plugin id)
     endif()
 
     set(is_sanitized_too OFF)
-    if(CANDELA_SANITIZE STREQUAL "thread" AND NOT CANDELA_IS_SANITIZED AND NOT kind STREQUAL "target")
-        set(is_sanitized_too ON)
-        candela_add_thread_sanitized(${target} SOURCES ${PLUGIN_SOURCES} LIBRARIES ${PLUGIN_LIBRARIES} DATA "${data}")
+    if(CANDELA_SANITIZE STREQUAL "thread" AND NOT is_instrumented AND NOT kind STREQUAL "target")
+        if(data)
+            list(PREPEND data DATA)
+        endif()
+        candela_add_thread_sanitized(${target} SOURCES ${PLUGIN_SOURCES} LIBRARIES ${PLUGIN_LIBRARIES} ${data})
+        if(TARGET ${target}_threads)
+            set(is_sanitized_too ON)
+        endif()
     endif()
 
     # A test of all that a host relies on.

@@ -58,6 +58,10 @@ bool judge_loops(const Options& options) {
     bool is_error = false;
     for (std::filesystem::path record : options.objects) {
         record.replace_extension(".opt.yaml");
+        if (!std::filesystem::exists(record)) {
+            std::fprintf(stderr, "%s is not there: whether loops over points are vectorized is not known\n",
+                         record.c_str());
+        }
         for (const ScalarLoop& loop : scalar_loops(record, options.kernel)) {
             std::fprintf(stderr,
                          "%s: %s: this keeps the loop over points from being vectorized, so that the plugin "

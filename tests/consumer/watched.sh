@@ -50,10 +50,20 @@ for compiler in "$cxx" g++; do
     expect "reflection/cel conforms"
     ! nm -D "$scratch/watched/build/reflection-cel.so" | grep -q __tsan || fail "the plugin itself is instrumented"
 done
+say "where a compiler has no ThreadSanitizer, that is said, and the plugin is built"
+printf '#!/bin/sh\nfor word; do [ "$word" != -fsanitize=thread ] || exit 1; done\nexec %s "$@"\n' "$cxx" >"$scratch/without"
+chmod +x "$scratch/without"
+rm -rf "$scratch/watched/build"
+"$cmake" -G Ninja -S "$scratch/watched" -B "$scratch/watched/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/prefix" \
+    -DCMAKE_CXX_COMPILER="$scratch/without" -DCANDELA_SANITIZE=thread >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "it is refused"; }
+expect "data races are"
+"$cmake" --build "$scratch/watched/build" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "it is not built"; }
+rm -rf "$scratch/watched/build"
+
 say "a function of its kernel that writes to a variable of all threads is found, with its line"
 sed -i 's|^    float bands = .*|    static int cel_calls = 0;\n    cel_calls += 1;\n&|' "$scratch/watched/cel.kernel"
 line=$(grep -n "+= 1" "$scratch/watched/cel.kernel" | cut -d: -f1)
-make "$scratch/watched" -DCANDELA_SANITIZE=thread || { cat "$scratch/log" >&2; fail "it is not built"; }
+make "$scratch/watched" -DCMAKE_CXX_COMPILER="$cxx" -DCANDELA_SANITIZE=thread || { cat "$scratch/log" >&2; fail "it is not built"; }
 ! "$(dirname "$cmake")/ctest" --test-dir "$scratch/watched/build" -R "data races" --output-on-failure >"$scratch/log" 2>&1 ||
     { cat "$scratch/log" >&2; fail "the race is not found"; }
 expect "data race"
