@@ -9,7 +9,6 @@
 #include "compiling.h"
 #include "exit_code.h"
 #include "reporting.h"
-#include "terminal.h"
 #include "verbs.h"
 
 import candela.files;

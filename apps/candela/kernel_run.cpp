@@ -159,8 +159,7 @@ void KernelRun::read(const std::string& printed) {
     std::size_t call = 0;
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
-        words.exceptions(
-            std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+        words.exceptions(std::ios::badbit);  // likewise
         std::string kind;
         std::size_t number = 0;
         words >> kind >> number;

@@ -6,10 +6,8 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numbers>
-#include <optional>
-
-#include "diagnostics_text.h"
 
 import candela.diagnostics;
 import candela.math;

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "candela/target/literals.h"
+
 import candela.text;
 
 namespace {
@@ -21,18 +23,7 @@ constexpr std::array<std::string_view, 6> k_colors = {"#0072b2", "#d55e00", "#00
                                                       "#cc79a7", "#e69f00", "#56b4e9"};
 constexpr std::array<std::string_view, 6> k_dashes = {"none", "9 4", "2 4", "12 4 2 4", "5 5", "1 3"};
 
-std::string escaped(const std::string& text, std::string_view special) {
-    std::string result;
-    for (const char c : candela::printable(text)) {
-        if (special.find(c) != std::string_view::npos)
-            result += c == '"' ? "&quot;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : "&amp;";
-        else
-            result += c;
-    }
-    return result;
-}
-
-std::string in_xml(const std::string& text) { return escaped(text, "<>&\""); }
+std::string in_xml(const std::string& text) { return candela::target::html_text(candela::printable(text)); }
 
 /// As RFC 4180 has it.
 std::string in_csv(const std::string& text) {

@@ -7,6 +7,7 @@ module;
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -143,11 +144,10 @@ std::vector<Setting> last_ones(const std::vector<Setting>& changes, const Merged
             parts[1] = std::to_string(*index_of(*entry->node.array(), parts[1]));
         last[std::move(parts)] = i;
     }
+    std::set<std::size_t> in_order;
+    for (const auto& [path, index] : last) in_order.insert(index);
     std::vector<Setting> result;
-    for (std::size_t i = 0; i < changes.size(); ++i) {
-        for (const auto& [path, index] : last)
-            if (index == i) result.push_back(changes[i]);
-    }
+    for (const std::size_t index : in_order) result.push_back(changes[index]);
     return result;
 }
 
