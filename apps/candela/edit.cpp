@@ -51,12 +51,11 @@ int run_edit(const std::vector<std::string>& arguments) {
     }
     report(diagnostics);
     if (diagnostics.has_errors()) return static_cast<int>(exit_code_of(diagnostics));
+    std::string lines;
+    for (const auto& [file, text] : texts)
+        lines += fmt::format("{}: changed\n", file.lexically_proximate(fs::current_path()).string());
+    if (texts.empty()) lines = "Nothing is changed: the files say this already.\n";
     for (const auto& [file, text] : texts) candela::write_text_file(file, text);
-    say_afterwards([&] {
-        std::string lines;
-        for (const auto& [file, text] : texts)
-            lines += fmt::format("{}: changed\n", file.lexically_proximate(fs::current_path()).string());
-        return lines.empty() ? "Nothing is changed: the files say this already.\n" : lines;
-    });
+    say_afterwards([&] { return lines; });
     return 0;
 }

@@ -1,6 +1,5 @@
 // candela render: a scene becomes a picture.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <optional>
@@ -68,10 +67,7 @@ int run_render(const std::vector<std::string>& arguments) {
 
     const Stopwatch total;
     const auto output = line.get<std::string>("output");
-    if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
-        throw Error(ErrorCategory::bad_request,
-                    "-o - would print a PNG on this terminal; send it to a file or a pipe");
-    }
+    require_no_terminal(output);
     const auto existing = line.has("no-clobber") ? candela::Existing::kept : candela::Existing::replaced;
     if (existing == candela::Existing::kept) require_no_file(output);
     const int threads = threads_from(line);

@@ -75,6 +75,7 @@ CASES = [
     Case("check", ["check", "scene.toml"]),
     Case("check --json", ["check", "--json", "scene.toml"]),
     Case("new", ["new", "out/new.toml"], "out/new.toml"),
+    Case("compare", ["compare", "scene.toml", "--reflection", "phong,lambert", "-o", "out/sheet.png"], "out/sheet.png"),
     Case("edit", ["edit", "out/scene.toml", "--change", "image.width=41"], "out/scene.toml",
          old=SCENE.replace('include = ["more.toml"]\n', "").encode()),
     Case("generate", ["generate", "scene.toml", "--target", "cpp", "-o", "out/program"], "out/program"),

@@ -66,6 +66,10 @@ CANDELA_API std::optional<std::string> read_text_file(const std::filesystem::pat
 CANDELA_API std::optional<std::vector<std::string>> names_in(const std::filesystem::path& folder,
                                                              std::size_t most = std::string::npos);
 
+/// The path without links and dots, whether or not anything is there; the path as it is where that cannot be
+/// found out. Without memory it throws std::bad_alloc, where std::filesystem only reports an error.
+CANDELA_API std::filesystem::path canonical_path(const std::filesystem::path& path);
+
 /// Writes a text through an OutputFile.
 CANDELA_API void write_text_file(const std::filesystem::path& path, std::string_view text,
                                  Existing existing = Existing::replaced);

@@ -6,14 +6,23 @@ module;
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 module candela.files;
 
 namespace candela {
+
+std::filesystem::path canonical_path(const std::filesystem::path& path) {
+    std::error_code problem;
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, problem);
+    if (problem == std::errc::not_enough_memory) throw std::bad_alloc();
+    return problem ? path : canonical;
+}
 
 std::optional<std::vector<std::string>> names_in(const std::filesystem::path& folder, std::size_t most) {
     constexpr auto k_close = [](DIR* directory) { ::closedir(directory); };

@@ -169,9 +169,11 @@ void OutputFile::put_in_place() {
     if (is_there && ::fchmod(descriptor_, before.st_mode & 07777) != 0) {
         fail(shown_, "cannot be given its rights");
     }
+    // Once the file is in its place, nothing may fail for want of memory.
+    const fs::path folder = directory_of(target_);
     sync();
     replace(is_there);
-    if (!is_folder_synced(directory_of(target_))) fail(shown_, "is written, but its folder cannot be synced");
+    if (!is_folder_synced(folder)) fail(shown_, "is written, but its folder cannot be synced");
 }
 
 void OutputFile::replace(bool is_there) {

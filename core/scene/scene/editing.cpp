@@ -9,7 +9,6 @@ module;
 #include <optional>
 #include <set>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -67,9 +66,7 @@ class Editor {
         for (const auto& [file, edits] : edits_) {
             std::string text = edited(text_of(file), edits);
             if (text == text_of(file)) continue;
-            std::error_code problem;
-            const fs::path canonical = fs::weakly_canonical(file, problem);
-            result[problem ? fs::path(file) : canonical] = std::move(text);
+            result[canonical_path(file)] = std::move(text);
         }
         return result;
     }

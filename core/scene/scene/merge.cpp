@@ -22,6 +22,7 @@ module candela.scene;
 import :merge;
 import :schema;
 import candela.diagnostics;
+import candela.files;
 import candela.text;
 import candela.toml;
 
@@ -73,9 +74,8 @@ class Gatherer {
 
     void add_file(const fs::path& file, const SourcePlace* included_at) {
         const std::string shown = file.string();
+        const fs::path canonical = canonical_path(file);
         std::error_code problem;
-        fs::path canonical = fs::weakly_canonical(file, problem);
-        if (problem) canonical = file;
         if (const auto seen = files_.find(canonical); seen != files_.end()) {
             const SourcePlace place = included_at != nullptr ? *included_at : SourcePlace{shown, 0, 0, 0};
             diagnostics_.error(
@@ -348,7 +348,7 @@ fs::path home_of(const SceneRequest& request) {
     std::error_code problem;
     const bool has_file = !request.files.empty() && !request.streams.contains(request.files.front());
     const fs::path folder = has_file ? request.files.front().parent_path() : fs::path();
-    return fs::weakly_canonical(folder.empty() ? fs::current_path(problem) : folder, problem);
+    return canonical_path(folder.empty() ? fs::current_path(problem) : folder);
 }
 
 }  // namespace
