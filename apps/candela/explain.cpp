@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ import candela.render;
 import candela.text;
 
 namespace po = boost::program_options;
+namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
 
@@ -51,7 +53,9 @@ int run_explain(const std::vector<std::string>& arguments) {
     line.options()("pixel", po::value<std::string>()->value_name("X,Y"),
                    "the pixel, counted from the top left one, 0,0");
     add_scene_options(line);
-    line.options()("json", "print the explanation as JSON");
+    line.options()("json", "print the explanation as JSON")(
+        "keep", po::value<std::string>()->value_name("FOLDER"),
+        "keep the compiled kernels there, for the next pixels");
     if (!line.parse(arguments)) return 0;
     if (!line.has("pixel"))
         throw Error(ErrorCategory::bad_request, "candela explain needs a pixel: --pixel X,Y");
@@ -74,7 +78,12 @@ int run_explain(const std::vector<std::string>& arguments) {
                     fmt::format("--pixel is {}; the picture's pixels are 0,0 to {},{}", written,
                                 image.width - 1, image.height - 1));
     }
-    const Explanation explanation(draft->scene, *compiled, registry, pixel->x, pixel->y);
+    const fs::path kept = line.has("keep") ? line.get<std::string>("keep") : "";
+    if (!kept.empty() && !fs::is_directory(kept)) {
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' is no folder, in which compiled kernels could be kept", kept.string()));
+    }
+    const Explanation explanation(draft->scene, *compiled, registry, pixel->x, pixel->y, kept);
     if (line.has("json")) {
         std::cout << candela::printable_json(explanation_json(explanation)) << '\n';
     } else {

@@ -22,31 +22,29 @@ using candela::Vec3;
 
 namespace {
 
-std::string receiver_text(const PointTrace& point) {
-    return fmt::format("Receiver({}, {})", kernel_vector_text(point.position),
-                       kernel_vector_text(point.normal));
+std::string receiver_text(KernelNumbers& numbers, const PointTrace& point) {
+    return fmt::format("Receiver({}, {})", numbers.text(point.position), numbers.text(point.normal));
 }
 
-std::string surface_text(const PointTrace& point, candela::Rgb color) {
-    return fmt::format("Surface({}, {}, {}, {}, {}, vec2({}, {}))", kernel_vector_text(point.normal),
-                       kernel_vector_text(point.to_observer), kernel_vector_text(point.tangent),
-                       kernel_vector_text({color.r, color.g, color.b}), kernel_vector_text(point.position),
-                       kernel_number(point.u), kernel_number(point.v));
+std::string surface_text(KernelNumbers& numbers, const PointTrace& point, candela::Rgb color) {
+    return fmt::format("Surface({}, {}, {}, {}, {}, vec2({}, {}))", numbers.text(point.normal),
+                       numbers.text(point.to_observer), numbers.text(point.tangent),
+                       numbers.text(Vec3{color.r, color.g, color.b}), numbers.text(point.position),
+                       numbers.text(point.u), numbers.text(point.v));
 }
 
-std::string shading_point_text(const PointTrace& point) {
-    return fmt::format("ShadingPoint({}, {}, {}, vec2({}, {}), {}, {})",
-                       kernel_vector_text(point.face_normal), kernel_vector_text(point.vertex_normal),
-                       kernel_vector_text(point.barycentric), kernel_number(point.u), kernel_number(point.v),
-                       kernel_vector_text(point.dpdu), kernel_vector_text(point.dpdv));
+std::string shading_point_text(KernelNumbers& numbers, const PointTrace& point) {
+    return fmt::format("ShadingPoint({}, {}, {}, vec2({}, {}), {}, {})", numbers.text(point.face_normal),
+                       numbers.text(point.vertex_normal), numbers.text(point.barycentric),
+                       numbers.text(point.u), numbers.text(point.v), numbers.text(point.dpdu),
+                       numbers.text(point.dpdv));
 }
 
-std::string triangle_text(const PointTrace& point) {
+std::string triangle_text(KernelNumbers& numbers, const PointTrace& point) {
     const auto& p = point.corner_position;
     const auto& n = point.corner_normal;
-    return fmt::format("Triangle({}, {}, {}, {}, {}, {})", kernel_vector_text(p[0]), kernel_vector_text(p[1]),
-                       kernel_vector_text(p[2]), kernel_vector_text(n[0]), kernel_vector_text(n[1]),
-                       kernel_vector_text(n[2]));
+    return fmt::format("Triangle({}, {}, {}, {}, {}, {})", numbers.text(p[0]), numbers.text(p[1]),
+                       numbers.text(p[2]), numbers.text(n[0]), numbers.text(n[1]), numbers.text(n[2]));
 }
 
 /// The values that an instance has been made with, and the tables that it has made of them.
@@ -60,14 +58,14 @@ std::vector<ParamValue> values_of(const PluginDescriptor& plugin, const candela:
 }  // namespace
 
 Explanation::Explanation(const Scene& of_scene, const CompiledScene& of_compiled, candela::Registry& registry,
-                         int at_x, int at_y)
+                         int at_x, int at_y, const std::filesystem::path& kept)
     : x(at_x),
       y(at_y),
       scene(of_scene),
       compiled(of_compiled),
       pixel(candela::probe(of_compiled, at_x, at_y)) {
     for (const FragmentProbe& fragment : pixel.fragments) add_calls(fragment, registry);
-    run_.emplace(calls_);
+    run_.emplace(calls_, numbers_, kept);
 }
 
 std::size_t Explanation::add(KernelCall call) {
@@ -90,9 +88,11 @@ void Explanation::add_calls(const FragmentProbe& fragment, candela::Registry& re
              add({.plugin = shading,
                   .values = values_of(*shading, object.shading.parameters, encoding, *models.shading),
                   .function = "normal",
-                  .arguments = shading_point_text(point) +
-                               (models.shading->needs().triangle ? ", " + triangle_text(point) : "")})});
-        const std::string surface = surface_text(point, compiled.objects[fragment.object].surface.color);
+                  .arguments =
+                      shading_point_text(numbers_, point) +
+                      (models.shading->needs().triangle ? ", " + triangle_text(numbers_, point) : "")})});
+        const std::string surface =
+            surface_text(numbers_, point, compiled.objects[fragment.object].surface.color);
         for (const LightTrace& light : point.lights) {
             const candela::Model& model = scene.lights[light.light].model;
             const PluginDescriptor* const light_plugin = descriptor(PluginKind::light, model.name);
@@ -101,15 +101,14 @@ void Explanation::add_calls(const FragmentProbe& fragment, candela::Registry& re
                                                 .values = values_of(*light_plugin, model.parameters, encoding,
                                                                     *compiled.lights[light.light].light),
                                                 .function = is_ambient ? "illuminate_ambient" : "illuminate",
-                                                .arguments = receiver_text(point),
+                                                .arguments = receiver_text(numbers_, point),
                                                 .sample = light.sample});
             const std::size_t reflect = add(
                 {.plugin = reflection,
                  .values = values_of(*reflection, object.reflection.parameters, encoding, *models.reflection),
                  .function = is_ambient ? "reflect_ambient" : "reflect",
-                 .arguments = is_ambient
-                                  ? surface
-                                  : fmt::format("{}, {}", surface, kernel_vector_text(light.to_light))});
+                 .arguments =
+                     is_ambient ? surface : fmt::format("{}, {}", surface, numbers_.text(light.to_light))});
             lights_.push_back({&light, illuminate, reflect});
         }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,10 +16,10 @@ import candela.shade;
 
 class Explanation {
   public:
-    /// Probes pixel (x, y) of a compiled scene, and runs the kernels of what is seen there. All must live as
-    /// long as this.
+    /// Probes pixel (x, y) of a compiled scene, and runs the kernels of what is seen there; their programs
+    /// are kept in the folder `kept`, if one is given. All must live as long as this.
     Explanation(const candela::Scene& scene, const candela::CompiledScene& compiled,
-                candela::Registry& registry, int x, int y);
+                candela::Registry& registry, int x, int y, const std::filesystem::path& kept = {});
 
     int x = 0, y = 0;
     const candela::Scene& scene;
@@ -49,6 +50,7 @@ class Explanation {
         const candela::PointTrace* trace;
         std::size_t normal;
     };
+    KernelNumbers numbers_;
     std::vector<KernelCall> calls_;
     std::vector<CallOfPoint> points_;
     std::vector<CallsOfLight> lights_;

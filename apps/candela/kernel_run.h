@@ -1,6 +1,7 @@
 // Kernels, compiled here and called once at some point, with all their values.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,20 @@ struct KernelValue {
     std::vector<double> numbers{};
 };
 
+/// The numbers that kernels are called with: the program reads them, so that it is the same program for other
+/// numbers.
+class KernelNumbers {
+  public:
+    /// C++ that reads the number, or the three.
+    std::string text(float number);
+    std::string text(candela::Vec3 v);
+
+    const std::vector<float>& all() const { return all_; }
+
+  private:
+    std::vector<float> all_;
+};
+
 /// One call of a kernel function.
 struct KernelCall {
     const candela::PluginDescriptor* plugin = nullptr;
@@ -27,25 +42,26 @@ struct KernelCall {
     int sample = -1;                            // a light's; given to those that take it
 };
 
-/// "vec3(0.100000001f, …)": numbers as the kernel language writes them, to the last bit.
-std::string kernel_number(float number);
-std::string kernel_vector_text(candela::Vec3 v);
-
 class KernelRun {
   public:
     /// Whether a plugin's text has this function.
     static bool has(const candela::PluginDescriptor& plugin, const std::string& function);
 
-    /// Compiles the kernels of all calls, with a compiler of this machine, and runs them. Where that is not
-    /// possible, why_not() says so, and there are no values.
-    explicit KernelRun(const std::vector<KernelCall>& calls);
+    /// Compiles the kernels of all calls, with a compiler of this machine, and runs them with `numbers`,
+    /// which gets those of the parameters, too. Where that is not possible, why_not() says so, and there are
+    /// no values. Programs are kept in `kept`, and those that are there are not compiled again; empty: none
+    /// is kept.
+    KernelRun(const std::vector<KernelCall>& calls, KernelNumbers& numbers,
+              const std::filesystem::path& kept);
 
     const std::string& why_not() const { return why_not_; }
     /// What the call's function computes, in order; empty where there is no such text.
     const std::vector<KernelValue>& values(std::size_t call) const { return values_[call]; }
 
   private:
-    std::string source(const std::vector<KernelCall>& calls);
+    std::string source(const std::vector<KernelCall>& calls, KernelNumbers& numbers);
+    /// The compiled program in `folder`; nothing, and why_not() says why, where it cannot be compiled.
+    bool compile(const std::filesystem::path& compiler, const std::filesystem::path& folder);
     void read(const std::string& printed);
 
     TracedKernels kernels_;

@@ -92,21 +92,26 @@ int run_view(const std::vector<std::string>& arguments) {
     std::vector<std::string> for_generate = without({"--no-open"}, {"--port", "--target"}, arguments);
     if (!line.has("models")) for_generate.insert(for_generate.end(), {"--models", "all"});
     const TemporaryFolder pictures(fs::temp_directory_path(), "candela-view-");
+    const TemporaryFolder kernels(fs::temp_directory_path(), "candela-view-");  // that explain has compiled
     const auto for_render = without({"--no-open", "--quiet"}, {"--port", "--target", "--models"}, arguments);
+    auto for_explain = for_render;
+    for_explain.push_back(fmt::format("--keep={}", kernels.path().string()));
     std::optional<view::Server> server(
         std::in_place, port_from(line),
-        view::Server::Handlers{.log = [](const std::string& text) { warn(text); },
-                               .render =
-                                   [&](const std::vector<view::Change>& changes) {
-                                       return rendered(for_render, changes,
-                                                       pictures.path() / "reference.png");
-                                   },
-                               .save =
-                                   [&](const std::vector<view::Change>& changes) {
-                                       const view::Outcome outcome = saved(for_render, changes);
-                                       if (!outcome.is_success) warn("not saved: " + outcome.content);
-                                       return outcome;
-                                   }});
+        view::Server::Handlers{
+            .log = [](const std::string& text) { warn(text); },
+            .render =
+                [&](const std::vector<view::Change>& changes) {
+                    return rendered(for_render, changes, pictures.path() / "reference.png");
+                },
+            .explain =
+                [&](const std::vector<view::Change>& changes) { return explained(for_explain, changes); },
+            .save =
+                [&](const std::vector<view::Change>& changes) {
+                    const view::Outcome outcome = saved(for_render, changes);
+                    if (!outcome.is_success) warn("not saved: " + outcome.content);
+                    return outcome;
+                }});
     std::optional<SceneFollower> follower(
         std::in_place,
         SceneFollower::Job{.arguments = for_generate,

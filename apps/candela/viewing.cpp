@@ -78,6 +78,19 @@ view::Outcome rendered(const std::vector<std::string>& arguments, const std::vec
     return {.is_success = false, .content = problem.what()};
 }
 
+view::Outcome explained(const std::vector<std::string>& arguments,
+                        const std::vector<view::Change>& changes) try {
+    std::vector<std::string> words{"/proc/self/exe", "explain", "--quiet", "--json"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    for (const view::Change& change : changes)
+        words.push_back(fmt::format("{}={}", change.option, change.value));
+    const candela::ProgramOutput result = candela::run_program(words);
+    const bool is_success = result.exit_code == 0;
+    return {.is_success = is_success, .content = is_success ? result.out : result.err};
+} catch (const std::exception& problem) {
+    return {.is_success = false, .content = problem.what()};
+}
+
 view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes) try {
     std::vector<std::string> words{"/proc/self/exe", "edit", "--quiet"};
     words.insert(words.end(), arguments.begin(), arguments.end());

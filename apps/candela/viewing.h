@@ -30,6 +30,9 @@ class WithoutDescendants {
 view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
                        const std::filesystem::path& file);
 
+/// What `candela explain` with these arguments says of a pixel, as JSON; the pixel is among `changes`.
+view::Outcome explained(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes);
+
 /// Has `candela edit` with these arguments write somebody's changes into the scene's files.
 view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes);
 

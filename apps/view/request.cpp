@@ -53,8 +53,10 @@ std::optional<std::string> decoded(std::string_view text) {
 
 }  // namespace
 
-std::optional<std::vector<Change>> changes_of(std::string_view query) {
+std::optional<std::vector<Change>> changes_of(std::string_view query, Resource resource) {
     std::vector<Change> changes;
+    const int pixels_asked_for = resource == Resource::explanation ? 1 : 0;
+    int pixels = 0;
     while (!query.empty()) {
         const std::string_view part = query.substr(0, query.find('&'));
         query.remove_prefix(std::min(part.size() + 1, query.size()));
@@ -62,9 +64,12 @@ std::optional<std::vector<Change>> changes_of(std::string_view query) {
         if (equals == std::string_view::npos) return std::nullopt;
         const std::string_view name = part.substr(0, equals);
         auto value = decoded(part.substr(equals + 1));
-        if (!value || (name != "set" && name != "shading" && name != "reflection")) return std::nullopt;
+        const bool is_known = name == "set" || name == "shading" || name == "reflection" || name == "pixel";
+        if (!value || !is_known) return std::nullopt;
+        if (name == "pixel") ++pixels;
         changes.push_back({fmt::format("--{}", name), *std::move(value)});
     }
+    if (pixels != pixels_asked_for) return std::nullopt;
     return changes;
 }
 
@@ -88,11 +93,12 @@ Route route_of(const Request& request, std::string_view token, std::uint16_t por
     const std::size_t end = path.find('/');
     if (end == std::string_view::npos || !are_equal(path.substr(0, end), token)) return {.status = 404};
     path.remove_prefix(end + 1);
-    const Resource resource = path.empty()              ? Resource::page
-                              : path == "events"        ? Resource::events
-                              : path == "reference.png" ? Resource::reference
-                              : path == "save"          ? Resource::save
-                                                        : Resource::none;
+    const Resource resource = path.empty()                 ? Resource::page
+                              : path == "events"           ? Resource::events
+                              : path == "reference.png"    ? Resource::reference
+                              : path == "explanation.json" ? Resource::explanation
+                              : path == "save"             ? Resource::save
+                                                           : Resource::none;
     if (resource == Resource::none) return {.status = 404};
     if (request.method != (resource == Resource::save ? "POST" : "GET")) return {.status = 405};
     if (resource == Resource::save && request.origin.empty()) return {.status = 403};

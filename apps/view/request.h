@@ -22,7 +22,8 @@ enum class Resource {
     page,
     events,
     reference,
-    save,  // changes something, so browsers must say that it is this page that asks
+    explanation,  // of one pixel
+    save,         // changes something, so browsers must say that it is this page that asks
 };
 
 /// What to do about a request.
@@ -35,15 +36,16 @@ struct Route {
 /// A name that nobody guesses: 128 random bits in hexadecimal digits.
 std::string random_token();
 
-/// What somebody has changed in the page, as the command line of `candela render` has it.
+/// What somebody has changed in the page, as the command line of `candela render` has it; or which pixel is
+/// to be explained.
 struct Change {
-    std::string option;  // "--set", "--shading" or "--reflection"
+    std::string option;  // "--set", "--shading", "--reflection" or "--pixel"
     std::string value;
 };
 
-/// The changes that a query says ("set=observer.fov%3D20&shading=flat"); nothing where it is not that. Any
-/// thread.
-std::optional<std::vector<Change>> changes_of(std::string_view query);
+/// The changes that a query says ("set=observer.fov%3D20&shading=flat"); nothing where it is not that. A
+/// query for an explanation also has a pixel ("pixel=320%2C240"), exactly one. Any thread.
+std::optional<std::vector<Change>> changes_of(std::string_view query, Resource resource);
 
 /// Any bytes may be in a request. Any thread.
 Route route_of(const Request& request, std::string_view token, std::uint16_t port);

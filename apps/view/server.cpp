@@ -214,15 +214,17 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     }
 
     void work(const Route& route) {
-        std::optional<std::vector<Change>> changes = changes_of(route.query);
+        std::optional<std::vector<Change>> changes = changes_of(route.query, route.resource);
         if (!changes) return send(refusal(400));
         stream_.expires_never();
-        const bool is_picture = route.resource == Resource::reference;
+        const char* const type = route.resource == Resource::reference     ? "image/png"
+                                 : route.resource == Resource::explanation ? "application/json"
+                                                                           : "text/plain; charset=utf-8";
         const bool is_accepted = server_.work(
-            route.resource, *std::move(changes), [self = shared_from_this(), is_picture](Outcome outcome) {
+            route.resource, *std::move(changes), [self = shared_from_this(), type](Outcome outcome) {
                 Response answer = self->response(outcome.is_success ? http::status::ok
                                                                     : http::status::unprocessable_entity);
-                if (outcome.is_success && is_picture) answer.set(http::field::content_type, "image/png");
+                if (outcome.is_success) answer.set(http::field::content_type, type);
                 answer.body() = std::move(outcome.content);
                 self->send(std::move(answer));
             });
@@ -325,7 +327,9 @@ bool Server::Implementation::work(Resource resource, std::vector<Change> changes
                                   std::function<void(Outcome)> answer) {
     if (waiting_ == k_most_waiting) return false;
     ++waiting_;
-    const auto& handler = resource == Resource::save ? handlers_.save : handlers_.render;
+    const auto& handler = resource == Resource::save          ? handlers_.save
+                          : resource == Resource::explanation ? handlers_.explain
+                                                              : handlers_.render;
     asio::post(worker_, [this, &handler, changes = std::move(changes), answer = std::move(answer)]() mutable {
         Outcome outcome = handler(changes);
         asio::post(context_, [this, outcome = std::move(outcome), answer = std::move(answer)]() mutable {

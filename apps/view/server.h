@@ -12,8 +12,8 @@
 
 namespace view {
 
-/// What becomes of somebody's changes: the bytes of a PNG file, or nothing where they are saved; or what is
-/// wrong.
+/// What becomes of somebody's changes: the bytes of a PNG file, an explanation as JSON, or nothing where they
+/// are saved; or what is wrong.
 struct Outcome {
     bool is_success = false;
     std::string content;
@@ -28,6 +28,7 @@ class Server {
         std::function<void(const std::string&)> log;  // what is refused; on the thread that calls run()
         // On a thread of their own, one call at a time.
         std::function<Outcome(const std::vector<Change>&)> render;
+        std::function<Outcome(const std::vector<Change>&)> explain;
         std::function<Outcome(const std::vector<Change>&)> save;
     };
 

@@ -220,3 +220,30 @@ TEST_CASE("a pixel that is none is a usage error that says which there are") {
     }
     CHECK(run_candela({"explain", "--pixel", "512,0"}).err.find("0,0 to 511,511") != std::string::npos);
 }
+
+TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, and say what they said") {
+    const fs::path kept = scratch_directory();
+    const auto explained_at = [&](const char* pixel, bool is_kept, bool has_compiler) {
+        std::vector<std::string> words{"explain", "--pixel", pixel, "--json", "--quiet"};
+        if (is_kept) words.insert(words.end(), {"--keep", kept.string()});
+        CommandSetup setup;
+        if (!has_compiler) setup.environment = {{"PATH", "/nowhere"}, {"CXX", ""}};
+        const CommandResult result = run_candela(words, setup);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        return json::parse(result.out);
+    };
+    const json alone = explained_at("256,300", false, true);
+    REQUIRE_FALSE(alone.at("kernel_difference").is_null());
+    CHECK(explained_at("256,300", true, true) == alone);
+    CHECK(explained_at("256,300", true, false) == alone);
+    CHECK(explained_at("250,290", true, false) == explained_at("250,290", false, true));
+    // A program whose source is another's is not used.
+    for (const fs::directory_entry& program : fs::directory_iterator(kept))
+        write_file(program.path() / "kernels.cpp", "another");
+    CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
+    const CommandResult nowhere =
+        run_candela({"explain", "--pixel=1,1", "--keep", (kept / "nowhere").string()});
+    CHECK(nowhere.exit_code == 1);
+    CHECK(nowhere.err.find("is no folder") != std::string::npos);
+}

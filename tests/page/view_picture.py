@@ -1,6 +1,7 @@
-"""A picture of `candela view`, for the documentation: the renderer's own picture beside the page's, and an error in the file.
+"""Pictures of `candela view`, for the documentation: the renderer's own picture beside the page's, and an error in the file; a pixel
+that is explained.
 
-    /usr/bin/python3 tests/page/view_picture.py CANDELA SCENE PICTURE.png
+    /usr/bin/python3 tests/page/view_picture.py CANDELA SCENE PICTURE.png EXPLANATION.png
 """
 import pathlib
 import shutil
@@ -12,7 +13,7 @@ import time
 
 from browser import DRAWS_BY_ITSELF, Browser
 
-command, scene, picture = sys.argv[1:]
+command, scene, picture, explanation = sys.argv[1:]
 with tempfile.TemporaryDirectory() as folder:
     file = pathlib.Path(shutil.copy(scene, folder))
     server = subprocess.Popen([command, "view", "--no-open", "--quiet", file.name], cwd=folder, stdout=subprocess.PIPE, text=True)
@@ -20,6 +21,18 @@ with tempfile.TemporaryDirectory() as folder:
     try:
         browser.resize(1400, 900)
         browser.open(server.stdout.readline().strip())
+        time.sleep(20)
+        browser.enter("#explanation-x", "270")
+        browser.enter("#explanation-y", "265")
+        browser.one("#explanation-form button").click()
+        time.sleep(3)
+        # The lamp, of the lights.
+        browser.run("""
+            const lights = [...document.querySelectorAll("#explanation-result select")].at(-1);
+            lights.value = "1";
+            lights.dispatchEvent(new Event("change"));""")
+        browser.driver.save_screenshot(explanation)
+        browser.one("#explanation-close").click()
         browser.enter("#reference-mode", "wipe")
         time.sleep(20)  # until both pictures are at rest
         text = file.read_text()

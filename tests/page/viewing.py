@@ -7,6 +7,9 @@ import signal
 import subprocess
 import unittest
 
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+
 import scenes
 from browser import DRAWS_BY_ITSELF, Browser
 from generated import COMMAND, ENVIRONMENT, MOST_DIFFERENT, SCRATCH, SMALL_WINDOW, TWO_STEPS, candela, options_for
@@ -203,6 +206,52 @@ class Viewing(unittest.TestCase):
             const [a, b] = ["picture-canvas", "reference-canvas"].map((id) => document.getElementById(id).getBoundingClientRect());
             return ["left", "top", "width", "height"].every((side) => Math.abs(a[side] - b[side]) < 1);
         })()""")
+
+    def explained(self):
+        self.wait_for("document.querySelector('#explanation-result .bytes') || document.querySelector('.plain-problem')")
+        return [int(byte) for byte in self.browser.text("#explanation-result .bytes").split(",")]
+
+    def test_a_pixel_that_is_clicked_is_explained_down_to_its_byte(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.unfold_all()
+        self.browser.enter('[data-path="object.0.color"] input', "#20c040")
+        reference = self.folder / "reference.ppm"
+        candela("render", self.file, "-o", reference, "--set", "object.0.color=[32,192,64]")
+        reference = Picture.of_ppm(reference)
+        byte = lambda x, y: list(reference.pixels[3 * (y * reference.width + x):][:3])
+        canvas = self.browser.one("#picture-canvas")
+        # Somewhere on the object that is green now.
+        greens = [(x, y) for y in range(reference.height) for x in range(reference.width) if byte(x, y)[1] > 2 * max(byte(x, y)[0], byte(x, y)[2], 20)]
+        aim = greens[len(greens) // 2]
+        size = self.browser.run("const box = arguments[0].getBoundingClientRect(); return [box.width, box.height];", canvas)
+        offset = [(aim[0] + 0.5) / reference.width * size[0] - size[0] / 2, (aim[1] + 0.5) / reference.height * size[1] - size[1] / 2]
+        click = lambda: ActionChains(self.browser.driver).move_to_element_with_offset(canvas, *map(round, offset)).click().perform()
+        click()
+        bytes_shown = self.explained()
+        x, y = (int(self.browser.run(f"return document.getElementById('explanation-{axis}').value")) for axis in "xy")
+        self.assertLessEqual(abs(x - aim[0]) + abs(y - aim[1]), 4)
+        self.assertEqual(bytes_shown, byte(x, y))
+        # Its point and vectors stand in the picture where the pixel is.
+        names = self.browser.run("return [...document.querySelectorAll('#arrows text')].map((e) => e.textContent)")
+        self.assertEqual(names[:2], ["N", "V"])
+        off = self.browser.run("""
+            const origin = document.querySelector(".arrow-origin").getBoundingClientRect(), canvas = document.getElementById("picture-canvas").getBoundingClientRect();
+            return [origin.x + origin.width / 2 - canvas.x - canvas.width / 2, origin.y + origin.height / 2 - canvas.y - canvas.height / 2];""")
+        self.assertLess(max(abs(a - b) for a, b in zip(off, offset)), 6)
+        # By the keyboard, another one; Escape ends it, and so does a change.
+        self.browser.enter("#explanation-x", "3")
+        self.browser.enter("#explanation-y", "2")
+        self.browser.one("#explanation-y").send_keys(Keys.ENTER)
+        self.assertEqual(self.explained(), byte(3, 2))
+        self.assertIn("background", self.browser.text("#explanation-result"))
+        self.browser.one("#explanation-y").send_keys(Keys.ESCAPE)
+        self.assertEqual(self.browser.text("#explanation-result"), "")
+        click()
+        self.explained()
+        canvas.send_keys(Keys.ARROW_LEFT)
+        self.assertEqual(self.browser.text("#explanation-result"), "")
+        self.assertEqual(self.browser.errors(), [])
 
     def save_changes(self):
         self.browser.one("#save-scene").click()

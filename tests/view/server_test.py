@@ -2,6 +2,7 @@
 
 By hand: CANDELA=build/release/bin/candela python3 tests/view/server_test.py
 """
+import json
 import os
 import pathlib
 import random
@@ -250,6 +251,28 @@ class ServerTest(unittest.TestCase):
         expected = self.view.folder / "expected.png"
         subprocess.run([COMMAND, "render", "--quiet", self.view.file, "-o", expected, "--set", "object.0.color=[1,2,3]"], env=ENVIRONMENT, check=True)
         self.assertEqual(b"".join(parts).split(b"\r\n\r\n", 1)[1], expected.read_bytes())
+
+    def explained(self, query):
+        return self.view.get(f"/{self.view.token}/explanation.json?{query}").split(b"\r\n\r\n", 1)[1]
+
+    def test_a_pixel_is_explained_with_changes(self):
+        for options in ([], ["--set", "object.0.color=[9,200,9]", "--shading", "flat"]):
+            picture = self.view.folder / "expected.ppm"
+            subprocess.run([COMMAND, "render", "--quiet", self.view.file, "-o", picture, *options], env=ENVIRONMENT, check=True)
+            at = 3 * (24 * 64 + 32)
+            query = "pixel=32%2C24" + ("&set=object.0.color%3D%5B9,200,9%5D&shading=flat" if options else "")
+            explanation = json.loads(self.explained(query))
+            self.assertEqual(bytes(explanation["bytes"]), picture.read_bytes()[-3 * 64 * 48:][at:at + 3])
+            self.assertEqual(explanation["pixel"], [32, 24])
+
+    def test_what_is_no_pixel_is_not_explained(self):
+        for query in ("", "pixel=1,2&pixel=3,4", "pixel", "set=image.width%3D9"):
+            self.assertEqual(self.view.status(f"/{self.view.token}/explanation.json?{query}"), 400, query)
+        for query in ("pixel=64%2C0", "pixel=-1%2C0", "pixel=x", "pixel=", "pixel=1%2C2&set=object.0.colour%3D3", "pixel=--help"):
+            self.assertEqual(self.view.status(f"/{self.view.token}/explanation.json?{query}"), 422, query)
+        self.assertIn(b"0,0 to 63,47", self.explained("pixel=64%2C0"))
+        self.assertEqual(self.view.status(f"/{self.view.token}/reference.png?pixel=1%2C2"), 400)
+        self.assertEqual(self.view.status(f"/{self.view.token}/explanation.json?pixel=1%2C2", method="POST"), 405)
 
     def test_options_that_change_no_picture_are_refused(self):
         for query in ("output=/tmp/x", "plugin-dir=/tmp", "set", "set=%", "set=%zz", "set=%00", "=", "set=a&-o=b", "&"):

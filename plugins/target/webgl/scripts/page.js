@@ -2,6 +2,7 @@ import { connectActions, connectSaving, pngUrl } from "./actions.js";
 import { appearanceOf } from "./appearance.js";
 import { Controls } from "./controls.js";
 import { element } from "./elements.js";
+import { Explanation } from "./explanation.js";
 import { Gestures } from "./gestures.js";
 import { restoreSettings } from "./link.js";
 import { followScene } from "./live.js";
@@ -80,6 +81,7 @@ export class Page {
         if (followScene((scene) => this.show(scene), showError)) {
             connectSaving(settings);
             this.reference = new Reference(settings, this.canvas, (width, height) => this.pixels(width, height));
+            this.explanation = new Explanation(settings, this.canvas);
         }
     }
 
@@ -110,6 +112,7 @@ export class Page {
         this.panels.rebuild();
         this.viewport.use(renderer);
         this.reference.invalidate();
+        this.explanation.clear();
     }
 
     openViewport() {

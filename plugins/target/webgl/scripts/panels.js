@@ -36,7 +36,7 @@ export class Panels {
     /** After another scene has come: with what was open and where the focus was, as far as that is there still. */
     rebuild() {
         const summaryOf = (details) => details.querySelector("summary").textContent;
-        const panels = [...document.querySelectorAll("aside > section")];
+        const panels = [...document.querySelectorAll("aside > section:not(#explanation)")];
         const details = () => panels.flatMap((panel) => [...panel.querySelectorAll("details")]);
         const wereOpen = new Map(details().map((one) => [summaryOf(one), one.open]));
         const focused = document.activeElement, path = focused?.closest(".setting")?.dataset.path;

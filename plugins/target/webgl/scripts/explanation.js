@@ -1,0 +1,169 @@
+import { arrowLayer, drawArrows } from "./arrows.js";
+import { element, isolated, newId } from "./elements.js";
+import { announce } from "./messages.js";
+import { queryOf } from "./options.js";
+
+const CLICK_DISTANCE = 4;  // in CSS pixels: a pointer that moves farther turns the scene
+const VECTORS = ["N", "V", "L", "R", "H"];
+
+const number = (x) => (x === 0 ? "0" : String(Number(x.toPrecision(6))));
+const numbers = (values) => (Array.isArray(values) ? values.map(number).join(", ") : number(values));
+const row = (name, ...cells) => element("tr", {}, element("th", { scope: "row" }, name), ...cells.map((cell) => element("td", {}, cell)));
+const head = (...names) => element("thead", {}, element("tr", {}, ...names.map((name) => element(name === "" ? "td" : "th", name === "" ? {} : { scope: "col" }, name))));
+const table = (caption, columns, rows) => element("table", {}, element("caption", {}, caption), head("", ...columns), element("tbody", {}, ...rows));
+/** A name as the renderer's messages quote it. */
+const named = (text) => isolated(text.replace(/^'(.*)'$/, "$1"));
+
+function steps(title, list) {
+    if (list.length === 0) return null;
+    const lines = list.map(({ kind, name, text, value, depth, file, line }) => {
+        const said = kind === "function" ? [element("span", { class: "step-place" }, `${file}:${line} `), `${name}()`]
+            : [element("b", {}, `${kind === "result" ? "result" : name} = ${numbers(value)}`),
+               kind === "argument" ? null : element("span", { class: "step-text" }, text)];
+        const result = element("li", {}, ...said.filter((part) => part !== null));
+        result.style.setProperty("--depth", depth);
+        return result;
+    });
+    return element("details", {}, element("summary", {}, title), element("ol", { class: "steps" }, ...lines));
+}
+
+/**
+ * Explains a pixel, which is clicked or named by its coordinates: what `candela explain` says of it, with its vectors as arrows in the
+ * picture. Only where `candela view` serves the page, since the explanation comes from there.
+ */
+export class Explanation {
+    constructor(settings, canvas) {
+        Object.assign(this, { settings, canvas, request: 0 });
+        const byId = (id) => document.getElementById(id);
+        Object.assign(this, { section: byId("explanation"), x: byId("explanation-x"), y: byId("explanation-y"), result: byId("explanation-result"), closing: byId("explanation-close"), arrows: arrowLayer() });
+        canvas.parentElement.append(this.arrows);
+        this.section.hidden = false;
+        byId("explanation-form").addEventListener("submit", (event) => {
+            event.preventDefault();
+            this.explain(Number(this.x.value), Number(this.y.value));
+        });
+        this.closing.addEventListener("click", () => this.clear());
+        this.section.addEventListener("keydown", (event) => {
+            if (event.key === "Escape") this.clear();
+        });
+        let from = null;
+        canvas.addEventListener("pointerdown", (event) => { from = event.isPrimary && event.button === 0 ? [event.clientX, event.clientY] : null; });
+        canvas.addEventListener("click", (event) => {
+            if (from !== null && Math.hypot(event.clientX - from[0], event.clientY - from[1]) <= CLICK_DISTANCE) this.explainAt(event);
+        });
+        const observer = new ResizeObserver(() => this.place());
+        observer.observe(canvas);
+        observer.observe(this.arrows.parentElement);
+        settings.listeners.push(() => this.clear());
+        this.fit();
+    }
+
+    /** The picture may have another size now. */
+    fit() {
+        const { width, height } = this.settings.scene.image;
+        this.x.max = width - 1;
+        this.y.max = height - 1;
+    }
+
+    /** What was explained is not what is shown any more. */
+    clear() {
+        this.request += 1;
+        this.fit();
+        this.arrows.replaceChildren();
+        this.result.replaceChildren();
+        this.closing.hidden = true;
+    }
+
+    explainAt({ clientX, clientY }) {
+        const { width, height } = this.settings.scene.image, box = this.canvas.getBoundingClientRect();
+        const pixel = (at, begin, size, count) => Math.max(0, Math.min(count - 1, Math.floor(((at - begin) / size) * count)));
+        this.explain(pixel(clientX, box.left, box.width, width), pixel(clientY, box.top, box.height, height));
+    }
+
+    async explain(x, y) {
+        this.clear();
+        const { request } = this;
+        [this.x.value, this.y.value] = [x, y];
+        this.result.append(element("p", {}, "Candela explains …"));
+        let explanation = null, problem = "";
+        try {
+            const changes = queryOf(this.settings);
+            const response = await fetch(`explanation.json?pixel=${x}%2C${y}${changes === "" ? "" : `&${changes}`}`);
+            if (response.ok) explanation = await response.json();
+            else problem = await response.text();
+        } catch (error) {
+            problem = error.message;
+        }
+        if (request !== this.request) return;
+        this.closing.hidden = false;
+        if (explanation === null) this.result.replaceChildren(element("pre", { class: "plain-problem", tabIndex: 0 }, problem));
+        else this.show(explanation);
+    }
+
+    show(explanation) {
+        const { bytes, fragments } = explanation, [x, y] = explanation.pixel;
+        this.result.replaceChildren(element("p", {}, `Pixel ${x}, ${y}: `, element("b", { class: "bytes" }, bytes.join(", "))), this.pixelTable(explanation));
+        if (explanation.note) this.result.append(element("p", { class: "reference" }, explanation.note));
+        const shown = element("div");
+        if (fragments.length === 0) this.result.append(element("p", {}, "No object is seen here: this is the background."));
+        else this.result.append(...this.choice("Triangle", fragments.map((f) => `${f.object.replaceAll("'", "")}, triangle ${f.triangle} (${number(100 * f.weight)} %)`), (i) => shown.replaceChildren(...this.fragmentParts(fragments[i]))), shown);
+        announce(`Pixel ${x}, ${y} is explained: ${bytes.join(", ")}.`);
+    }
+
+    pixelTable({ I, encoded, bytes, color_management: management }) {
+        const channels = ["red", "green", "blue"];
+        return table("From the intensity to the byte", ["I", management === "srgb" ? "sRGB" : "clamped", "× 255", "byte"],
+            channels.map((name, c) => row(name, number(I[c]), number(encoded[c]), (255 * encoded[c]).toFixed(2), String(bytes[c]))));
+    }
+
+    /** A choice among several, or nothing for one; `pick` is called for the first. */
+    choice(label, names, pick) {
+        pick(0);
+        if (names.length === 1) return [];
+        const id = newId("choice"), select = element("select", { id }, ...names.map((name, i) => element("option", { value: i }, name)));
+        select.addEventListener("change", () => pick(Number(select.value)));
+        return [element("label", { for: id }, label), select];
+    }
+
+    fragmentParts(fragment) {
+        const shown = element("div"), { points } = fragment;
+        const about = element("p", {}, named(fragment.object), `, triangle ${fragment.triangle}, barycentric ${numbers(fragment.barycentric)}; lit per ${fragment.shaded_per} (`,
+            isolated(fragment.shading), ")");
+        const choice = this.choice("Point", points.map((_, i) => (points.length === 3 ? `vertex ${i + 1}` : "the point")), (i) => shown.replaceChildren(...this.pointParts(points[i])));
+        return [about, ...choice, shown];
+    }
+
+    pointParts(point) {
+        const shown = element("div"), name = ({ light, sample }) => light.replaceAll("'", "") + (sample > 0 ? `, sample ${sample + 1}` : "");
+        const choice = this.choice("Light", point.lights.map(name), (i) => shown.replaceChildren(...this.lightParts(point, point.lights[i])));
+        const sums = table("Of all lights", ["red", "green", "blue"], ["I_a", "I_d", "I_s", "I"].map((sum) => row(sum, ...point[sum].map(number))));
+        if (point.lights.length === 0) this.drawVectors(point, {});
+        return [steps("How N is found", point.normal_steps), ...choice, shown, sums].filter((part) => part !== null);
+    }
+
+    lightParts(point, light) {
+        this.drawVectors(point, light);
+        const vectors = VECTORS.map((name) => [name, point[name] ?? light[name]]).filter(([, vector]) => vector);
+        const arriving = light.ambient ? [["arriving", light.ambient]] : [["arriving, diffuse", light.diffuse], ["arriving, specular", light.specular]];
+        return [
+            table("Unit vectors", ["x", "y", "z"], vectors.map(([name, vector]) => row(name, ...vector.map(number)))),
+            "N.L" in light ? element("p", {}, `N·L = ${number(light["N.L"])}`) : null,
+            table(`Of ${light.light.replaceAll("'", "")}`, ["red", "green", "blue"],
+                [...arriving, ...["I_a", "I_d", "I_s"].map((sum) => [sum, light[sum]])].map(([name, values]) => row(name, ...values.map(number)))),
+            steps(`What ${light.type} sends, step by step`, light.light_steps),
+            steps(`What ${light.reflection} reflects, step by step`, light.reflection_steps),
+        ].filter((part) => part !== null);
+    }
+
+    drawVectors(point, light) {
+        const { width, height } = this.settings.scene.image;
+        const vectors = VECTORS.map((name) => [name, point[name] ?? light[name]]).filter(([, vector]) => vector);
+        drawArrows(this.arrows, this.settings.observer(), width, height, point.position, vectors);
+        this.place();
+    }
+
+    place() {
+        const box = this.canvas.getBoundingClientRect(), around = this.arrows.parentElement.getBoundingClientRect();
+        Object.assign(this.arrows.style, { left: `${box.left - around.left}px`, top: `${box.top - around.top}px`, width: `${box.width}px`, height: `${box.height}px` });
+    }
+}
