@@ -114,5 +114,8 @@ chromium --headless=new "${sandbox[@]}" --use-angle=swiftshader --enable-unsafe-
 "$root/build/release/bin/candela" plot phong:shininess=20,ks=0.5,kd=0.3 blinn-phong:shininess=80,ks=0.5,kd=0.3 ggx:roughness=0.2,ks=0.2,ior=4,kd=0.3 \
     -o "$out/lobes.svg"
 
+"$root/build/release/bin/candela" compare "$root/docs/examples/still-life.toml" --width 320 --height 200 \
+    --reflection lambert,phong,ggx,toon --shading flat,phong -o "$out/compare.png"
+
 # The same while somebody works on the scene.
-/usr/bin/python3 -B "$root/tests/page/view_picture.py" "$root/build/release/bin/candela" "$root/docs/examples/still-life.toml" "$out/view.png"
+/usr/bin/python3 -B "$root/tests/page/view_picture.py" "$root/build/release/bin/candela" "$root/docs/examples/still-life.toml" "$out/view.png" "$out/explanation.png"

@@ -39,7 +39,7 @@ packages=(
   ca-certificates git make
   clang-19 clang-tools-19 lld-19 libstdc++-12-dev ninja-build cmake cmake-data
   libeigen3-dev libtomlplusplus-dev libtbb-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev
-  libtinygltf-dev libopenimageio-dev esbuild
+  libtinygltf-dev libstb-dev libopenimageio-dev esbuild
 )
 if [ "$everything" = yes ]; then
   packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file lintian

@@ -180,6 +180,13 @@ candela::SceneRequest scene_request_from(const CommandLine& line) {
     return request;
 }
 
+void require_no_terminal(const std::string& output) {
+    if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
+        throw Error(ErrorCategory::bad_request,
+                    "-o - would print a PNG on this terminal; send it to a file or a pipe");
+    }
+}
+
 void require_no_input(const std::string& output, const std::vector<std::filesystem::path>& inputs,
                       const std::string& inputs_are, const std::string& remedy) {
     for (const std::filesystem::path& input : inputs) {

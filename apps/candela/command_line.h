@@ -55,6 +55,9 @@ candela::SceneRequest scene_request_from(const CommandLine& line);
 /// The PATH=VALUE pairs of an option that may be repeated.
 std::vector<candela::Setting> settings_from(const CommandLine& line, const std::string& option);
 
+/// Throws Error (bad_request) where `output` is "-", standard output, and that is a terminal.
+void require_no_terminal(const std::string& output);
+
 /// Throws Error (bad_request) where `output` is the file of one of `inputs`, by whatever path: "'a.png' is
 /// one of `inputs_are`; `remedy`".
 void require_no_input(const std::string& output, const std::vector<std::filesystem::path>& inputs,

@@ -30,6 +30,7 @@ constexpr std::array k_verbs = {
     Verb{"generate", "write a program that renders a scene", run_generate},
     Verb{"verify", "verify that generated programs render what Candela renders", run_verify},
     Verb{"view", "show a scene in the browser, and its changes as they are saved", run_view},
+    Verb{"compare", "put a scene with different models on one sheet", run_compare},
     Verb{"bench", "time each stage of rendering a scene", run_bench},
     Verb{"diff", "compare two pictures", run_diff},
     Verb{"plot", "draw the lobes of reflection models", run_plot},

@@ -17,6 +17,7 @@ int run_check(const std::vector<std::string>& arguments);
 int run_edit(const std::vector<std::string>& arguments);
 int run_explain(const std::vector<std::string>& arguments);
 int run_generate(const std::vector<std::string>& arguments);
+int run_compare(const std::vector<std::string>& arguments);
 int run_verify(const std::vector<std::string>& arguments);
 int run_view(const std::vector<std::string>& arguments);
 int run_bench(const std::vector<std::string>& arguments);

@@ -26,6 +26,7 @@ LICENCES = {
     "imath": "BSD-3-Clause",
     "isa-l": "BSD-3-Clause",
     "libisal": "BSD-3-Clause",
+    "libstb": "MIT",
     "linux": "GPL-2.0-only WITH Linux-syscall-note",
     "llvm-toolchain": "Apache-2.0 WITH LLVM-exception",
     "nlohmann-json3": "MIT",

@@ -1,0 +1,263 @@
+// candela compare: one scene with different models and values, side by side.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command_line.h"
+#include "compiling.h"
+#include "contact_sheet.h"
+#include "exit_code.h"
+#include "picture_comparison/differences.h"
+#include "reporting.h"
+#include "terminal.h"
+#include "variants.h"
+#include "verbs.h"
+
+import candela.film;
+import candela.image;
+import candela.render;
+
+namespace po = boost::program_options;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+constexpr std::size_t k_most_pictures = 256;
+
+struct Pane {
+    std::string label;
+    std::vector<Variant> variants;
+    candela::Film film;
+    std::optional<DifferenceStatistics> difference{};  // from the first
+};
+
+/// What --columns says; nothing where it is not given.
+std::optional<int> columns_from(const CommandLine& line, std::size_t panes) {
+    if (!line.has("columns")) return std::nullopt;
+    const int columns = line.get<int>("columns");
+    if (columns >= 1 && static_cast<std::size_t>(columns) <= panes) return columns;
+    throw Error(ErrorCategory::bad_request,
+                fmt::format("--columns is {}; it can be 1 to {}, the number of pictures", columns, panes));
+}
+
+/// As many columns as the first side has variants; one side alone is broken into rows, so that the sheet is
+/// about one and a half times as wide as it is high, with two pictures side by side at least.
+int columns_for(const std::vector<Axis>& axes, std::size_t panes, const candela::Film& picture) {
+    std::vector<std::size_t> sides;
+    for (const Axis& axis : axes) {
+        if (axis.size() > 1) sides.push_back(axis.size());
+    }
+    if (sides.size() == 2) return static_cast<int>(sides.front());
+    constexpr double k_aspect = 1.5;
+    const double ideal =
+        std::sqrt(k_aspect * static_cast<double>(panes) * picture.height() / picture.width());
+    return std::clamp(static_cast<int>(std::lround(ideal)), 2, static_cast<int>(panes));
+}
+
+/// The film's pixels, to be compared.
+Picture picture_of(const candela::Film& film) {
+    const candela::PictureView view = film.view();
+    Picture picture;
+    picture.width = view.width;
+    picture.height = view.height;
+    picture.is_float = view.pixels == candela::PixelType::real;
+    constexpr float k_byte = Picture::k_whole / 255;
+    if (picture.is_float) picture.values.assign(view.reals.begin(), view.reals.end());
+    for (const std::uint8_t byte : view.bytes) picture.values.push_back(k_byte * static_cast<float>(byte));
+    return picture;
+}
+
+/// The largest difference of each pixel's channels, white being `maximum` levels.
+candela::Film difference_film(const Picture& a, const Picture& b, double maximum, candela::PixelType pixels) {
+    candela::Film film(a.width, a.height, pixels, candela::ColorEncoding::none);
+    std::vector<float> grey(a.pixels());
+    for (std::size_t i = 0; i < grey.size() && maximum > 0; ++i)
+        grey[i] = static_cast<float>(largest_difference(a, b, i) / maximum);
+    film.store(0, 0, a.width, a.height, {grey.data(), grey.data(), grey.data()}, a.width);
+    return film;
+}
+
+/// Instead of every picture but the first: where, and how much, it differs from the first.
+void show_differences(std::vector<Pane>& panes, candela::PixelType pixels) {
+    const Picture first = picture_of(panes.front().film);
+    std::vector<Picture> others;
+    double maximum = 0;
+    for (std::size_t i = 1; i < panes.size(); ++i) {
+        others.push_back(picture_of(panes[i].film));
+        panes[i].difference = compare(first, others.back(), nullptr, 0).interior;
+        maximum = std::max(maximum, panes[i].difference->maximum);
+    }
+    for (std::size_t i = 1; i < panes.size(); ++i) {
+        panes[i].film = difference_film(first, others[i - 1], maximum, pixels);
+        panes[i].label += fmt::format(
+            ": mean {:.2f}, max {:.1f}{}", panes[i].difference->mean, panes[i].difference->maximum,
+            panes[i].difference->maximum == maximum && maximum > 0 ? " (white)" : "");
+    }
+}
+
+std::string json_of(const std::vector<Pane>& panes, int columns) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < panes.size(); ++i) {
+        nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+        for (const Variant& variant : panes[i].variants)
+            settings[variant.option.starts_with("--") ? variant.option.substr(2) : variant.option] =
+                variant.value;
+        nlohmann::ordered_json pane{{"column", i % static_cast<std::size_t>(columns)},
+                                    {"row", i / static_cast<std::size_t>(columns)},
+                                    {"settings", settings}};
+        if (panes[i].difference) {
+            pane["difference"] = {{"mean", panes[i].difference->mean},
+                                  {"rmse", panes[i].difference->rmse},
+                                  {"maximum", panes[i].difference->maximum}};
+        }
+        all.push_back(pane);
+    }
+    return nlohmann::ordered_json{{"pictures", all}}.dump(2, ' ', false,
+                                                          nlohmann::json::error_handler_t::replace);
+}
+
+/// Renders one scene again and again.
+class PaneRenderer {
+  public:
+    PaneRenderer(const CommandLine& line, const std::string& output, candela::Registry& registry,
+                 candela::PixelType pixels)
+        : request_(scene_request_from(line)), output_(output), registry_(registry), pixels_(pixels) {
+        request_.reflection.reset();
+        request_.shading.reset();
+        if (!request_.ask) return;
+        // One answer holds for all pictures.
+        request_.ask = [ask = request_.ask, answers = std::make_shared<std::map<std::string, bool>>()](
+                           const std::string& question) {
+            const auto known = answers->find(question);
+            return known != answers->end() ? known->second : (*answers)[question] = ask(question);
+        };
+    }
+
+    /// The picture with those variants, or nothing: what is wrong has been said then, and exit_code() tells
+    /// what to end with. What is to be said of several pictures is said once.
+    std::optional<candela::Film> film(const std::vector<Variant>& variants, const std::string& label) {
+        candela::Diagnostics diagnostics;
+        const auto draft = candela::draft_scene(varied(request_, variants), registry_, diagnostics);
+        if (draft && output_ != "-")
+            require_no_input(output_, candela::input_files(*draft), "the files that the scene is made from",
+                             "give the sheet another name");
+        const auto compiled = draft ? compile_scene(*draft, registry_, diagnostics) : std::nullopt;
+        if (has_news(diagnostics) || !compiled) report(diagnostics);
+        if (!compiled) {
+            exit_code_ =
+                fail(exit_code_of(diagnostics),
+                     fmt::format("no sheet is made: the errors above are those of the picture '{}'", label));
+            return std::nullopt;
+        }
+        candela::Film film(compiled->image.width, compiled->image.height, pixels_,
+                           compiled->image.color_management);
+        encoding_ = compiled->image.color_management;
+        const auto statistics = candela::render(*compiled, film, {});
+        const std::string darkness = candela::why_black(*compiled, film, statistics);
+        if (!darkness.empty()) warn(fmt::format("nothing in the picture '{}' is lit: {}", label, darkness));
+        return film;
+    }
+
+    int exit_code() const { return exit_code_; }
+    candela::ColorEncoding encoding() const { return encoding_; }
+
+  private:
+    bool has_news(const candela::Diagnostics& diagnostics) {
+        bool is_news = false;
+        for (const candela::Diagnostic& one : diagnostics.sorted())
+            is_news = said_.insert(one.message).second || is_news;
+        return is_news;
+    }
+
+    candela::SceneRequest request_;
+    const std::string& output_;
+    candela::Registry& registry_;
+    candela::PixelType pixels_;
+    candela::ColorEncoding encoding_ = candela::ColorEncoding::none;
+    std::set<std::string> said_;
+    int exit_code_ = 0;
+};
+
+}  // namespace
+
+int run_compare(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela compare [SCENE...] [options]",
+        "Renders a scene with different models or values, and puts the pictures on one sheet, each with a\n"
+        "label: candela compare scene.toml --reflection lambert,phong,ggx --shading flat,phong. One or two "
+        "of\n"
+        "--reflection, --shading and --vary take several values, between commas.");
+    line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("comparison.png"),
+                   "the sheet; the format follows its extension");
+    add_variant_options(line);
+    line.options()("difference", "show how the other pictures differ from the first, in levels of 1/255")(
+        "columns", po::value<int>()->value_name("N"), "pictures side by side")(
+        "json", "print on standard output what is where, and the differences");
+    add_scene_options(line);
+    if (!line.parse(arguments)) return 0;
+
+    const std::vector<Axis> axes = axes_from(line);
+    const auto all = combinations(axes);
+    if (all.size() < 2) {
+        throw Error(
+            ErrorCategory::bad_request,
+            "there is nothing to compare; name several models or values, as in --reflection phong,ggx");
+    }
+    if (all.size() > k_most_pictures) {
+        throw Error(
+            ErrorCategory::bad_request,
+            fmt::format("the sheet would have {} pictures; {} is the most", all.size(), k_most_pictures));
+    }
+    const auto output = line.get<std::string>("output");
+    if (output == "-" && line.has("json"))
+        throw Error(ErrorCategory::bad_request, "standard output is either the sheet or JSON");
+    require_no_terminal(output);
+    const auto wanted_columns = columns_from(line, all.size());
+    candela::Registry registry = registry_from(line);
+    const candela::PictureFormat format = candela::format_of(output, registry);
+
+    PaneRenderer renderer(line, output, registry, format.pixels);
+    std::vector<Pane> panes;
+    {
+        ProgressBar bar("rendering", !is_quiet());
+        for (const std::vector<Variant>& variants : all) {
+            const std::string label = label_of(axes, variants);
+            auto film = renderer.film(variants, label);
+            if (!film) return renderer.exit_code();
+            if (!panes.empty() &&
+                (film->width() != panes[0].film.width() || film->height() != panes[0].film.height()))
+                throw Error(ErrorCategory::bad_request,
+                            "the pictures on a sheet have one size, and these have not");
+            panes.push_back({label, variants, *std::move(film)});
+            bar.update(panes.size(), all.size());
+        }
+    }
+    if (line.has("difference")) show_differences(panes, format.pixels);
+    const int columns =
+        wanted_columns ? *wanted_columns : columns_for(axes, panes.size(), panes.front().film);
+    const int rows = (static_cast<int>(panes.size()) + columns - 1) / columns;
+    ContactSheet sheet({columns, rows, panes.front().film.width(), panes.front().film.height()},
+                       format.pixels, renderer.encoding());
+    for (std::size_t i = 0; i < panes.size(); ++i)
+        sheet.put(static_cast<int>(i), panes[i].film, panes[i].label);
+    candela::write_picture(sheet.film(), format, output, registry);
+    if (line.has("json")) std::cout << json_of(panes, columns) << '\n';
+    say_afterwards([&] {
+        return fmt::format("{}: {} pictures of {} x {}\n", output == "-" ? "sheet" : output, panes.size(),
+                           panes.front().film.width(), panes.front().film.height());
+    });
+    return 0;
+}

@@ -1,0 +1,28 @@
+// Several pictures of one size on one sheet, each with a label below it.
+#pragma once
+
+#include <string>
+
+import candela.color;
+import candela.film;
+
+class ContactSheet {
+  public:
+    struct Layout {
+        int columns, rows;
+        int width, height;  // of each picture, in pixels
+    };
+
+    /// Throws candela::Error where the sheet is larger than a picture can be, or than there is memory.
+    ContactSheet(const Layout& layout, candela::PixelType pixels, candela::ColorEncoding encoding);
+
+    /// `number`: row by row from the top. The picture's pixels are copied as they are.
+    void put(int number, const candela::Film& picture, const std::string& label);
+
+    const candela::Film& film() const noexcept { return film_; }
+
+  private:
+    Layout layout_;
+    int scale_;  // of the letters
+    candela::Film film_;
+};

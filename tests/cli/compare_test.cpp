@@ -1,0 +1,203 @@
+// candela compare: sheets against the pictures that `render` writes, and differences worked out by hand.
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+using Catch::Approx;
+using Json = nlohmann::json;
+
+namespace {
+
+/// The front face of a cube fills the picture; light falls on it at 60 degrees.
+constexpr const char* k_face = R"(version = 1
+[observer]
+position = [0.0, 0.0, 4.0]
+look_at = [0.0, 0.0, 0.0]
+projection = "orthographic"
+height = 0.5
+[image]
+width = 60
+height = 40
+color_management = "none"
+[shading]
+model = "flat"
+[reflection]
+model = "lambert"
+[[light]]
+name = "sun"
+type = "directional"
+direction = [0.8660254, 0.0, -0.5]
+[[object]]
+type = "cube"
+color = [255, 255, 255]
+[object.material]
+kd = 0.8
+)";
+
+struct Ppm {
+    int width = 0, height = 0;
+    std::string pixels;
+
+    std::string part(int x, int y, int across, int down) const {
+        std::string result;
+        for (int row = y; row < y + down; ++row)
+            result += pixels.substr(3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                         static_cast<std::size_t>(x)),
+                                    3 * static_cast<std::size_t>(across));
+        return result;
+    }
+};
+
+Ppm ppm_in(const fs::path& file) {
+    const std::string text = read_file(file);
+    Ppm picture;
+    std::istringstream head(text);
+    std::string magic;
+    int largest = 0;
+    head >> magic >> picture.width >> picture.height >> largest;
+    REQUIRE(magic == "P6");
+    picture.pixels = text.substr(text.size() - 3 * static_cast<std::size_t>(picture.width) *
+                                                   static_cast<std::size_t>(picture.height));
+    return picture;
+}
+
+class Folder {
+  public:
+    Folder() : path_(scratch_directory()) { write_file(path_ / "face.toml", k_face); }
+
+    CommandResult run(std::vector<std::string> words) const {
+        return run_candela(words, {.input = "", .environment = {}, .directory = path_});
+    }
+    Ppm made(const std::vector<std::string>& words, const std::string& file) const {
+        const CommandResult result = run(words);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        return ppm_in(path_ / file);
+    }
+    std::string error(std::vector<std::string> words, int exit_code) const {
+        words.insert(words.begin(), {"compare", "face.toml"});
+        const CommandResult result = run(words);
+        INFO(result.err << result.out);
+        CHECK(result.exit_code == exit_code);
+        CHECK_FALSE(fs::exists(path_ / "comparison.png"));
+        return result.err;
+    }
+    fs::path operator/(const std::string& name) const { return path_ / name; }
+
+  private:
+    fs::path path_;
+};
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+constexpr int k_margin = 4, k_line = 10;
+
+}  // namespace
+
+TEST_CASE("each picture on a sheet is, byte for byte, what `render` makes of that combination") {
+    const Folder folder;
+    const std::vector<std::string> reflections{"lambert", "half-lambert", "phong"}, shadings{"flat", "phong"};
+    const Ppm sheet = folder.made({"compare", "face.toml", "--reflection", "lambert,half-lambert,phong",
+                                   "--shading=flat,phong", "-o", "sheet.ppm"},
+                                  "sheet.ppm");
+    CHECK(sheet.width == 3 * (60 + k_margin) + k_margin);
+    CHECK(sheet.height == 2 * (40 + 2 * k_margin + k_line) + k_margin);
+    for (std::size_t row = 0; row < shadings.size(); ++row) {
+        for (std::size_t column = 0; column < reflections.size(); ++column) {
+            const Ppm alone = folder.made({"render", "face.toml", "--reflection", reflections[column],
+                                           "--shading", shadings[row], "-o", "alone.ppm"},
+                                          "alone.ppm");
+            const int x = k_margin + static_cast<int>(column) * (60 + k_margin),
+                      y = k_margin + static_cast<int>(row) * (40 + 2 * k_margin + k_line);
+            INFO(reflections[column] << " " << shadings[row]);
+            CHECK(sheet.part(x, y, 60, 40) == alone.pixels);
+            // Its label: ink on paper below it.
+            const std::string label = sheet.part(x, y + 40 + k_margin, 60, k_line);
+            CHECK(label.find_first_not_of(label.front()) != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("values are compared like models, and a side alone is broken into rows") {
+    const Folder folder;
+    const Ppm sheet = folder.made({"compare", "face.toml", "--vary", "light.sun.intensity=0.2,0.4,0.6,0.8",
+                                   "--vary", "object.0.color=[255,0,0]", "--columns=2", "-o", "sheet.ppm"},
+                                  "sheet.ppm");
+    CHECK(sheet.width == 2 * (60 + k_margin) + k_margin);
+    // 255 k_d I N.L = 255 * 0.8 * 0.6 * 0.5, in the second row's first picture.
+    const std::string pixel = sheet.part(k_margin + 30, k_margin + 40 + 2 * k_margin + k_line + 20, 1, 1);
+    CHECK(static_cast<unsigned char>(pixel[0]) == 61);
+    CHECK(pixel[1] == 0);
+}
+
+TEST_CASE("with --difference, a sheet tells how far each picture is from the first") {
+    const Folder folder;
+    const CommandResult result =
+        folder.run({"compare", "face.toml", "--reflection=lambert,half-lambert,lambert ", "--difference",
+                    "--json", "-o", "sheet.ppm"});
+    CHECK(result.exit_code != 0);  // "lambert " is no model
+    const CommandResult sound =
+        folder.run({"compare", "face.toml", "--reflection=lambert,half-lambert", "--vary",
+                    "light.sun.intensity=1,0.5", "--difference", "--json", "-o", "sheet.ppm"});
+    INFO(sound.err);
+    REQUIRE(sound.exit_code == 0);
+    const Json pictures = Json::parse(sound.out)["pictures"];
+    REQUIRE(pictures.size() == 4);
+    CHECK_FALSE(pictures[0].contains("difference"));
+    CHECK(pictures[3]["settings"] == Json{{"reflection", "half-lambert"}, {"light.sun.intensity", "0.5"}});
+    CHECK(pictures[3]["column"] == 1);
+    CHECK(pictures[3]["row"] == 1);
+    // Lambert: 255 k_d cos 60 = 102. Half Lambert: 255 k_d (0.5 cos 60 + 0.5)^2 = 114.75, a byte of 115. Half
+    // the light: 51 and 57.
+    CHECK(pictures[1]["difference"]["mean"].get<double>() == Approx(13));
+    CHECK(pictures[2]["difference"]["maximum"].get<double>() == Approx(51));
+    CHECK(pictures[3]["difference"]["rmse"].get<double>() == Approx(45).margin(1.01));
+    const Ppm sheet = ppm_in(folder / "sheet.ppm");
+    // The largest difference is white.
+    CHECK(static_cast<unsigned char>(
+              sheet.part(k_margin + 30, k_margin + 40 + 2 * k_margin + k_line + 20, 1, 1)[0]) == 255);
+}
+
+TEST_CASE("what is to be said of a later picture is said, and what all have in common once") {
+    const Folder folder;
+    const CommandResult result = folder.run({"compare", "face.toml", "--reflection=phong", "--vary",
+                                             "object.0.material.ks=0.1,0.9,0.1e0", "-o", "sheet.ppm"});
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    const std::size_t first = result.err.find("warning");
+    REQUIRE(first != std::string::npos);
+    CHECK(result.err.find("warning", first + 1) == std::string::npos);
+}
+
+TEST_CASE("what cannot be compared is an error that says why, and no sheet") {
+    const Folder folder;
+    CHECK(holds(folder.error({}, 2), "nothing to compare"));
+    CHECK(holds(folder.error({"--reflection=phong"}, 2), "nothing to compare"));
+    CHECK(holds(folder.error({"--reflection=phong,"}, 2), "a value is missing in 'phong,'"));
+    CHECK(holds(folder.error({"--reflection=phong,phong"}, 2), "'phong' is there twice"));
+    CHECK(holds(folder.error(
+                    {"--reflection=phong,lambert", "--shading=flat,phong", "--vary", "image.samples=1,4"}, 2),
+                "a sheet has two sides"));
+    const std::string unknown = folder.error({"--reflection=lambert,phnog"}, 3);
+    CHECK(holds(unknown, "phnog"));
+    CHECK(holds(unknown, "did you mean 'phong'"));
+    CHECK(holds(unknown, "those of the picture 'phnog'"));
+    CHECK(holds(folder.error({"--reflection=lambert,phong", "-o", "face.toml"}, 2),
+                "of no format that an image plugin writes"));
+    CHECK(holds(folder.error({"--reflection=lambert,phong", "--columns=3"}, 2), "it can be 1 to 2"));
+    CHECK(holds(folder.error({"--vary", "image.width=60,70"}, 2), "have one size"));
+    CHECK(holds(folder.error({"--vary", "image.width"}, 2), "has no '='"));
+    CHECK(holds(folder.error({"--vary", "image.samples=1,4", "--vary", "image.samples=8,16"}, 2),
+                "is there twice"));
+    CHECK(holds(folder.error({"--reflection=phong,ggx", "--vary", "reflection.model=lambert,ggx"}, 2),
+                "say the same"));
+    CHECK(holds(folder.error({"-q", "--reflection=lambert,phnog"}, 3), "those of the picture 'phnog'"));
+}
