@@ -6,6 +6,7 @@ export module candela.light;
 
 export import candela.descriptor;
 export import candela.math;
+export import candela.punctual;
 
 export namespace candela {
 using candela::IncidentBatch;

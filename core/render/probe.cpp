@@ -38,7 +38,8 @@ class FragmentTracer {
     FragmentProbe trace(std::uint32_t object, const FragmentRun& run) {
         const SolidObject& solid = scene_.objects[object];
         const ProjectedMesh mesh{projected_, solid.mesh, projected_.first_vertex[object]};
-        const PointNeeds needs = solid.surface.needs();
+        PointNeeds needs = solid.surface.needs();
+        needs.face_normal = needs.vertex_normal = needs.barycentric = true;
         gather_fragments(mesh, std::span(&run, 1), needs, points_);
         FragmentProbe fragment{.object = object,
                                .triangle = run.triangle,

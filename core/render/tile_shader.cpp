@@ -183,7 +183,8 @@ void TileShader::shade_vertices(const FragmentList& fragments) {
     const ConstVec3Span intensity = std::as_const(places_).span();
     FragmentBatches batches(fragments);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
-        gather_fragments(mesh, runs, {}, points_);
+        gather_fragments(mesh, runs, {.position = false, .face_normal = false, .vertex_normal = false},
+                         points_);
         std::size_t i = 0;
         std::uint32_t triangle = k_no_triangle;
         std::array<Vec3, 3> at_corner;

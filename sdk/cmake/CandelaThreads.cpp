@@ -181,6 +181,12 @@ void call(const candela::ReflectionModel& model, Work& work) {
                   {.to_light = as_input(work.light).span(), .diffuse = intensity, .specular = intensity},
                   reflected);
     model.reflect_ambient(surface, intensity, reflected);
+    if (!model.shows_surroundings()) {
+        const candela::PunctualLight lamp{.position = {2, 3, 4}, .diffuse = {1, 1, 1}, .specular = {1, 1, 1}};
+        const candela::PunctualLighting lighting{
+            .observer = {0, 0, 5}, .ambient = {0.1f, 0.1f, 0.1f}, .lights = {&lamp, 1}};
+        model.reflect_punctual(surface, lighting, work.results[0].span());
+    }
     if (model.shows_surroundings()) {
         SameEverywhere surroundings;
         model.show_surroundings(surface, surroundings, reflected);
@@ -192,9 +198,9 @@ void call(const candela::ShadingModel& model, Work& work) {
     const candela::ConstVec3Span along = as_input(work.tangent).span(), across = as_input(work.light).span();
     candela::ShadingPointBatch points;
     points.count = k_points;
-    points.face_normal = as_input(work.normal).span();
-    points.vertex_normal = as_input(work.normal).span();
-    points.barycentric = as_input(work.barycentric).span();
+    if (needs.face_normal) points.face_normal = as_input(work.normal).span();
+    if (needs.vertex_normal) points.vertex_normal = as_input(work.normal).span();
+    if (needs.barycentric) points.barycentric = as_input(work.barycentric).span();
     if (needs.uv) points.uv = work.uv();
     if (needs.derivatives) points.dpdu = along, points.dpdv = across;
     const candela::ConstVec3Span place = as_input(work.position).span(),

@@ -84,6 +84,13 @@ class ColorfulSurroundings final : public candela::Surroundings {
     }
 };
 
+bool can_reflect_punctual(const candela::ReflectionModel& model, candela::SurfaceBatch point) {
+    if (model.shows_surroundings()) return false;
+    point.to_observer = {};
+    Vec3 intensity;
+    return model.reflect_punctual(point, punctual_lighting(), {&intensity.x, &intensity.y, &intensity.z});
+}
+
 BatchSubject reflection_subject(const Values& values) {
     const std::shared_ptr<candela::ReflectionModel> model = make<candela::ReflectionModel>(values);
     const auto surface = [model](std::size_t count, const Arrays& in) {
@@ -116,6 +123,17 @@ BatchSubject reflection_subject(const Values& values) {
          {"reflect_ambient", outputs, true, false, [=](std::size_t count, const Arrays& in, Arrays& out) {
               model->reflect_ambient(surface(count, in), in.vec3(k_diffuse), reflected(out));
           }}}};
+    if (can_reflect_punctual(*model, surface(1, inputs_for(1)))) {
+        subject.calls.push_back({"reflect_punctual",
+                                 {"intensity"},
+                                 false,
+                                 declares("may-be-negative"),
+                                 [=](std::size_t count, const Arrays& in, Arrays& out) {
+                                     candela::SurfaceBatch points = surface(count, in);
+                                     points.to_observer = {};
+                                     model->reflect_punctual(points, punctual_lighting(), out.vec3(0));
+                                 }});
+    }
     if (model->shows_surroundings()) {
         subject.calls.push_back({"show_surroundings", outputs, true, false,
                                  [=](std::size_t count, const Arrays& in, Arrays& out) {
@@ -166,6 +184,9 @@ BatchSubject shading_subject(const Values& values) {
             k_inputs,
             {{"normals", {"normal"}, false, true, [=](std::size_t count, const Arrays& in, Arrays& out) {
                   const candela::ShadingNeeds needs = model->needs();
+                  const auto given = [](bool is_needed, const candela::ConstVec3Span& span) {
+                      return is_needed ? span : candela::ConstVec3Span{};
+                  };
                   const bool has_triangle =
                       needs.triangle && model->shading_rate() != candela::ShadingRate::vertex;
                   candela::TriangleBatch triangle;
@@ -174,19 +195,41 @@ BatchSubject shading_subject(const Values& values) {
                       triangle.normal[k] = in.vec3(k_corner_normals + 3 * k);
                   }
                   model->normals({.count = count,
-                                  .face_normal = in.vec3(k_normal),
-                                  .vertex_normal = in.vec3(k_vertex_normal),
-                                  .barycentric = in.vec3(k_barycentric),
+                                  .face_normal = given(needs.face_normal, in.vec3(k_normal)),
+                                  .vertex_normal = given(needs.vertex_normal, in.vec3(k_vertex_normal)),
+                                  .barycentric = given(needs.barycentric, in.vec3(k_barycentric)),
                                   .uv = needs.uv ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]}
                                                  : candela::ConstVec2Span{},
-                                  .dpdu = needs.derivatives ? in.vec3(k_dpdu) : candela::ConstVec3Span{},
-                                  .dpdv = needs.derivatives ? in.vec3(k_dpdv) : candela::ConstVec3Span{},
+                                  .dpdu = given(needs.derivatives, in.vec3(k_dpdu)),
+                                  .dpdv = given(needs.derivatives, in.vec3(k_dpdv)),
                                   .triangle = has_triangle ? &triangle : nullptr},
                                  out.vec3(0));
               }}}};
 }
 
 }  // namespace
+
+const candela::PunctualLighting& punctual_lighting() {
+    static const std::vector<candela::PunctualLight> lights = [] {
+        candela::PunctualLight lamp{.position = {2.5f, 3, 1}, .diffuse = {9, 8, 7}, .specular = {7, 8, 9}};
+        lamp.constant = 0;
+        lamp.quadratic = 1;
+        const candela::PunctualLight sun{.position = {0.6f, 0, -0.8f},
+                                         .w = 0,
+                                         .diffuse = {0.3f, 0.2f, 0.1f},
+                                         .specular = {0.1f, 0.2f, 0.3f}};
+        candela::PunctualLight spot{.position = {-3, 1, 2}, .diffuse = {2, 2, 3}, .specular = {3, 2, 2}};
+        spot.linear = 0.5f;
+        spot.has_cone = spot.is_smooth = true;
+        spot.axis = candela::normalized({3, -1, -2});
+        spot.cos_outer = 0.7f;
+        spot.cone_scale = 5;
+        return std::vector<candela::PunctualLight>{lamp, sun, spot};
+    }();
+    static const candela::PunctualLighting lighting{
+        .observer = {0.5f, 1, 6}, .ambient = {0.1f, 0.2f, 0.3f}, .lights = lights};
+    return lighting;
+}
 
 BatchSubject batch_subject(const Values& values) {
     switch (subject_manifest().kind) {

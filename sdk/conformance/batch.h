@@ -12,6 +12,7 @@
 
 import candela.guard;
 import candela.math;
+import candela.punctual;
 
 /// Arrays of one length, with room before and after each that nobody may write to. What is read there is
 /// NaN.
@@ -88,6 +89,10 @@ inline constexpr std::size_t k_inputs = 53;
 }  // namespace inputs
 
 BatchSubject batch_subject(const Values& values);
+
+/// Lights as data, and an observer, among which inputs_for() places its points: a point light, one infinitely
+/// far away, and a spot light.
+const candela::PunctualLighting& punctual_lighting();
 
 /// Inputs as a renderer gives them, the same for one `seed`: unit vectors, positions, colours.
 Arrays inputs_for(std::size_t count, unsigned seed = 1);

@@ -3,9 +3,11 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "batch.h"
+#include "incident.h"
 
 import candela.light;
 
@@ -67,6 +69,39 @@ bool is_beyond_all_samples(const Values& values, Vec3 point, Vec3 direction) {
         if (dot(outputs_of(call, in).at(0, 0), direction) > 0) return false;
     }
     return true;
+}
+
+/// Holds what a light sends against what it says of itself, in double precision.
+void compare_with_data(const candela::Light& light, int sample, const candela::PunctualLight& data,
+                       const Arrays& in, const Values& values) {
+    Arrays out(9, in.count());
+    light.illuminate(
+        sample,
+        {.count = in.count(), .position = in.vec3(inputs::k_position), .normal = in.vec3(inputs::k_normal)},
+        {.to_light = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
+    std::size_t differing = 0, first = 0;
+    for (std::size_t i = 0; i < in.count(); ++i) {
+        const Vec3 p = in.at(inputs::k_position, i);
+        const ExactIncident exact = incident_of(data, p);
+        const auto share = static_cast<float>(exact.share);
+        const Vec3 diffuse = share * Vec3{data.diffuse.r, data.diffuse.g, data.diffuse.b},
+                   specular = share * Vec3{data.specular.r, data.specular.g, data.specular.b};
+        const auto differ = [](Vec3 a, Vec3 b) {
+            return candela::length(a - b) > 1e-4f * std::max(candela::length(a), candela::length(b)) + 1e-12f;
+        };
+        const bool is_off = differ(out.at(0, i), exact.to_light) || differ(out.at(3, i), diffuse) ||
+                            differ(out.at(6, i), specular);
+        if (is_off && differing++ == 0) first = i;
+    }
+    // At the edge of a cone that is hard, the last bit decides on which side of it a point is.
+    constexpr double k_may_be_at_edges = 0.02;
+    if (static_cast<double>(differing) > k_may_be_at_edges * static_cast<double>(in.count())) {
+        const ExactIncident exact = incident_of(data, in.at(inputs::k_position, first));
+        FAIL("as data, sample " << sample << " sends " << exact.share * double{data.diffuse.r}
+                                << " in red; illuminate() sends " << out[3][first] << ", for "
+                                << text_of_input(in, first) << " and " << differing - 1
+                                << " more points, with " << values.text);
+    }
 }
 
 }  // namespace
@@ -190,5 +225,33 @@ TEST_CASE("samples: their number is not negative, and a light without any has an
             FAIL("sample_count() is " << light->sample_count() << ", with " << values.text);
         if (light->sample_count() == 0 && !light->has_ambient())
             FAIL("it sends no light at all, with " << values.text);
+    }
+}
+
+TEST_CASE("data: what a light says of itself as data is what it sends", "[light]") {
+    Arrays in = inputs_for(500, 41);
+    for (const Values& values : many_values()) {
+        const auto light = make<candela::Light>(values);
+        candela::Rgb ambient;
+        if (light->has_ambient() && light->describe_ambient(ambient)) {
+            Arrays out(3, in.count());
+            light->illuminate_ambient({.count = in.count(),
+                                       .position = std::as_const(in).vec3(inputs::k_position),
+                                       .normal = std::as_const(in).vec3(inputs::k_normal)},
+                                      out.vec3(0));
+            for (std::size_t i = 0; i < in.count(); ++i) {
+                if (!(candela::length(out.at(0, i) - Vec3{ambient.r, ambient.g, ambient.b}) <=
+                      1e-5f * candela::length(out.at(0, i))))
+                    FAIL("as data, its ambient light is ["
+                         << ambient.r << ", " << ambient.g << ", " << ambient.b << "]; it sends ["
+                         << out[0][i] << ", " << out[1][i] << ", " << out[2][i] << "] for "
+                         << text_of_input(in, i) << ", with " << values.text);
+            }
+        }
+        for (int sample = 0; sample < std::min(light->sample_count(), 8); ++sample) {
+            candela::PunctualLight data;
+            if (!light->describe(sample, data)) break;
+            compare_with_data(*light, sample, data, in, values);
+        }
     }
 }

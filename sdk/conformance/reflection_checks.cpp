@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "batch.h"
+#include "incident.h"
 
 import candela.reflection;
 
@@ -220,6 +221,75 @@ TEST_CASE("isotropic, where it is declared: turning the surface about its normal
                     FAIL("turned by " << angle << " rad about N it reflects " << largest(after[i])
                                       << " instead of " << largest(before[i]) << ", with " << values.text);
             }
+        }
+    }
+}
+
+namespace {
+
+/// What reflect() and reflect_ambient() make of lighting that is data, light by light, with all vectors to
+/// the lights turned a little.
+std::vector<Vec3> one_by_one(const Values& values, const Arrays& given, Vec3 turn) {
+    const candela::PunctualLighting& lighting = punctual_lighting();
+    Arrays in = given;
+    std::vector<Vec3> sums(in.count());
+    for (std::size_t i = 0; i < in.count(); ++i)
+        in.vec3(inputs::k_observer)
+            .set(i, candela::normalized(lighting.observer - in.at(inputs::k_position, i)));
+    const BatchSubject subject = batch_subject(values);
+    const auto add = [&](const char* name) {
+        const auto call = std::ranges::find(subject.calls, name, &Call::name);
+        const Arrays out = outputs_of(*call, in);
+        for (std::size_t i = 0; i < in.count(); ++i)
+            sums[i] = sums[i] + out.at(0, i) + out.at(3, i) + out.at(6, i);
+    };
+    for (std::size_t i = 0; i < in.count(); ++i)
+        in.vec3(inputs::k_diffuse).set(i, {lighting.ambient.r, lighting.ambient.g, lighting.ambient.b});
+    add("reflect_ambient");
+    for (const candela::PunctualLight& light : lighting.lights) {
+        for (std::size_t i = 0; i < in.count(); ++i) {
+            const ExactIncident incident = incident_of(light, in.at(inputs::k_position, i));
+            const auto share = static_cast<float>(incident.share);
+            in.vec3(inputs::k_light).set(i, candela::normalized(incident.to_light + turn));
+            in.vec3(inputs::k_diffuse)
+                .set(i, share * Vec3{light.diffuse.r, light.diffuse.g, light.diffuse.b});
+            in.vec3(inputs::k_specular)
+                .set(i, share * Vec3{light.specular.r, light.specular.g, light.specular.b});
+        }
+        add("reflect");
+    }
+    return sums;
+}
+
+}  // namespace
+
+TEST_CASE("in one go: of many lights a model makes what it makes of them one by one", "[reflection]") {
+    const Arrays in = inputs_for(500, 31);
+    for (const Values& values : many_values(10)) {
+        const BatchSubject subject = batch_subject(values);
+        const auto call = std::ranges::find(subject.calls, "reflect_punctual", &Call::name);
+        if (call == subject.calls.end()) SKIP("it has no reflect_punctual()");
+        const Arrays out = outputs_of(*call, in);
+        // Where a highlight is sharp, or a model has steps, directions that differ by rounding tell.
+        constexpr float k_rounding = 1e-6f;
+        std::vector<std::vector<Vec3>> sums;
+        for (const Vec3 turn :
+             {Vec3{}, Vec3{k_rounding, 0, 0}, Vec3{-k_rounding, 0, 0}, Vec3{0, k_rounding, 0},
+              Vec3{0, -k_rounding, 0}, Vec3{0, 0, k_rounding}, Vec3{0, 0, -k_rounding}})
+            sums.push_back(one_by_one(values, in, turn));
+        for (std::size_t i = 0; i < in.count(); ++i) {
+            const float got = largest(out.at(0, i));
+            float low = largest(sums[0][i]), high = low;
+            for (const std::vector<Vec3>& sum : sums) {
+                low = std::min(low, largest(sum[i]));
+                high = std::max(high, largest(sum[i]));
+            }
+            const float rounding = high - low + 1e-5f * high + 1e-6f;
+            if (!(got >= low - rounding && got <= high + rounding))
+                FAIL("reflect_punctual gives "
+                     << got << " of three lights and ambient light; one by one they "
+                     << "are " << largest(sums[0][i]) << ", for " << text_of_input(in, i) << ", with "
+                     << values.text);
         }
     }
 }

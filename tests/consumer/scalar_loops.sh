@@ -14,7 +14,8 @@ objdump -dC --no-show-raw-insn "$1" | awk '
         if (name ~ /candela::Multiversion</ && match(name, />::(baseline|avx2|avx512)\(/))
             version = substr(name, RSTART + 3, RLENGTH - 4)
     }
-    /[ \t]callq?[ \t]/ { ++calls }
+    # A loop with arrays of its own looks at the end whether its stack is whole.
+    /[ \t]callq?[ \t]/ && !/__stack_chk_fail/ { ++calls }
     version == "baseline" && /(add|sub|mul)ps/ { ++vectors }
     version == "avx2" && /%ymm/ { ++vectors }
     version == "avx512" && /%zmm/ { ++vectors }

@@ -71,6 +71,10 @@ TEST_CASE("a plugin that writes past its batch, wherever that ends, is found or 
             CHECK(result.err.find("plugin reflection/writes-past-the-end writes beyond the batch") !=
                   std::string::npos);
     }
+    const CommandResult hasty = rendered({"--reflection=hasty-at-the-end"}, directory / "d.png");
+    INFO(hasty.err);
+    CHECK(hasty.exit_code == 1);
+    CHECK(hasty.err.find("plugin reflection/hasty-at-the-end ") != std::string::npos);
     // 512 pixels a side fill whole batches: there it is found.
     CHECK(rendered({"--reflection=writes-past-the-end"}, directory / "b.png").exit_code == 1);
     const CommandResult added = rendered({"--reflection=adds-past-the-end"}, directory / "c.png");

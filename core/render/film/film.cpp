@@ -8,6 +8,7 @@ module;
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 module candela.film;
@@ -20,14 +21,8 @@ namespace candela {
 
 namespace {
 
-/// How an intensity between 0 and 1 becomes a byte: linear up to `limit`, then the power of sRGB's curve.
-struct ByteCurve {
-    float limit, slope;
-};
-/// The curve of linear_to_srgb() (IEC 61966-2-1:1999), or the identity.
-constexpr ByteCurve curve_of(bool srgb) {
-    return srgb ? ByteCurve{0.0031308f, 255 * 12.92f} : ByteCurve{2, 255};
-}
+/// The curve of linear_to_srgb() (IEC 61966-2-1:1999), times 255: linear up to the limit, then a power.
+constexpr float k_srgb_limit = 0.0031308f, k_srgb_slope = 255 * 12.92f;
 
 /// sRGB's power, times 255: accurate to 0.0025, which is enough for a byte and takes a third of the work of
 /// kernel::pow. x^(1/2.4) is that of x's mantissa, a polynomial (Remez exchange), times that of its power of
@@ -48,9 +43,10 @@ constexpr ByteCurve curve_of(bool srgb) {
 }
 
 /// A channel to 8 bits: clamped, encoded, rounded. NaN becomes black.
-[[gnu::always_inline]] inline std::uint8_t byte_of(float intensity, ByteCurve curve) {
+template <bool srgb>
+[[gnu::always_inline]] inline std::uint8_t byte_of(float intensity) {
     const float x = intensity > 0.0f ? (intensity < 1.0f ? intensity : 1.0f) : 0.0f;
-    const float encoded = x <= curve.limit ? curve.slope * x : srgb_power_255(x);
+    const float encoded = !srgb ? 255 * x : x <= k_srgb_limit ? k_srgb_slope * x : srgb_power_255(x);
     return static_cast<std::uint8_t>(static_cast<std::int32_t>(encoded + 0.5f));
 }
 
@@ -62,21 +58,29 @@ struct StoredRows {
     std::size_t stride, pitch;
 };
 
+template <bool srgb>
 struct EncodeLoop {
-    CANDELA_BATCH_LOOP static void run(StoredRows rows, bool srgb) {
-        const ByteCurve curve = curve_of(srgb);
+    CANDELA_BATCH_LOOP static void run(StoredRows rows) {
         for (std::size_t row = 0; row < rows.height; ++row) {
             const ConstVec3Span from = rows.intensity.from(row * rows.stride);
             std::uint8_t* const to = rows.bytes + row * rows.pitch;
             CANDELA_VECTORIZE
             for (std::size_t i = 0; i < rows.width; ++i) {
-                to[3 * i] = byte_of(from.x[i], curve);
-                to[3 * i + 1] = byte_of(from.y[i], curve);
-                to[3 * i + 2] = byte_of(from.z[i], curve);
+                to[3 * i] = byte_of<srgb>(from.x[i]);
+                to[3 * i + 1] = byte_of<srgb>(from.y[i]);
+                to[3 * i + 2] = byte_of<srgb>(from.z[i]);
             }
         }
     }
 };
+
+void encode(const StoredRows& rows, ColorEncoding encoding) {
+    if (encoding == ColorEncoding::srgb) {
+        multiversion<EncodeLoop<true>>(rows);
+    } else {
+        multiversion<EncodeLoop<false>>(rows);
+    }
+}
 
 }  // namespace
 
@@ -100,7 +104,7 @@ void Film::fill(int x, int y, int width, int height, Rgb intensity) {
     const float channels[3] = {intensity.r, intensity.g, intensity.b};
     std::uint8_t encoded[3];
     const StoredRows one{{&channels[0], &channels[1], &channels[2]}, &encoded[0], 1, 1, 1, 3};
-    multiversion<EncodeLoop>(one, encoding_ == ColorEncoding::srgb);
+    encode(one, encoding_);
     const auto fill_rows = [&](auto& all, const auto& pixel) {
         const auto first = all.begin() + static_cast<std::ptrdiff_t>(index_of(x, y));
         for (int i = 0; i < width; ++i) std::copy_n(pixel, 3, first + 3 * i);
@@ -123,7 +127,7 @@ void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, i
                           static_cast<std::size_t>(height),
                           static_cast<std::size_t>(stride),
                           pitch};
-    if (pixels_ == PixelType::byte) return multiversion<EncodeLoop>(rows, encoding_ == ColorEncoding::srgb);
+    if (pixels_ == PixelType::byte) return encode(rows, encoding_);
     for (std::size_t row = 0; row < rows.height; ++row) {
         const ConstVec3Span from = intensity.from(row * rows.stride);
         float* const to = &reals_[index_of(x, y) + row * pitch];
@@ -132,6 +136,23 @@ void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, i
             to[3 * i + 1] = from.y[i];
             to[3 * i + 2] = from.z[i];
         }
+    }
+}
+
+void Film::paste(int x, int y, const Film& other) {
+    if (other.pixels_ != pixels_ || x < 0 || y < 0 || other.width_ > width_ - x ||
+        other.height_ > height_ - y)
+        throw std::invalid_argument("Film::paste(): another type of pixel, or no room for them");
+    const auto copy = [&](const auto& from, auto& to) {
+        for (int row = 0; row < other.height_; ++row) {
+            std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(other.index_of(0, row)), 3 * other.width_,
+                        to.begin() + static_cast<std::ptrdiff_t>(index_of(x, y + row)));
+        }
+    };
+    if (pixels_ == PixelType::byte) {
+        copy(other.bytes_, bytes_);
+    } else {
+        copy(other.reals_, reals_);
     }
 }
 

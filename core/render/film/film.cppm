@@ -37,6 +37,10 @@ class CANDELA_API Film {
     /// Stores one intensity in a rectangle.
     void fill(int x, int y, int width, int height, Rgb intensity);
 
+    /// Copies another film's pixels as they are, its upper left corner to (x, y). `other` lies within this
+    /// film and has pixels of the same type.
+    void paste(int x, int y, const Film& other);
+
     PictureView view() const noexcept;
 
   private:

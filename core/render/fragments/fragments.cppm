@@ -40,13 +40,18 @@ struct CANDELA_API SurfacePoints {
     std::array<Vec3Arrays, 3> corner_normal;    // unit
 };
 
-/// Which attributes of a point are needed beyond those that every model reads.
+/// Which attributes of a point are needed. Others may be filled, too.
 struct PointNeeds {
+    bool position = true;
+    bool face_normal = true;
+    bool vertex_normal = true;
+    bool barycentric = true;
     bool uv = false;
     bool derivatives = false;
     bool triangle = false;  // of fragments, faces and places; a vertex has none
 
-    constexpr bool any() const { return uv || derivatives || triangle; }
+    /// Whether there is more than what is interpolated in one go.
+    constexpr bool more() const { return uv || derivatives || triangle; }
 };
 
 /// Adjacent pixels of a row to which one triangle contributes equal shares.

@@ -122,7 +122,7 @@ void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, Point
     points.face_normal.span().set(i, mesh.face_normal.span()[triangle]);
     points.vertex_normal.span().set(i, blend({a.normal, b.normal, c.normal}, weight));
     points.barycentric.span().set(i, weight);
-    if (needs.any()) blend_attributes(mesh, vertices, needs, i, 1, points);
+    if (needs.more()) blend_attributes(mesh, vertices, needs, i, 1, points);
 }
 
 }  // namespace
@@ -205,11 +205,12 @@ struct Places {
     alignas(64) std::array<std::uint32_t, k_batch_size + k_behind> triangle;
     std::size_t count = 0;
 
-    Places(const Mesh& mesh, std::span<const FragmentRun> runs) {
+    Places(const Mesh& mesh, std::span<const FragmentRun> runs, Interpolated what) {
         for (const FragmentRun& run : runs) {
             count += run.count;
             // All at once, because in a large mesh they come from far apart.
             __builtin_prefetch(&mesh.indices[3 * std::size_t{run.triangle}]);
+            if (what != Interpolated::all) continue;
             __builtin_prefetch(&mesh.face_normal.x[run.triangle]);
             __builtin_prefetch(&mesh.face_normal.y[run.triangle]);
             __builtin_prefetch(&mesh.face_normal.z[run.triangle]);
@@ -265,6 +266,13 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
     }
 }
 
+Interpolated interpolated_for(PointNeeds needs) {
+    if (needs.face_normal || needs.uv || needs.derivatives) return Interpolated::all;
+    const bool has_points = needs.position || needs.vertex_normal;
+    if (needs.barycentric) return has_points ? Interpolated::all : Interpolated::barycentric;
+    return Interpolated::position_and_normal;
+}
+
 /// From this many fragments on, a triangle is worth a loop of its own.
 constexpr std::size_t k_worth_a_loop = 16;
 
@@ -272,7 +280,8 @@ constexpr std::size_t k_worth_a_loop = 16;
 
 void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> runs, PointNeeds needs,
                       SurfacePoints& points) {
-    const Places places(source.mesh, runs);
+    const Interpolated what = interpolated_for(needs);
+    const Places places(source.mesh, runs, what);
     points.count = places.count;
     points.filled = whole_vectors(places.count);
     const auto spans_from = [&](std::size_t first) -> InterpolatedSpans {
@@ -282,14 +291,14 @@ void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> 
     std::size_t interpolated = 0;
     const auto fetch_up_to = [&](std::size_t end) {
         if (end == interpolated) return;
-        interpolate_each(indexed(source), end - interpolated, &places.triangle[interpolated],
+        interpolate_each(what, indexed(source), end - interpolated, &places.triangle[interpolated],
                          &places.x[interpolated], &places.y[interpolated], spans_from(interpolated));
         interpolated = end;
     };
     each_triangle(runs, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
         if (source.scene.is_moderate && end - first < k_worth_a_loop) return;
         fetch_up_to(first);
-        interpolate(attributes_of(source, triangle), end - first, &places.x[first], &places.y[first],
+        interpolate(what, attributes_of(source, triangle), end - first, &places.x[first], &places.y[first],
                     spans_from(first));
         interpolated = end;
     });
@@ -297,14 +306,14 @@ void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> 
 
     points.any_from_behind = false;
     std::fill_n(points.facing.begin(), points.filled, 1.0f);
-    if (source.mesh.closed && !needs.any()) return;
+    if (source.mesh.closed && !needs.more()) return;
     each_triangle(runs, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
         if (source.is_back(triangle)) {
             points.any_from_behind = true;
             std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
                       points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
         }
-        if (needs.any())
+        if (needs.more())
             blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first, end - first,
                              points);
     });

@@ -39,6 +39,11 @@ struct Fragment {
         b2 = b2 * scale;
     }
 
+    [[gnu::always_inline]] void store(const InterpolatedSpans& out, std::size_t i) const {
+        out.barycentric.x[i] = b0;
+        out.barycentric.y[i] = b1;
+        out.barycentric.z[i] = b2;
+    }
     [[gnu::always_inline]] float blend(float at_0, float at_1, float at_2) const {
         return b0 * at_0 + b1 * at_1 + b2 * at_2;
     }
@@ -48,6 +53,7 @@ struct Fragment {
     }
 };
 
+template <Interpolated what>
 struct RunLoop {
     CANDELA_BATCH_LOOP static void run(TriangleAttributes t, std::size_t count, const float* px,
                                        const float* py, InterpolatedSpans out) {
@@ -57,15 +63,15 @@ struct RunLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const Fragment f(px[i], py[i], s0.x, s0.y, s0.w, s1.x, s1.y, s1.w, s2.x, s2.y, s2.w);
-            out.barycentric.x[i] = f.b0;
-            out.barycentric.y[i] = f.b1;
-            out.barycentric.z[i] = f.b2;
+            if constexpr (what != Interpolated::position_and_normal) f.store(out, i);
+            if constexpr (what == Interpolated::barycentric) continue;
             out.position.x[i] = f.blend(p0.x, p1.x, p2.x);
             out.position.y[i] = f.blend(p0.y, p1.y, p2.y);
             out.position.z[i] = f.blend(p0.z, p1.z, p2.z);
             out.vertex_normal.x[i] = f.blend(n0.x, n1.x, n2.x);
             out.vertex_normal.y[i] = f.blend(n0.y, n1.y, n2.y);
             out.vertex_normal.z[i] = f.blend(n0.z, n1.z, n2.z);
+            if constexpr (what != Interpolated::all) continue;
             out.face_normal.x[i] = t.face_normal.x;
             out.face_normal.y[i] = t.face_normal.y;
             out.face_normal.z[i] = t.face_normal.z;
@@ -77,14 +83,17 @@ struct RunLoop {
 struct CornerColumns {
     Columns projected, position, normal;
 
+    template <Interpolated what>
     [[gnu::always_inline]] void fetch(const IndexedMesh& mesh, const std::uint32_t (&vertex)[k_lanes]) {
         projected.gather([&](std::size_t i) { return &mesh.projected[vertex[i]].x; });
+        if constexpr (what == Interpolated::barycentric) return;
         position.gather([&](std::size_t i) { return &mesh.vertices[vertex[i]].position.x; });
         normal.gather([&](std::size_t i) { return &mesh.vertices[vertex[i]].normal.x; });
     }
 };
 
 /// Each fragment fetches the vertices of its triangle.
+template <Interpolated what>
 struct FetchLoop {
     CANDELA_BATCH_LOOP static void run(IndexedMesh m, std::size_t count, const std::uint32_t* triangle,
                                        const float* px, const float* py, InterpolatedSpans out) {
@@ -99,27 +108,27 @@ struct FetchLoop {
                 vertex[1][lane] = indices[1];
                 vertex[2][lane] = indices[2];
             }
-            c0.fetch(m, vertex[0]);
-            c1.fetch(m, vertex[1]);
-            c2.fetch(m, vertex[2]);
+            c0.template fetch<what>(m, vertex[0]);
+            c1.template fetch<what>(m, vertex[1]);
+            c2.template fetch<what>(m, vertex[2]);
             CANDELA_VECTORIZE_SIXTEEN
             for (std::size_t lane = 0; lane < k_lanes; ++lane) {
                 const std::size_t i = first + lane;
-                const std::uint32_t t = triangle[i];
                 const Fragment f(px[i], py[i], c0.projected.real[0][lane], c0.projected.real[1][lane],
                                  c0.projected.real[2][lane], c1.projected.real[0][lane],
                                  c1.projected.real[1][lane], c1.projected.real[2][lane],
                                  c2.projected.real[0][lane], c2.projected.real[1][lane],
                                  c2.projected.real[2][lane]);
-                out.barycentric.x[i] = f.b0;
-                out.barycentric.y[i] = f.b1;
-                out.barycentric.z[i] = f.b2;
+                if constexpr (what != Interpolated::position_and_normal) f.store(out, i);
+                if constexpr (what == Interpolated::barycentric) continue;
                 out.position.x[i] = f.blend(c0.position, c1.position, c2.position, 0, lane);
                 out.position.y[i] = f.blend(c0.position, c1.position, c2.position, 1, lane);
                 out.position.z[i] = f.blend(c0.position, c1.position, c2.position, 2, lane);
                 out.vertex_normal.x[i] = f.blend(c0.normal, c1.normal, c2.normal, 0, lane);
                 out.vertex_normal.y[i] = f.blend(c0.normal, c1.normal, c2.normal, 1, lane);
                 out.vertex_normal.z[i] = f.blend(c0.normal, c1.normal, c2.normal, 2, lane);
+                if constexpr (what != Interpolated::all) continue;
+                const std::uint32_t t = triangle[i];
                 out.face_normal.x[i] = m.face_normal.x[t];
                 out.face_normal.y[i] = m.face_normal.y[t];
                 out.face_normal.z[i] = m.face_normal.z[t];
@@ -130,14 +139,32 @@ struct FetchLoop {
 
 }  // namespace
 
-void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
-                 const InterpolatedSpans& points) {
-    multiversion<RunLoop>(triangle, whole_vectors(count), x, y, points);
+void interpolate(Interpolated what, const TriangleAttributes& triangle, std::size_t count, const float* x,
+                 const float* y, const InterpolatedSpans& points) {
+    const std::size_t filled = whole_vectors(count);
+    switch (what) {
+        case Interpolated::barycentric:
+            return multiversion<RunLoop<Interpolated::barycentric>>(triangle, filled, x, y, points);
+        case Interpolated::position_and_normal:
+            return multiversion<RunLoop<Interpolated::position_and_normal>>(triangle, filled, x, y, points);
+        case Interpolated::all:
+            return multiversion<RunLoop<Interpolated::all>>(triangle, filled, x, y, points);
+    }
 }
 
-void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::uint32_t* triangle,
-                      const float* x, const float* y, const InterpolatedSpans& points) {
-    multiversion<FetchLoop>(mesh, whole_vectors(count), triangle, x, y, points);
+void interpolate_each(Interpolated what, const IndexedMesh& mesh, std::size_t count,
+                      const std::uint32_t* triangle, const float* x, const float* y,
+                      const InterpolatedSpans& points) {
+    const std::size_t filled = whole_vectors(count);
+    switch (what) {
+        case Interpolated::barycentric:
+            return multiversion<FetchLoop<Interpolated::barycentric>>(mesh, filled, triangle, x, y, points);
+        case Interpolated::position_and_normal:
+            return multiversion<FetchLoop<Interpolated::position_and_normal>>(mesh, filled, triangle, x, y,
+                                                                              points);
+        case Interpolated::all:
+            return multiversion<FetchLoop<Interpolated::all>>(mesh, filled, triangle, x, y, points);
+    }
 }
 
 }  // namespace candela

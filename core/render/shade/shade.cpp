@@ -7,6 +7,7 @@ module;
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -73,40 +74,45 @@ struct TangentLoop {
     }
 };
 
+/// Adds arrays up, and finds the largest magnitude among the sums; a non-finite number counts as larger than
+/// all finite ones. Without their sign, the bits of floats are in the same order as integers, whose maximum
+/// is vectorised.
+template <std::size_t terms>
 struct SumLoop {
-    CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span d, ConstVec3Span s, std::size_t count,
-                                       Vec3Span sum) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            kernel::store(sum, i, kernel::load(a, i) + kernel::load(d, i) + kernel::load(s, i));
-        }
-    }
-};
-
-/// The largest magnitude among many numbers; a non-finite number counts as larger than all finite ones.
-/// Without their sign, the bits of floats are in the same order as integers, whose maximum is vectorised.
-struct LargestLoop {
-    CANDELA_BATCH_LOOP static void run(ConstVec3Span v, std::size_t count, std::int32_t* bits) {
+    CANDELA_BATCH_LOOP static void run(std::array<ConstVec3Span, terms> of, std::size_t count, Vec3Span sum,
+                                       std::int32_t* bits) {
         constexpr std::int32_t k_magnitude = 0x7fff'ffff;
-        std::int32_t largest = *bits;
+        std::int32_t largest = 0;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const std::int32_t x = std::bit_cast<std::int32_t>(v.x[i]) & k_magnitude;
-            const std::int32_t y = std::bit_cast<std::int32_t>(v.y[i]) & k_magnitude;
-            const std::int32_t z = std::bit_cast<std::int32_t>(v.z[i]) & k_magnitude;
+            vec3 s = kernel::load(of[0], i);
+            for (std::size_t k = 1; k < terms; ++k) s = s + kernel::load(of[k], i);
+            const std::int32_t x = std::bit_cast<std::int32_t>(s.x) & k_magnitude;
+            const std::int32_t y = std::bit_cast<std::int32_t>(s.y) & k_magnitude;
+            const std::int32_t z = std::bit_cast<std::int32_t>(s.z) & k_magnitude;
             const std::int32_t xy = x > y ? x : y;
             const std::int32_t xyz = xy > z ? xy : z;
             largest = largest > xyz ? largest : xyz;
+            kernel::store(sum, i, s);
         }
         *bits = largest;
     }
 };
 
-float largest_of(ConstVec3Span v, std::size_t count) {
+template <std::size_t terms>
+float add(const std::array<ConstVec3Span, terms>& of, std::size_t count, const Vec3Span& sum) {
     std::int32_t bits = 0;
     std::int32_t* const result = &bits;
-    multiversion<LargestLoop>(v, count, result);
+    multiversion<SumLoop<terms>>(of, count, sum, result);
     return std::bit_cast<float>(bits);
+}
+
+bool are_finite(ConstVec3Span v, std::size_t count) {
+    bool finite = true;
+    for (const float* const channel : {v.x, v.y, v.z}) {
+        for (std::size_t i = 0; i < count; ++i) finite = finite && std::isfinite(channel[i]);
+    }
+    return finite;
 }
 
 /// The guard after the batch arrays' last element, in floats.
@@ -125,7 +131,10 @@ std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
 
 PointNeeds SurfaceModels::needs() const {
     const ShadingNeeds needs = shading->needs();
-    return {.uv = needs.uv || reflection->needs_uv(),
+    return {.face_normal = needs.face_normal,
+            .vertex_normal = needs.vertex_normal,
+            .barycentric = needs.barycentric,
+            .uv = needs.uv || reflection->needs_uv(),
             .derivatives = needs.derivatives || reflection->needs_tangent(),
             .triangle = needs.triangle};
 }
@@ -140,9 +149,9 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
     }
     const ShadingPointBatch batch{
         .count = points.filled,
-        .face_normal = points.face_normal.span(),
-        .vertex_normal = points.vertex_normal.span(),
-        .barycentric = points.barycentric.span(),
+        .face_normal = needs.face_normal ? points.face_normal.span() : ConstVec3Span{},
+        .vertex_normal = needs.vertex_normal ? points.vertex_normal.span() : ConstVec3Span{},
+        .barycentric = needs.barycentric ? points.barycentric.span() : ConstVec3Span{},
         .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
         .dpdu = needs.derivatives ? points.dpdu.span() : ConstVec3Span{},
         .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{},
@@ -161,10 +170,40 @@ SurfaceShader::~SurfaceShader() = default;
 void SurfaceShader::begin(const LitScene& scene) {
     scene_ = scene;
     surroundings_.reset();
+    lights_.clear();
+    other_lights_.clear();
+    punctual_lights_.clear();
+    lighting_ = {};
+    for (const LitSource& source : scene.lights) {
+        lights_.push_back(&source);
+        if (!describe(source)) other_lights_.push_back(&source);
+    }
+    lighting_.lights = punctual_lights_;
+    const bool is_perspective = scene.camera.projection == Projection::perspective;
+    lighting_.observer = is_perspective ? scene.camera.eye : -scene.camera.forward;
+    lighting_.w = is_perspective ? 1.0f : 0.0f;
 }
 
-std::array<Vec3Arrays*, 7> SurfaceShader::written_by_plugins() {
-    return {&normal_, &to_light_, &light_diffuse_, &light_specular_, &ambient_, &diffuse_, &specular_};
+bool SurfaceShader::describe(const LitSource& source) {
+    const std::size_t before = punctual_lights_.size();
+    Rgb ambient;
+    bool is_data = true;
+    guarded(PluginKind::light, source.plugin, [&] {
+        for (int sample = 0; is_data && sample < source.light->sample_count(); ++sample)
+            is_data = source.light->describe(sample, punctual_lights_.emplace_back());
+        if (is_data && source.light->has_ambient()) is_data = source.light->describe_ambient(ambient);
+    });
+    if (is_data) {
+        lighting_.ambient = lighting_.ambient + ambient;
+    } else {
+        punctual_lights_.resize(before);
+    }
+    return is_data;
+}
+
+std::array<Vec3Arrays*, 8> SurfaceShader::written_by_plugins() {
+    return {&normal_,  &to_light_, &light_diffuse_, &light_specular_,
+            &ambient_, &diffuse_,  &specular_,      &reflected_};
 }
 
 void SurfaceShader::mark_ends() {
@@ -194,8 +233,7 @@ void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, st
         fail("writes beyond the batch that it is given");
     }
     for (const Vec3Arrays* arrays : results) {
-        if (!std::isfinite(largest_of(arrays->span(), count)))
-            fail("gives a result that is no finite number");
+        if (!are_finite(arrays->span(), count)) fail("gives a result that is no finite number");
     }
 }
 
@@ -207,13 +245,52 @@ void SurfaceShader::find_normals(const SurfaceModels& surface, const SurfacePoin
 
 float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interior,
                            const SurfacePoints& points, const Vec3Span& intensity) {
-    add_up(surface, interior, points, Scrutiny::none);
     const std::size_t count = lit_of(surface, points);
-    multiversion<SumLoop>(std::as_const(ambient_).span(), std::as_const(diffuse_).span(),
-                          std::as_const(specular_).span(), count, intensity);
-    const float largest = largest_of(ConstVec3Span(intensity), count);
-    if (!std::isfinite(largest) || !are_ends_intact()) add_up(surface, interior, points, Scrutiny::each_step);
+    find_normals(surface, points);
+    const ConstVec3Span ambient = std::as_const(ambient_).span(), diffuse = std::as_const(diffuse_).span(),
+                        specular = std::as_const(specular_).span(),
+                        reflected = std::as_const(reflected_).span();
+    float largest = 0;
+    if (!reflect_punctual(surface, points)) {
+        add_up(surface, interior, points, lights_, Scrutiny::none);
+        largest = add<3>({ambient, diffuse, specular}, count, intensity);
+    } else if (other_lights_.empty()) {
+        largest = add<1>({reflected}, count, intensity);
+    } else {
+        add_up(surface, interior, points, other_lights_, Scrutiny::none);
+        largest = add<4>({reflected, ambient, diffuse, specular}, count, intensity);
+    }
+    if (!std::isfinite(largest) || !are_ends_intact()) scrutinize(surface, interior, points);
     return largest;
+}
+
+void SurfaceShader::scrutinize(const SurfaceModels& surface, const Interior& interior,
+                               const SurfacePoints& points) {
+    mark_ends();
+    find_normals(surface, points);
+    const std::size_t count = lit_of(surface, points);
+    require_sound(PluginKind::shading, surface.shading_plugin, count, {&normal_});
+    add_up(surface, interior, points, lights_, Scrutiny::each_step);
+    if (reflect_punctual(surface, points))
+        require_sound(PluginKind::reflection, surface.reflection_plugin, count, {&reflected_});
+}
+
+bool SurfaceShader::reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points) {
+    if (other_lights_.size() == lights_.size() || surface.reflection->shows_surroundings()) return false;
+    const std::size_t count = lit_of(surface, points);
+    find_tangents(surface, points, count);
+    SurfaceBatch batch = lit_surface(surface, points, count);
+    batch.to_observer = {};
+    bool is_done = false;
+    guarded(PluginKind::reflection, surface.reflection_plugin,
+            [&] { is_done = surface.reflection->reflect_punctual(batch, lighting_, reflected_.span()); });
+    return is_done;
+}
+
+void SurfaceShader::find_tangents(const SurfaceModels& surface, const SurfacePoints& points,
+                                  std::size_t count) {
+    if (surface.reflection->needs_tangent())
+        multiversion<TangentLoop>(points.dpdu.span(), std::as_const(normal_).span(), count, tangent_.span());
 }
 
 SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
@@ -229,26 +306,22 @@ SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const Surf
 }
 
 void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interior,
-                           const SurfacePoints& points, Scrutiny scrutiny) {
+                           const SurfacePoints& points, const Lights& lights, Scrutiny scrutiny) {
     const std::size_t count = lit_of(surface, points);
     const auto look_at = [&](PluginKind kind, const std::string& plugin,
                              std::initializer_list<const Vec3Arrays*> results) {
         if (scrutiny == Scrutiny::each_step) require_sound(kind, plugin, count, results);
     };
-    if (scrutiny == Scrutiny::each_step) mark_ends();
-    find_normals(surface, points);
-    look_at(PluginKind::shading, surface.shading_plugin, {&normal_});
-    const ConstVec3Span normal = std::as_const(normal_).span();
     multiversion<ToObserverLoop>(scene_.camera, points.position.span(), count, to_observer_.span());
-    if (surface.reflection->needs_tangent())
-        multiversion<TangentLoop>(points.dpdu.span(), normal, count, tangent_.span());
-
-    const ReceiverBatch receivers{.count = count, .position = points.position.span(), .normal = normal};
+    find_tangents(surface, points, count);
+    const ReceiverBatch receivers{
+        .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};
     const SurfaceBatch batch = lit_surface(surface, points, count);
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
 
-    for (const LitSource& source : scene_.lights) {
+    for (const LitSource* const light : lights) {
+        const LitSource& source = *light;
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
             guarded(PluginKind::light, source.plugin, [&] {
                 source.light->illuminate(sample, receivers,

@@ -10,6 +10,7 @@ module;
 #include <initializer_list>
 #include <memory>
 #include <string>
+#include <vector>
 
 export module candela.shade;
 
@@ -19,6 +20,8 @@ import candela.arrays;
 import candela.descriptor;
 import candela.fragments;
 import candela.math;
+import candela.punctual;
+import candela.reflection;
 
 namespace candela {
 class ObjectSurroundings;
@@ -48,23 +51,34 @@ class CANDELA_API SurfaceShader {
   private:
     /// Checks the results of each plugin right after its turn, instead of once at the end.
     enum class Scrutiny : bool { none, each_step };
+    using Lights = std::vector<const LitSource*>;
+    /// Adds up what the reflection model makes of `lights`, each asked in turn, part by part.
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
-                Scrutiny scrutiny);
+                const Lights& lights, Scrutiny scrutiny);
+    /// Adds up what it makes of all lights that are data. False if the model has no way to.
+    bool describe(const LitSource& source);
+    void find_tangents(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count);
+    bool reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points);
+    void scrutinize(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
     /// What the reflection model is given; the arrays are this object's and the points'.
     SurfaceBatch lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
                              std::size_t count) const;
     void find_normals(const SurfaceModels& surface, const SurfacePoints& points);
-    std::array<Vec3Arrays*, 7> written_by_plugins();
+    std::array<Vec3Arrays*, 8> written_by_plugins();
     void mark_ends();
     bool are_ends_intact();
     void require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
                        std::initializer_list<const Vec3Arrays*> results);
 
     LitScene scene_;
+    Lights lights_, other_lights_;  // all, and those that are not data
+    std::vector<PunctualLight> punctual_lights_;
+    PunctualLighting lighting_;                         // refers to them
     std::unique_ptr<ObjectSurroundings> surroundings_;  // created when a model asks
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;
     Vec3Arrays ambient_, diffuse_, specular_;
+    Vec3Arrays reflected_;  // of the lights that are data
 };
 
 }  // namespace candela

@@ -32,6 +32,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
     Vec3Arrays intensity;
     intensity.resize(k_batch_size);
     shade(surface, interior, points, intensity.span());
+    add_up(surface, interior, points, lights_, Scrutiny::none);
     PointNeeds needs = surface.needs();
     needs.triangle &= surface.shading->shading_rate() != ShadingRate::vertex;
     const bool needs_tangent = surface.reflection->needs_tangent();

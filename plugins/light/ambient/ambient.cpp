@@ -2,7 +2,9 @@
 
 namespace candela::kernel {
 #include "ambient.kernel"
-}
+
+vec3 uniform_ambient(const AmbientLight& light) { return light.color * light.intensity; }
+}  // namespace candela::kernel
 
 using candela::kernel::AmbientLight;
 using namespace candela::sdk;

@@ -2,7 +2,13 @@
 
 namespace candela::kernel {
 #include "directional.kernel"
+
+PunctualLight punctual(const DirectionalLight& light, int) {
+    PunctualLight result = sdk::punctual_source(-light.direction, light.color, light.intensity, 2, 0.0f);
+    result.w = 0;
+    return result;
 }
+}  // namespace candela::kernel
 
 using candela::kernel::DirectionalLight;
 using namespace candela::sdk;

@@ -2,7 +2,13 @@
 
 namespace candela::kernel {
 #include "distributed.kernel"
+
+PunctualLight punctual(const DistributedLight& light, int sample) {
+    const float share = light.intensity / static_cast<float>(distributed_sample_count(light));
+    return sdk::punctual_source(distributed_position(light, sample), light.color, share, light.attenuation,
+                                light.attenuation_offset);
 }
+}  // namespace candela::kernel
 
 using candela::kernel::DistributedLight;
 using namespace candela::sdk;

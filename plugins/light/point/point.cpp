@@ -2,7 +2,12 @@
 
 namespace candela::kernel {
 #include "point.kernel"
+
+PunctualLight punctual(const PointLight& light, int) {
+    return sdk::punctual_source(light.position, light.color, light.intensity, light.attenuation,
+                                light.attenuation_offset);
 }
+}  // namespace candela::kernel
 
 using candela::kernel::PointLight;
 using namespace candela::sdk;

@@ -2,7 +2,18 @@
 
 namespace candela::kernel {
 #include "spot.kernel"
+
+PunctualLight punctual(const SpotLight& light, int) {
+    PunctualLight result = sdk::punctual_source(light.position, light.color, light.intensity,
+                                                light.attenuation, light.attenuation_offset);
+    result.has_cone = true;
+    result.is_smooth = light.falloff == 0;
+    result.axis = {light.direction.x, light.direction.y, light.direction.z};
+    result.cos_outer = cos(light.outer_angle);
+    result.cone_scale = 1.0f / max(cos(light.inner_angle) - result.cos_outer, 1.0e-7f);
+    return result;
 }
+}  // namespace candela::kernel
 
 using candela::kernel::SpotLight;
 using namespace candela::sdk;

@@ -7,7 +7,7 @@ namespace candela::kernel {
 using namespace candela::sdk;
 
 CANDELA_WEIGHTED_SHADING_PLUGIN(
-    angle_weighted, fragment, NoParams, k_no_fields,
+    k_vertex_normal, angle_weighted, fragment, NoParams, k_no_fields,
     {.title = "Phong, faces weighted by angle",
      .summary = "Phong shading with vertex normals that do not depend on how flat faces are cut into "
                 "triangles.",

@@ -7,7 +7,7 @@ namespace candela::kernel {
 using namespace candela::sdk;
 
 CANDELA_WEIGHTED_SHADING_PLUGIN(
-    area_weighted, fragment, NoParams, k_no_fields,
+    k_vertex_normal, area_weighted, fragment, NoParams, k_no_fields,
     {.title = "Phong, faces weighted by area",
      .summary = "Phong shading with vertex normals that follow the larger faces.",
      .formula = "N_v = sum A_i n_i / |sum A_i n_i|  with A_i the area of face i\n"

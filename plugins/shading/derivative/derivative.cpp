@@ -8,7 +8,7 @@ using namespace candela::sdk;
 
 using Derivative =
     KernelShading<NoParams, candela::ShadingRate::fragment, &candela::kernel::derivative_normal,
-                  candela::ShadingNeeds{.derivatives = true}>;
+                  candela::ShadingNeeds{.barycentric = false, .derivatives = true}>;
 
 CANDELA_KERNEL_PLUGIN(
     shading, Derivative, derivative, NoParams, k_no_fields,

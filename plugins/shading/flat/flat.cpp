@@ -6,8 +6,8 @@ namespace candela::kernel {
 
 using namespace candela::sdk;
 
-CANDELA_SHADING_PLUGIN(
-    flat, face, NoParams, k_no_fields,
+CANDELA_SHADING_PLUGIN_NEEDING(
+    k_face_normal, flat, face, NoParams, k_no_fields,
     {.title = "Flat",
      .summary = "One normal and one colour a triangle, lit at its centroid: facets show.",
      .formula = "N = (P x Q) / |P x Q|  for two edges P, Q of the triangle",

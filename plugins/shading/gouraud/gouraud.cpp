@@ -6,8 +6,8 @@ namespace candela::kernel {
 
 using namespace candela::sdk;
 
-CANDELA_SHADING_PLUGIN(
-    gouraud, vertex, NoParams, k_no_fields,
+CANDELA_SHADING_PLUGIN_NEEDING(
+    k_vertex_normal, gouraud, vertex, NoParams, k_no_fields,
     {.title = "Gouraud",
      .summary = "Lit at the vertices, with their normals; colours are interpolated in between.",
      .formula = "N_v = sum n_i / |sum n_i|  over the faces i that share the vertex\n"

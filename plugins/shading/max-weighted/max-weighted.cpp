@@ -7,7 +7,7 @@ namespace candela::kernel {
 using namespace candela::sdk;
 
 CANDELA_WEIGHTED_SHADING_PLUGIN(
-    max_weighted, fragment, NoParams, k_no_fields,
+    k_vertex_normal, max_weighted, fragment, NoParams, k_no_fields,
     {.title = "Phong, Max's weights",
      .summary =
          "Phong shading with vertex normals that are exact on a sphere, however it is cut into triangles.",

@@ -6,8 +6,8 @@ namespace candela::kernel {
 
 using namespace candela::sdk;
 
-CANDELA_SHADING_PLUGIN(
-    phong, fragment, NoParams, k_no_fields,
+CANDELA_SHADING_PLUGIN_NEEDING(
+    k_vertex_normal, phong, fragment, NoParams, k_no_fields,
     {.title = "Phong",
      .summary = "Lit at every pixel, with normals interpolated between the vertices: smooth highlights.",
      .formula = "N_v = sum n_i / |sum n_i|  over the faces i that share the vertex\n"

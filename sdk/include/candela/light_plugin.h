@@ -7,11 +7,22 @@
 //
 //     int x_sample_count(XLight light)                          at least 1
 //     Incident x_illuminate(XLight light, Receiver r, int index) what sample `index` sends, 0 to the count
+//
+// A light that can say what it does as data is evaluated by reflection models in their own loop, which is
+// faster where there are many lights. Two C++ functions next to XLight, in its namespace, looked up by their
+// argument:
+//
+//     PunctualLight punctual(const XLight& light, int index)    of sample `index`; 0 of a light with one
+//     direction vec3 uniform_ambient(const XLight& light)                 of an ambient light that is the
+//     same everywhere
+//
+// The conformance kit holds them against the kernel functions.
 #pragma once
 
 #include "candela/light.h"
 #include "candela/multiversion.h"
 #include "candela/plugin.h"
+#include "candela/punctual.h"
 
 namespace candela::sdk {
 
@@ -36,6 +47,17 @@ constexpr Field<P> attenuation_offset(float P::* member) {
     return real(member, "attenuation_offset", 0.01f, "k of offset-linear attenuation 1/(r + k)")
         .minimum(0)
         .unit("m");
+}
+
+/// Kernel function point_source() as data.
+inline PunctualLight punctual_source(vec3 position, vec3 color, float intensity, int law, float offset) {
+    PunctualLight light;
+    light.position = {position.x, position.y, position.z};
+    light.diffuse = light.specular = {color.x * intensity, color.y * intensity, color.z * intensity};
+    light.constant = law == 1 ? offset : (law == 0 ? 0.0f : 1.0f);
+    light.linear = law == 1 ? 1.0f : 0.0f;
+    light.quadratic = law == 0 ? 1.0f : 0.0f;
+    return light;
 }
 
 CANDELA_KERNEL_INLINE kernel::Receiver receiver_at(const ReceiverBatch& batch, std::size_t i) {
@@ -70,6 +92,16 @@ struct IlluminateAmbientLoop {
     }
 };
 
+template <class Params>
+bool described(const Params& params, int sample, PunctualLight& light) {
+    if constexpr (requires { punctual(params, sample); }) {
+        light = punctual(params, sample);
+        return true;
+    } else {
+        return false;
+    }
+}
+
 template <class Params, auto illuminate_>
 class KernelLight : public Light {
   public:
@@ -81,6 +113,9 @@ class KernelLight : public Light {
     bool has_ambient() const noexcept override { return false; }
     void illuminate(int, const ReceiverBatch& receivers, const IncidentBatch& incident) const override {
         multiversion<IlluminateLoop<Params, illuminate_>>(params_, receivers, incident);
+    }
+    bool describe(int sample, PunctualLight& light) const override {
+        return described(params_, sample, light);
     }
 
   private:
@@ -101,6 +136,9 @@ class KernelSampledLight : public Light {
                     const IncidentBatch& incident) const override {
         multiversion<IlluminateLoop<Params, illuminate_>>(params_, receivers, incident, sample);
     }
+    bool describe(int sample, PunctualLight& light) const override {
+        return described(params_, sample, light);
+    }
 
   private:
     Params params_;
@@ -117,6 +155,15 @@ class KernelAmbientLight : public Light {
     bool has_ambient() const noexcept override { return true; }
     void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const override {
         multiversion<IlluminateAmbientLoop<Params, illuminate_ambient_>>(params_, receivers, ambient);
+    }
+    bool describe_ambient(Rgb& ambient) const override {
+        if constexpr (requires { uniform_ambient(params_); }) {
+            const vec3 same = uniform_ambient(params_);
+            ambient = {same.x, same.y, same.z};
+            return true;
+        } else {
+            return false;
+        }
     }
 
   private:

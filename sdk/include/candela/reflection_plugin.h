@@ -41,11 +41,12 @@ constexpr SurfaceReads operator|(SurfaceReads a, SurfaceReads b) {
     return static_cast<SurfaceReads>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
-template <SurfaceReads reads>
+template <SurfaceReads reads, bool has_observer = true>
 CANDELA_KERNEL_INLINE kernel::Surface surface_at(const SurfaceBatch& batch, vec3 color, std::size_t i) {
     kernel::Surface s;
     s.normal = load(batch.normal, i);
-    s.to_observer = load(batch.to_observer, i);
+    s.to_observer = vec3(0.0f);
+    if constexpr (has_observer) s.to_observer = load(batch.to_observer, i);
     s.tangent = vec3(0.0f);
     if constexpr ((reads & reads_tangent) != 0) s.tangent = load(batch.tangent, i);
     s.color = color;
@@ -86,6 +87,104 @@ struct ReflectAmbientLoop {
     }
 };
 
+/// A range of the SurfaceBatch's points, from `first` on.
+CANDELA_KERNEL_INLINE SurfaceBatch part_of(const SurfaceBatch& surface, std::size_t first,
+                                           std::size_t count) {
+    SurfaceBatch part = surface;
+    part.count = count;
+    for (ConstVec3Span* const span : {&part.normal, &part.to_observer, &part.tangent, &part.position}) {
+        if (*span) *span = span->from(first);
+    }
+    if (part.uv) part.uv = part.uv.from(first);
+    return part;
+}
+
+/// Points on their way through one light after another: few enough to stay in the first-level cache.
+struct PunctualBatch {
+    static constexpr std::size_t k_size = 64;
+    struct Vectors {
+        alignas(64) float x[k_size], y[k_size], z[k_size];
+    };
+    Vectors to_observer, to_light;
+    alignas(64) float attenuation[k_size];
+};
+
+/// The way to a light, and its attenuation. At the light itself, L is N.
+CANDELA_KERNEL_INLINE void look_at(PunctualLight light, std::size_t count, const ConstVec3Span& position,
+                                   const ConstVec3Span& normal, PunctualBatch& batch) {
+    const vec3 source = kernel_vector(light.position);
+    const bool is_attenuated = light.linear != 0 || light.quadratic != 0;
+    CANDELA_VECTORIZE_CHAIN
+    for (std::size_t i = 0; i < count; ++i) {
+        const vec3 to_source = source - light.w * load(position, i);
+        const float square = dot(to_source, to_source);
+        const float inverse = kernel::inversesqrt(kernel::max(square, 1.0e-36f));
+        store(batch.to_light, i, square > 1.0e-36f ? to_source * inverse : load(normal, i));
+        batch.attenuation[i] = kernel::max(square * inverse, 1.0e-4f);
+    }
+    const float constant = 1.0f / light.constant;
+    CANDELA_VECTORIZE
+    for (std::size_t i = 0; i < count; ++i) {
+        const float r = batch.attenuation[i];
+        batch.attenuation[i] =
+            is_attenuated ? 1.0f / (light.constant + r * (light.linear + r * light.quadratic)) : constant;
+    }
+    if (!light.has_cone) return;
+    const vec3 axis = kernel_vector(light.axis);
+    CANDELA_VECTORIZE
+    for (std::size_t i = 0; i < count; ++i) {
+        const float cosine = -dot(load(batch.to_light, i), axis);
+        const float t = kernel::clamp((cosine - light.cos_outer) * light.cone_scale, 0.0f, 1.0f);
+        batch.attenuation[i] *= light.is_smooth ? t * t * (3.0f - 2.0f * t) : t;
+    }
+}
+
+template <class Material, auto reflect, auto reflect_ambient, SurfaceReads reads>
+struct ReflectPunctualLoop {
+    CANDELA_KERNEL_INLINE static kernel::Surface point(const SurfaceBatch& surface,
+                                                       const PunctualBatch& batch, vec3 color,
+                                                       std::size_t i) {
+        kernel::Surface s = surface_at<reads, false>(surface, color, i);
+        s.to_observer = load(batch.to_observer, i);
+        return s;
+    }
+
+    CANDELA_KERNEL_INLINE static void add_lights(const Material& material, const SurfaceBatch& surface,
+                                                 const PunctualLighting& lighting, Vec3Span intensity) {
+        const vec3 color = kernel_vector(surface.color), ambient = kernel_vector(lighting.ambient),
+                   observer = kernel_vector(lighting.observer);
+        const float w = lighting.w;
+        const std::size_t count = surface.count;
+        PunctualBatch batch;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            store(batch.to_observer, i, kernel::normalize(observer - w * load(surface.position, i)));
+            store(intensity, i, call<reflect_ambient>(material, point(surface, batch, color, i)) * ambient);
+        }
+        for (const PunctualLight& light : lighting.lights) {
+            look_at(light, count, surface.position, surface.normal, batch);
+            const vec3 diffuse = kernel_vector(light.diffuse), specular = kernel_vector(light.specular);
+            CANDELA_VECTORIZE_CHAIN
+            for (std::size_t i = 0; i < count; ++i) {
+                const kernel::Reflected r =
+                    call<reflect>(material, point(surface, batch, color, i), load(batch.to_light, i));
+                add_product(intensity, i, r.diffuse * diffuse + r.specular * specular,
+                            vec3(batch.attenuation[i]));
+            }
+        }
+    }
+
+    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, PunctualLighting lighting,
+                                       Vec3Span intensity) {
+        for (std::size_t first = 0; first < surface.count; first += PunctualBatch::k_size) {
+            const std::size_t rest = surface.count - first;
+            add_lights(material,
+                       part_of(surface, first, rest < PunctualBatch::k_size ? rest : PunctualBatch::k_size),
+                       lighting, intensity.from(first));
+        }
+    }
+};
+
 template <class Material, auto reflect_, auto reflect_ambient_, SurfaceReads reads = reads_no_more>
 class KernelReflection : public ReflectionModel {
   public:
@@ -108,6 +207,13 @@ class KernelReflection : public ReflectionModel {
                          const ReflectedBatch& reflected) const override {
         multiversion<ReflectAmbientLoop<Material, reflect_ambient_, reads>>(material_, surface, ambient,
                                                                             reflected);
+    }
+
+    bool reflect_punctual(const SurfaceBatch& surface, const PunctualLighting& lighting,
+                          const Vec3Span& intensity) const override {
+        multiversion<ReflectPunctualLoop<Material, reflect_, reflect_ambient_, reads>>(material_, surface,
+                                                                                       lighting, intensity);
+        return true;
     }
 
   private:

@@ -100,18 +100,6 @@ struct AddSeenLoop {
     }
 };
 
-/// A range of the SurfaceBatch's points, from `first` on.
-inline SurfaceBatch part_of(const SurfaceBatch& surface, std::size_t first, std::size_t count) {
-    const auto from = [&](const ConstVec3Span& span) { return span ? span.from(first) : span; };
-    return {count,
-            from(surface.normal),
-            from(surface.to_observer),
-            from(surface.tangent),
-            surface.color,
-            from(surface.position),
-            surface.uv ? surface.uv.from(first) : surface.uv};
-}
-
 template <class Material, auto reflect_, auto reflect_ambient_, auto enter_, auto leave_, auto transmit_,
           SurfaceReads reads = reads_no_more>
 class KernelRefraction : public ReflectionModel {

@@ -13,8 +13,9 @@
 //     vec3 x_normal(ShadingPoint p, Triangle t)          or
 //     vec3 x_normal(XShading shading, ShadingPoint p, Triangle t)
 //
-// A model that needs texture coordinates or derivatives names its ShadingNeeds as the last argument of
-// KernelShading, in CANDELA_KERNEL_PLUGIN.
+// A model that needs texture coordinates or derivatives, or does not read all of the face normal, the vertex
+// normal and the barycentric coordinates, names its ShadingNeeds as the last argument of KernelShading, in
+// CANDELA_KERNEL_PLUGIN. What it does not need is zero.
 #pragma once
 
 #include <algorithm>
@@ -31,6 +32,10 @@
 
 namespace candela::sdk {
 
+/// The needs of models that read nothing but one normal.
+inline constexpr ShadingNeeds k_face_normal{.vertex_normal = false, .barycentric = false};
+inline constexpr ShadingNeeds k_vertex_normal{.face_normal = false, .barycentric = false};
+
 /// Whether a kernel's x_normal takes a Triangle: what it does not take is not filled.
 template <class Params, auto normal>
 inline constexpr bool takes_triangle =
@@ -45,9 +50,12 @@ struct NormalLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             kernel::ShadingPoint p;
-            p.face_normal = load(points.face_normal, i);
-            p.vertex_normal = load(points.vertex_normal, i);
-            p.barycentric = load(points.barycentric, i);
+            p.face_normal = vec3(0.0f);
+            p.vertex_normal = vec3(0.0f);
+            p.barycentric = vec3(0.0f);
+            if constexpr (needs.face_normal) p.face_normal = load(points.face_normal, i);
+            if constexpr (needs.vertex_normal) p.vertex_normal = load(points.vertex_normal, i);
+            if constexpr (needs.barycentric) p.barycentric = load(points.barycentric, i);
             p.uv = vec2(0.0f);
             p.dpdu = vec3(0.0f);
             p.dpdv = vec3(0.0f);
@@ -79,8 +87,11 @@ class KernelShading : public ShadingModel {
                   "a model that is lit per vertex has no Triangle: a vertex belongs to several");
     static_assert(k_takes_triangle || !needs_.triangle,
                   "a model that needs its triangle takes a Triangle after the ShadingPoint");
-    static constexpr ShadingNeeds k_needs{
-        .uv = needs_.uv, .derivatives = needs_.derivatives, .triangle = k_takes_triangle};
+    static constexpr ShadingNeeds k_needs = [] {
+        ShadingNeeds needs = needs_;
+        needs.triangle = k_takes_triangle;
+        return needs;
+    }();
 
   public:
     static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal")};
@@ -200,18 +211,22 @@ class WeightedShading : public KernelShading<Params, rate, normal, needs> {
 }  // namespace candela::sdk
 
 /// A plugin from the kernel function `prefix_normal`; `rate` is face, vertex or fragment.
-#define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                                          \
+#define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...) \
+    CANDELA_SHADING_PLUGIN_NEEDING(candela::ShadingNeeds{}, prefix, rate, Params, fields, __VA_ARGS__)
+
+/// The same for a model that says what it reads: `needs` is a ShadingNeeds, for example k_vertex_normal.
+#define CANDELA_SHADING_PLUGIN_NEEDING(needs, prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(                                                                                 \
         shading,                                                                                           \
         (candela::sdk::KernelShading<CANDELA_KERNEL_CONSTANTS(prefix, Params), candela::ShadingRate::rate, \
-                                     &candela::kernel::prefix##_normal>),                                  \
+                                     &candela::kernel::prefix##_normal, (needs)>),                         \
         prefix, Params, fields, __VA_ARGS__)
 
 /// The same with vertex normals weighted by the kernel function `prefix_corner_weight`.
-#define CANDELA_WEIGHTED_SHADING_PLUGIN(prefix, rate, Params, fields, ...)                                   \
+#define CANDELA_WEIGHTED_SHADING_PLUGIN(needs, prefix, rate, Params, fields, ...)                            \
     CANDELA_KERNEL_PLUGIN(                                                                                   \
         shading,                                                                                             \
         (candela::sdk::WeightedShading<CANDELA_KERNEL_CONSTANTS(prefix, Params), candela::ShadingRate::rate, \
                                        &candela::kernel::prefix##_normal,                                    \
-                                       &candela::kernel::prefix##_corner_weight>),                           \
+                                       &candela::kernel::prefix##_corner_weight, (needs)>),                  \
         prefix, Params, fields, __VA_ARGS__)

@@ -6,6 +6,7 @@
 #include "candela/api.h"
 #include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/punctual.h"
 
 namespace candela {
 
@@ -42,6 +43,14 @@ class CANDELA_API Light : public Instance {
 
     /// Writes the intensity of the ambient part, per channel. Never attenuated.
     virtual void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const;
+
+    /// Says in `light` what illuminate() does for that sample, if it can be said as data: it then sends the
+    /// same to each receiver, but for rounding, and reflection models may evaluate it without asking again.
+    /// False where it cannot.
+    virtual bool describe(int sample, PunctualLight& light) const;
+
+    /// Says what illuminate_ambient() writes, if that is the same for all receivers. False where it is not.
+    virtual bool describe_ambient(Rgb& ambient) const;
 };
 
 }  // namespace candela

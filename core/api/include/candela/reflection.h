@@ -7,6 +7,7 @@
 #include "candela/color.h"
 #include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/punctual.h"
 
 namespace candela {
 
@@ -15,7 +16,7 @@ namespace candela {
 struct SurfaceBatch {
     std::size_t count = 0;
     ConstVec3Span normal;       // N
-    ConstVec3Span to_observer;  // V
+    ConstVec3Span to_observer;  // V; null in reflect_punctual()
     ConstVec3Span tangent;      // along dp/du, orthogonal to N; null unless needs_tangent()
     Rgb color;                  // C_o, the object's colour, 0 to 1, the same for the whole batch
     ConstVec3Span position{};   // metres
@@ -83,6 +84,13 @@ class CANDELA_API ReflectionModel : public Instance {
     /// Adds what each point reflects of ambient light to `reflected.ambient`.
     virtual void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
                                  const ReflectedBatch& reflected) const = 0;
+
+    /// Writes all that each point reflects of `lighting`: what reflect_ambient() and, for each light,
+    /// reflect() add up to, but for rounding. Models that are made of kernel functions have it: what it saves
+    /// is writing and reading vectors for each light. False, with nothing written, if the model leaves it to
+    /// those. Never called for models that show their surroundings.
+    virtual bool reflect_punctual(const SurfaceBatch& surface, const PunctualLighting& lighting,
+                                  const Vec3Span& intensity) const;
 
     /// Whether the surroundings are visible in the surface or through it, so that show_surroundings() is
     /// called.

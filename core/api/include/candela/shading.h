@@ -32,8 +32,11 @@ struct MeshView {
                                     // a vertex that has none
 };
 
-/// What a shading model needs beyond the face normal and the interpolated vertex normal.
+/// What a shading model reads of ShadingPointBatch. What a model does not read is not computed for it.
 struct ShadingNeeds {
+    bool face_normal = true;
+    bool vertex_normal = true;
+    bool barycentric = true;
     bool uv = false;
     bool derivatives = false;
     bool triangle = false;  // not at rate `vertex`: a vertex belongs to several triangles
@@ -49,13 +52,14 @@ struct TriangleBatch {
 /// space.
 struct ShadingPointBatch {
     std::size_t count = 0;
+    // Null, each of them, unless needed.
     ConstVec3Span face_normal;    // unit
     ConstVec3Span vertex_normal;  // interpolated perspective-correctly between the vertices; not unit
     ConstVec3Span barycentric;    // weights of the triangle's vertices; of the first one at rate `vertex`
-    ConstVec2Span uv;             // null unless needed
-    ConstVec3Span dpdu;           // partial derivatives of position; null unless needed
+    ConstVec2Span uv;
+    ConstVec3Span dpdu;  // partial derivatives of position
     ConstVec3Span dpdv;
-    const TriangleBatch* triangle = nullptr;  // null unless needed, and at rate `vertex`
+    const TriangleBatch* triangle = nullptr;  // null at rate `vertex`
 };
 
 /// A shading model (CA: "how the normal vector is calculated for polygons in the scene"). Any thread, any

@@ -18,15 +18,22 @@ struct TriangleAttributes {
     Vec3 face_normal;
 };
 
-/// What is interpolated at a fragment.
+/// What is computed at a fragment.
+enum class Interpolated {
+    barycentric,          // nothing else
+    position_and_normal,  // position and vertex normal: what smooth surfaces are lit from
+    all,
+};
+
+/// Where it goes.
 struct InterpolatedSpans {
     Vec3Span barycentric, position, vertex_normal, face_normal;
 };
 
 /// Interpolates over `count` fragments of one triangle, at (x, y), and writes whole vectors, beyond `count`
 /// if need be.
-void interpolate(const TriangleAttributes& triangle, std::size_t count, const float* x, const float* y,
-                 const InterpolatedSpans& points);
+void interpolate(Interpolated what, const TriangleAttributes& triangle, std::size_t count, const float* x,
+                 const float* y, const InterpolatedSpans& points);
 
 /// A mesh with its projected vertices.
 struct IndexedMesh {
@@ -38,7 +45,8 @@ struct IndexedMesh {
 
 /// Interpolates over `count` fragments of one triangle each, at (x, y), and writes whole vectors, beyond
 /// `count` if need be. Yields the same numbers as interpolate().
-void interpolate_each(const IndexedMesh& mesh, std::size_t count, const std::uint32_t* triangle,
-                      const float* x, const float* y, const InterpolatedSpans& points);
+void interpolate_each(Interpolated what, const IndexedMesh& mesh, std::size_t count,
+                      const std::uint32_t* triangle, const float* x, const float* y,
+                      const InterpolatedSpans& points);
 
 }  // namespace candela

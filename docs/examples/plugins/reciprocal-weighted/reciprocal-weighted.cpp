@@ -7,7 +7,7 @@ namespace candela::kernel {
 using namespace candela::sdk;
 
 CANDELA_WEIGHTED_SHADING_PLUGIN(
-    reciprocal_weighted, fragment, NoParams, k_no_fields,
+    k_vertex_normal, reciprocal_weighted, fragment, NoParams, k_no_fields,
     {.title = "Reciprocally weighted normals",
      .summary = "Interpolated normals in which the faces with the shortest edges at a vertex count most.",
      .formula = "N_vertex = sum of N_face / (|e_1| |e_2|), normalised",

@@ -1,0 +1,45 @@
+// Punctual lights as data: what a reflection model can evaluate in its own loop, for many lights at once.
+#pragma once
+
+#include <span>
+
+#include "candela/color.h"
+#include "candela/math.h"
+
+namespace candela {
+
+/// A light, or one sample of a light, that reaches each point from one direction: a point, spot or
+/// directional light (RTR4 section 5.2, "punctual lights"; glTF's KHR_lights_punctual). World space.
+struct PunctualLight {
+    /// Homogeneous: a position in metres with w = 1, or with w = 0 the unit vector towards a light that is
+    /// infinitely far away.
+    Vec3 position{};
+    float w = 1;
+    Rgb diffuse{};  // intensity per channel, >= 0, before attenuation
+    Rgb specular{};
+    /// Attenuation at the distance r, at least a tenth of a millimetre: 1 / (constant + linear r +
+    /// quadratic r^2).
+    float constant = 1;
+    float linear = 0;
+    float quadratic = 0;
+    /// The cone of a spot light: with t = clamp((cos - cos_outer) cone_scale, 0, 1), where cos is that of the
+    /// angle between `axis`, a unit vector, and the way to the point, the light is multiplied by
+    /// t^2 (3 - 2t) if the cone is smooth, else by t.
+    bool has_cone = false;
+    bool is_smooth = false;
+    Vec3 axis{};
+    float cos_outer = -1;
+    float cone_scale = 0;
+};
+
+/// All the light that a batch of points receives, as data.
+struct PunctualLighting {
+    /// Homogeneous: the eye, in metres, with w = 1, or with w = 0 the unit vector towards an observer that is
+    /// infinitely far away. V is the direction of observer - w position.
+    Vec3 observer{};
+    float w = 1;
+    Rgb ambient{};  // the same from everywhere
+    std::span<const PunctualLight> lights{};
+};
+
+}  // namespace candela

@@ -1,0 +1,12 @@
+// Punctual lights in double precision.
+#pragma once
+
+import candela.math;
+import candela.punctual;
+
+/// What a light sends to a point: its direction, and the share of its intensity (candela/punctual.h).
+struct ExactIncident {
+    candela::Vec3 to_light;
+    double share;
+};
+ExactIncident incident_of(const candela::PunctualLight& light, candela::Vec3 position);
