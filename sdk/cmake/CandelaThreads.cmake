@@ -12,11 +12,11 @@ function(candela_find_thread_sanitizer result)
 endfunction()
 
 # candela_find_symbolizer(<variable>): what the environment needs so that reports name lines: a symbolizer for clang's runtime,
-# or leave to run addr2line, which is wherever programs are linked. g++'s runtime needs neither.
+# or addr2line, which is wherever programs are linked. Debian's clang 19 looks for neither itself. g++'s runtime needs none.
 function(candela_find_symbolizer result)
     string(REGEX MATCH "^[0-9]+" version "${CMAKE_CXX_COMPILER_VERSION}")
     cmake_path(GET CMAKE_CXX_COMPILER PARENT_PATH beside)
-    find_program(CANDELA_SYMBOLIZER NAMES llvm-symbolizer llvm-symbolizer-${version}
+    find_program(CANDELA_SYMBOLIZER NAMES llvm-symbolizer llvm-symbolizer-${version} addr2line
         HINTS ${beside} /usr/lib/llvm-${version}/bin)
     mark_as_advanced(CANDELA_SYMBOLIZER)
     set(options TSAN_OPTIONS=allow_addr2line=1)
