@@ -50,6 +50,22 @@ std::string without_lines_about(const fs::path& folder, const std::string& text)
     return rest;
 }
 
+std::vector<std::string> options_of(const std::vector<view::Change>& changes) {
+    std::vector<std::string> options;
+    for (const view::Change& change : changes)
+        options.push_back(fmt::format("{}={}", change.option, change.value));
+    return options;
+}
+
+/// This program, in a process of its own.
+candela::ProgramOutput run_verb(const std::vector<std::string>& verb,
+                                const std::vector<std::string>& arguments,
+                                const std::vector<std::string>& options) {
+    std::vector<std::string> words{"/proc/self/exe"};
+    for (const auto& some : {verb, arguments, options}) words.insert(words.end(), some.begin(), some.end());
+    return candela::run_program(words);
+}
+
 }  // namespace
 
 WithoutDescendants::WithoutDescendants()
@@ -67,11 +83,8 @@ WithoutDescendants::~WithoutDescendants() {
 
 view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
                        const fs::path& file) try {
-    std::vector<std::string> words{"/proc/self/exe", "render", "--quiet", "--output", file.string()};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    for (const view::Change& change : changes)
-        words.push_back(fmt::format("{}={}", change.option, change.value));
-    const candela::ProgramOutput result = candela::run_program(words);
+    const candela::ProgramOutput result =
+        run_verb({"render", "--quiet", "--output", file.string()}, arguments, options_of(changes));
     if (result.exit_code != 0) return {.is_success = false, .content = result.err};
     return {.is_success = true, .content = content_of(file)};
 } catch (const std::exception& problem) {
@@ -80,11 +93,8 @@ view::Outcome rendered(const std::vector<std::string>& arguments, const std::vec
 
 view::Outcome explained(const std::vector<std::string>& arguments,
                         const std::vector<view::Change>& changes) try {
-    std::vector<std::string> words{"/proc/self/exe", "explain", "--quiet", "--json"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    for (const view::Change& change : changes)
-        words.push_back(fmt::format("{}={}", change.option, change.value));
-    const candela::ProgramOutput result = candela::run_program(words);
+    const candela::ProgramOutput result =
+        run_verb({"explain", "--quiet", "--json"}, arguments, options_of(changes));
     const bool is_success = result.exit_code == 0;
     return {.is_success = is_success, .content = is_success ? result.out : result.err};
 } catch (const std::exception& problem) {
@@ -92,14 +102,14 @@ view::Outcome explained(const std::vector<std::string>& arguments,
 }
 
 view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes) try {
-    std::vector<std::string> words{"/proc/self/exe", "edit", "--quiet"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<std::string> options;
     for (const view::Change& change : changes) {
         const bool is_model = change.option != "--set";
-        words.push_back(is_model ? fmt::format("--change={}.model={}", change.option.substr(2), change.value)
-                                 : fmt::format("--change={}", change.value));
+        options.push_back(is_model
+                              ? fmt::format("--change={}.model={}", change.option.substr(2), change.value)
+                              : fmt::format("--change={}", change.value));
     }
-    const candela::ProgramOutput result = candela::run_program(words);
+    const candela::ProgramOutput result = run_verb({"edit", "--quiet"}, arguments, options);
     return {.is_success = result.exit_code == 0, .content = result.err};
 } catch (const std::exception& problem) {
     return {.is_success = false, .content = problem.what()};
@@ -129,13 +139,10 @@ void SceneFollower::watch(bool is_right) {
 
 bool SceneFollower::make_page() {
     const fs::path output = folder_.path() / "page", inputs = folder_.path() / "inputs.json";
-    std::vector<std::string> words{"/proc/self/exe", "generate"};
-    words.insert(words.end(), job_.arguments.begin(), job_.arguments.end());
-    for (const std::string& word : {std::string("--target"), job_.target, std::string("--output"),
-                                    output.string(), std::string("--inputs"), inputs.string()})
-        words.push_back(word);
     const Stopwatch watch;
-    const candela::ProgramOutput result = candela::run_program(words);
+    const candela::ProgramOutput result =
+        run_verb({"generate"}, job_.arguments,
+                 {"--target", job_.target, "--output", output.string(), "--inputs", inputs.string()});
     if (is_ending_) return false;
     const std::string messages = without_lines_about(folder_.path(), result.err);
     // While it has errors, the scene's whole folder is watched, and much may happen there.

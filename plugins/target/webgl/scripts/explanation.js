@@ -2,6 +2,8 @@ import { arrowLayer, drawArrows } from "./arrows.js";
 import { element, isolated, newId } from "./elements.js";
 import { announce } from "./messages.js";
 import { queryOf } from "./options.js";
+import { layOver, onMoved } from "./overlay.js";
+import { nameOf } from "./scene.js";
 
 const CLICK_DISTANCE = 4;  // in CSS pixels: a pointer that moves farther turns the scene
 const VECTORS = ["N", "V", "L", "R", "H"];
@@ -11,8 +13,8 @@ const numbers = (values) => (Array.isArray(values) ? values.map(number).join(", 
 const row = (name, ...cells) => element("tr", {}, element("th", { scope: "row" }, name), ...cells.map((cell) => element("td", {}, cell)));
 const head = (...names) => element("thead", {}, element("tr", {}, ...names.map((name) => element(name === "" ? "td" : "th", name === "" ? {} : { scope: "col" }, name))));
 const table = (caption, columns, rows) => element("table", {}, element("caption", {}, caption), head("", ...columns), element("tbody", {}, ...rows));
-/** A name as the renderer's messages quote it. */
-const named = (text) => isolated(text.replace(/^'(.*)'$/, "$1"));
+
+const vectorsOf = (point, light) => VECTORS.map((name) => [name, point[name] ?? light[name]]).filter(([, vector]) => vector);
 
 function steps(title, list) {
     if (list.length === 0) return null;
@@ -51,9 +53,7 @@ export class Explanation {
         canvas.addEventListener("click", (event) => {
             if (from !== null && Math.hypot(event.clientX - from[0], event.clientY - from[1]) <= CLICK_DISTANCE) this.explainAt(event);
         });
-        const observer = new ResizeObserver(() => this.place());
-        observer.observe(canvas);
-        observer.observe(this.arrows.parentElement);
+        onMoved(this.arrows, canvas, () => layOver(this.arrows, canvas));
         settings.listeners.push(() => this.clear());
         this.fit();
     }
@@ -106,7 +106,7 @@ export class Explanation {
         if (explanation.note) this.result.append(element("p", { class: "reference" }, explanation.note));
         const shown = element("div");
         if (fragments.length === 0) this.result.append(element("p", {}, "No object is seen here: this is the background."));
-        else this.result.append(...this.choice("Triangle", fragments.map((f) => `${f.object.replaceAll("'", "")}, triangle ${f.triangle} (${number(100 * f.weight)} %)`), (i) => shown.replaceChildren(...this.fragmentParts(fragments[i]))), shown);
+        else this.result.append(...this.choice("Triangle", fragments.map((f) => `${nameOf(f.object)}, triangle ${f.triangle} (${number(100 * f.weight)} %)`), (i) => shown.replaceChildren(...this.fragmentParts(fragments[i]))), shown);
         announce(`Pixel ${x}, ${y} is explained: ${bytes.join(", ")}.`);
     }
 
@@ -127,43 +127,38 @@ export class Explanation {
 
     fragmentParts(fragment) {
         const shown = element("div"), { points } = fragment;
-        const about = element("p", {}, named(fragment.object), `, triangle ${fragment.triangle}, barycentric ${numbers(fragment.barycentric)}; lit per ${fragment.shaded_per} (`,
+        const about = element("p", {}, isolated(nameOf(fragment.object)), `, triangle ${fragment.triangle}, barycentric ${numbers(fragment.barycentric)}; lit per ${fragment.shaded_per} (`,
             isolated(fragment.shading), ")");
         const choice = this.choice("Point", points.map((_, i) => (points.length === 3 ? `vertex ${i + 1}` : "the point")), (i) => shown.replaceChildren(...this.pointParts(points[i])));
         return [about, ...choice, shown];
     }
 
     pointParts(point) {
-        const shown = element("div"), name = ({ light, sample }) => light.replaceAll("'", "") + (sample > 0 ? `, sample ${sample + 1}` : "");
+        const shown = element("div"), name = ({ light, sample }) => nameOf(light) + (sample > 0 ? `, sample ${sample + 1}` : "");
         const choice = this.choice("Light", point.lights.map(name), (i) => shown.replaceChildren(...this.lightParts(point, point.lights[i])));
         const sums = table("Of all lights", ["red", "green", "blue"], ["I_a", "I_d", "I_s", "I"].map((sum) => row(sum, ...point[sum].map(number))));
-        if (point.lights.length === 0) this.drawVectors(point, {});
+        if (point.lights.length === 0) this.drawVectors(point, vectorsOf(point, {}));
         return [steps("How N is found", point.normal_steps), ...choice, shown, sums].filter((part) => part !== null);
     }
 
     lightParts(point, light) {
-        this.drawVectors(point, light);
-        const vectors = VECTORS.map((name) => [name, point[name] ?? light[name]]).filter(([, vector]) => vector);
+        const vectors = vectorsOf(point, light);
+        this.drawVectors(point, vectors);
         const arriving = light.ambient ? [["arriving", light.ambient]] : [["arriving, diffuse", light.diffuse], ["arriving, specular", light.specular]];
         return [
             table("Unit vectors", ["x", "y", "z"], vectors.map(([name, vector]) => row(name, ...vector.map(number)))),
+            element("p", {}, `C_o = ${numbers(point.C_o)}`),
             "N.L" in light ? element("p", {}, `N·L = ${number(light["N.L"])}`) : null,
-            table(`Of ${light.light.replaceAll("'", "")}`, ["red", "green", "blue"],
+            table(`Of ${nameOf(light.light)}`, ["red", "green", "blue"],
                 [...arriving, ...["I_a", "I_d", "I_s"].map((sum) => [sum, light[sum]])].map(([name, values]) => row(name, ...values.map(number)))),
             steps(`What ${light.type} sends, step by step`, light.light_steps),
             steps(`What ${light.reflection} reflects, step by step`, light.reflection_steps),
         ].filter((part) => part !== null);
     }
 
-    drawVectors(point, light) {
+    drawVectors(point, vectors) {
         const { width, height } = this.settings.scene.image;
-        const vectors = VECTORS.map((name) => [name, point[name] ?? light[name]]).filter(([, vector]) => vector);
         drawArrows(this.arrows, this.settings.observer(), width, height, point.position, vectors);
-        this.place();
-    }
-
-    place() {
-        const box = this.canvas.getBoundingClientRect(), around = this.arrows.parentElement.getBoundingClientRect();
-        Object.assign(this.arrows.style, { left: `${box.left - around.left}px`, top: `${box.top - around.top}px`, width: `${box.width}px`, height: `${box.height}px` });
+        layOver(this.arrows, this.canvas);
     }
 }

@@ -1,4 +1,5 @@
 import { queryOf } from "./options.js";
+import { layOver, onMoved } from "./overlay.js";
 
 const DELAY_MS = 120;  // a hand that moves a slider does not wait for pictures
 
@@ -36,10 +37,7 @@ export class Reference {
         document.getElementById("reference").hidden = false;
         this.mode.addEventListener("change", () => this.invalidate());
         this.share.addEventListener("input", () => this.place());
-        // The canvas moves without another size, too, when there is less room around it.
-        const observer = new ResizeObserver(() => this.place());
-        observer.observe(canvas);
-        observer.observe(this.overlay.parentElement);
+        onMoved(this.overlay, canvas, () => this.place());
         settings.listeners.push(() => this.invalidate());
     }
 
@@ -83,11 +81,7 @@ export class Reference {
     }
 
     place() {
-        const { overlay, pictureCanvas } = this, wipe = this.mode.value === "wipe";
-        const box = pictureCanvas.getBoundingClientRect(), around = overlay.parentElement.getBoundingClientRect();
-        Object.assign(overlay.style, {
-            left: `${box.left - around.left}px`, top: `${box.top - around.top}px`, width: `${box.width}px`, height: `${box.height}px`,
-            clipPath: wipe ? `inset(0 0 0 ${100 - Number(this.share.value)}%)` : "none",
-        });
+        layOver(this.overlay, this.pictureCanvas);
+        this.overlay.style.clipPath = this.mode.value === "wipe" ? `inset(0 0 0 ${100 - Number(this.share.value)}%)` : "none";
     }
 }

@@ -9,11 +9,14 @@ export function readSceneFrom(html) {
     return JSON.parse(html.slice(begin, html.indexOf("</script>", begin)));
 }
 
+/** A label without the quotation marks that messages put around names. */
+export const nameOf = (label) => (/^'[^]*'$/.test(label) ? label.slice(1, -1) : label);
+
 /**
- * A label without the quotation marks that messages put around names. Unnamed objects and lights go by their number, as
+ * The name that a person gave. Unnamed objects and lights go by their number, as
  * on the command line.
  */
 export function displayName(label, kind, index) {
-    const bare = /^'[^]*'$/.test(label) ? label.slice(1, -1) : label;
+    const bare = nameOf(label);
     return bare.trim() === "" || /^number \d+$/.test(label) ? `${kind} ${index}` : bare;
 }

@@ -1,0 +1,12 @@
+/** Puts an element over another one, in the same picture area. */
+export function layOver(overlay, picture) {
+    const box = picture.getBoundingClientRect(), around = overlay.parentElement.getBoundingClientRect();
+    Object.assign(overlay.style, { left: `${box.left - around.left}px`, top: `${box.top - around.top}px`, width: `${box.width}px`, height: `${box.height}px` });
+}
+
+/** Calls `place` whenever the picture may have moved: without another size, too, when there is less room around it. */
+export function onMoved(overlay, picture, place) {
+    const observer = new ResizeObserver(place);
+    observer.observe(picture);
+    observer.observe(overlay.parentElement);
+}
