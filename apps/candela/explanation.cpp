@@ -26,11 +26,11 @@ std::string receiver_text(KernelNumbers& numbers, const PointTrace& point) {
     return fmt::format("Receiver({}, {})", numbers.text(point.position), numbers.text(point.normal));
 }
 
-std::string surface_text(KernelNumbers& numbers, const PointTrace& point, candela::Rgb color) {
+std::string surface_text(KernelNumbers& numbers, const PointTrace& point) {
     return fmt::format("Surface({}, {}, {}, {}, {}, vec2({}, {}))", numbers.text(point.normal),
                        numbers.text(point.to_observer), numbers.text(point.tangent),
-                       numbers.text(Vec3{color.r, color.g, color.b}), numbers.text(point.position),
-                       numbers.text(point.u), numbers.text(point.v));
+                       numbers.text(point.color), numbers.text(point.position), numbers.text(point.u),
+                       numbers.text(point.v));
 }
 
 std::string shading_point_text(KernelNumbers& numbers, const PointTrace& point) {
@@ -91,8 +91,7 @@ void Explanation::add_calls(const FragmentProbe& fragment, candela::Registry& re
                   .arguments =
                       shading_point_text(numbers_, point) +
                       (models.shading->needs().triangle ? ", " + triangle_text(numbers_, point) : "")})});
-        const std::string surface =
-            surface_text(numbers_, point, compiled.objects[fragment.object].surface.color);
+        const std::string surface = surface_text(numbers_, point);
         for (const LightTrace& light : point.lights) {
             const candela::Model& model = scene.lights[light.light].model;
             const PluginDescriptor* const light_plugin = descriptor(PluginKind::light, model.name);

@@ -86,31 +86,31 @@ Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& li
 Json json_of(const Explanation& e, const PointTrace& point, const std::string& reflection) {
     Json lights = Json::array();
     for (const LightTrace& light : point.lights) lights.push_back(json_of(e, point, light, reflection));
-    return {{"position", json_of(point.position)}, {"N", json_of(point.normal)},
-            {"V", json_of(point.to_observer)},     {"tangent", json_of(point.tangent)},
-            {"from_behind", point.from_behind},    {"normal_steps", json_of(e.normal_steps(point))},
-            {"lights", std::move(lights)},         {"surroundings", json_of(point.surroundings)},
-            {"I_a", json_of(point.ambient)},       {"I_d", json_of(point.diffuse)},
-            {"I_s", json_of(point.specular)},      {"I", json_of(point.intensity)}};
+    return {{"position", json_of(point.position)},
+            {"N", json_of(point.normal)},
+            {"V", json_of(point.to_observer)},
+            {"C_o", json_of(point.color)},
+            {"tangent", json_of(point.tangent)},
+            {"from_behind", point.from_behind},
+            {"normal_steps", json_of(e.normal_steps(point))},
+            {"lights", std::move(lights)},
+            {"surroundings", json_of(point.surroundings)},
+            {"I_a", json_of(point.ambient)},
+            {"I_d", json_of(point.diffuse)},
+            {"I_s", json_of(point.specular)},
+            {"I", json_of(point.intensity)}};
 }
 
 Json json_of(const Explanation& e, const FragmentProbe& fragment) {
     const candela::Object& object = e.scene.objects[fragment.object];
-    const candela::Rgb color = e.compiled.objects[fragment.object].surface.color;
     Json points = Json::array();
     for (const PointTrace& point : fragment.points)
         points.push_back(json_of(e, point, object.reflection.name));
-    return {{"object", object.label},
-            {"type", object.shape.name},
-            {"triangle", fragment.triangle},
-            {"barycentric", json_of(fragment.barycentric)},
-            {"weight", fragment.weight},
-            {"position", json_of(fragment.position)},
-            {"C_o", {color.r, color.g, color.b}},
-            {"shading", object.shading.name},
-            {"shaded_per", name_of(fragment.rate)},
-            {"points", std::move(points)},
-            {"I", json_of(fragment.intensity)}};
+    return {{"object", object.label},         {"type", object.shape.name},
+            {"triangle", fragment.triangle},  {"barycentric", json_of(fragment.barycentric)},
+            {"weight", fragment.weight},      {"position", json_of(fragment.position)},
+            {"shading", object.shading.name}, {"shaded_per", name_of(fragment.rate)},
+            {"points", std::move(points)},    {"I", json_of(fragment.intensity)}};
 }
 
 }  // namespace

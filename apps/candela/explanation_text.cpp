@@ -84,8 +84,6 @@ class Writer {
                          fragment.triangle, text_of(fragment.barycentric),
                          fragment.weight < 1 ? fmt::format(", {:.4g} of the pixel", fragment.weight) : ""));
         value(1, "p", fragment.position, "metres");
-        const candela::Rgb color = e_.compiled.objects[fragment.object].surface.color;
-        value(1, "C_o", {color.r, color.g, color.b});
         line(1,
              fmt::format("{} shading: light is evaluated {}", object.shading.name, place_of(fragment.rate)));
         for (std::size_t i = 0; i < fragment.points.size(); ++i) {
@@ -101,6 +99,7 @@ class Writer {
         steps(3, e_.normal_steps(point));
         value(2, "V", point.to_observer);
         if (length(point.tangent) > 0) value(2, "T", point.tangent);
+        value(2, "C_o", point.color);
         for (const LightTrace& light : point.lights) write(light, point, object);
         if (length(point.surroundings) > 0) value(2, "surroundings", point.surroundings);
         value(2, "I_a", point.ambient);

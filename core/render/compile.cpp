@@ -144,9 +144,12 @@ class Compiler {
                 i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
             const PointNeeds needs = has_surface ? compiled_.objects[i].surface.needs() : PointNeeds{};
             guarded(object, PluginKind::shape, object.shape.name, [&] {
-                placed_[i] =
-                    place(*made<Shape>(object.shape), {.uv = needs.uv, .derivatives = needs.derivatives},
-                          object.transform, [this](double part) { tell(part); });
+                placed_[i] = place(*made<Shape>(object.shape),
+                                   {.uv = needs.uv,
+                                    .derivatives = needs.derivatives,
+                                    .color = true,
+                                    .color_management = encoding()},
+                                   object.transform, [this](double part) { tell(part); });
             });
             if (placed_[i]) say_once(object, placed_[i]->warnings);
             count_step();
@@ -176,6 +179,7 @@ class Compiler {
         SolidObject& solid = compiled_.objects[i];
         guarded(object, PluginKind::shading, object.shading.name,
                 [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
+        multiply(solid.mesh.color, solid.surface.color);
         if (solid.surface.reflection->shows_surroundings())
             solid.tree.emplace(std::as_const(solid.mesh.position).span(), solid.mesh.vertex_count(),
                                solid.mesh.indices);
@@ -187,6 +191,12 @@ class Compiler {
                 fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
                             object.label, solid.mesh.open_edges, solid.mesh.open_edges == 1 ? "" : "s"));
         }
+    }
+
+    static void multiply(Vec3Arrays& colors, Rgb by) {
+        for (float& red : colors.x) red *= by.r;
+        for (float& green : colors.y) green *= by.g;
+        for (float& blue : colors.z) blue *= by.b;
     }
 
     ColorEncoding encoding() const { return scene_.image.color_management; }

@@ -92,13 +92,20 @@ void TileShader::fill_background(const VisibleTile& visible) {
         }
         const auto stride = static_cast<std::uint32_t>(visible.stride);
         const std::uint32_t row = run.pixel / stride, column = run.pixel % stride;
-        for (std::uint32_t i = 0; i < run.count; ++i) {
-            const Vec3 towards = projected_->camera.view_through(
-                static_cast<float>(visible.x0) + static_cast<float>(column + i) + 0.5f,
-                static_cast<float>(visible.y0) + static_cast<float>(row) + 0.5f);
-            const Rgb rgb = run.weight > 0 ? run.weight * scene_->environment.seen(towards) : Rgb{};
-            pixels.set(run.pixel + i, {rgb.r, rgb.g, rgb.b});
+        if (run.weight <= 0) {
+            for (float* const channel : {pixels.x, pixels.y, pixels.z})
+                std::fill_n(channel + run.pixel, run.count, 0.0f);
+            return;
         }
+        towards_.resize(run.count);
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            towards_.span().set(i, projected_->camera.view_through(
+                                       static_cast<float>(visible.x0) + static_cast<float>(column + i) + 0.5f,
+                                       static_cast<float>(visible.y0) + static_cast<float>(row) + 0.5f));
+        }
+        const Vec3Span to = pixels.from(run.pixel);
+        scene_->environment.look(run.count, std::as_const(towards_).span(), to);
+        for (std::uint32_t i = 0; run.weight != 1 && i < run.count; ++i) to.set(i, run.weight * to[i]);
     };
     if (!visible.is_empty) {
         for (const BackgroundRun& run : visible.fragments.background()) fill(run);
@@ -183,7 +190,8 @@ void TileShader::shade_vertices(const FragmentList& fragments) {
     const ConstVec3Span intensity = std::as_const(places_).span();
     FragmentBatches batches(fragments);
     for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
-        gather_fragments(mesh, runs, {.position = false, .face_normal = false, .vertex_normal = false},
+        gather_fragments(mesh, runs,
+                         {.position = false, .face_normal = false, .vertex_normal = false, .color = false},
                          points_);
         std::size_t i = 0;
         std::uint32_t triangle = k_no_triangle;

@@ -7,6 +7,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <random>
 #include <span>
 
@@ -91,18 +92,20 @@ bool can_reflect_punctual(const candela::ReflectionModel& model, candela::Surfac
     return model.reflect_punctual(point, punctual_lighting(), {&intensity.x, &intensity.y, &intensity.z});
 }
 
-BatchSubject reflection_subject(const Values& values) {
+/// Without `color`, each point has its own.
+BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb> color = std::nullopt) {
     const std::shared_ptr<candela::ReflectionModel> model = make<candela::ReflectionModel>(values);
-    const auto surface = [model](std::size_t count, const Arrays& in) {
+    const auto surface = [model, color](std::size_t count, const Arrays& in) {
         return candela::SurfaceBatch{
             .count = count,
             .normal = in.vec3(k_normal),
             .to_observer = in.vec3(k_observer),
             .tangent = model->needs_tangent() ? in.vec3(k_tangent) : candela::ConstVec3Span{},
-            .color = {0.8f, 0.5f, 0.2f},
+            .color = color.value_or(candela::Rgb{0.8f, 0.5f, 0.2f}),
             .position = in.vec3(k_position),
-            .uv = model->needs_uv() ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]}
-                                    : candela::ConstVec2Span{}};
+            .uv =
+                model->needs_uv() ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]} : candela::ConstVec2Span{},
+            .point_color = color ? candela::ConstVec3Span{} : in.vec3(k_color)};
     };
     const auto reflected = [](Arrays& out) {
         return candela::ReflectedBatch{
@@ -242,6 +245,10 @@ BatchSubject batch_subject(const Values& values) {
     }
 }
 
+BatchSubject subject_of_one_color(const Values& values, candela::Rgb color) {
+    return reflection_subject(values, color);
+}
+
 void put_triangle(Arrays& in, std::size_t i, const std::array<Vec3, 3>& normals) {
     const Vec3 n = in.at(k_normal, i), t = in.at(k_tangent, i), weight = in.at(k_barycentric, i);
     const Vec3 aside = cross(n, t);
@@ -268,6 +275,7 @@ Arrays inputs_for(std::size_t count, unsigned seed) {
                     z = normal_corner(random_corner);
         return candela::normalized(n + 0.3f * candela::normalized({x, y, z}));
     };
+    std::mt19937 random_color(seed + 2000);  // likewise
     Arrays in(k_inputs, count);
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3 n = direction();
@@ -290,6 +298,7 @@ Arrays inputs_for(std::size_t count, unsigned seed) {
         in.vec3(k_dpdv).set(i, 0.5f * cross(n, du) + 0.1f * du);
         in[k_uv][i] = unit(random);
         in[k_uv + 1][i] = unit(random);
+        in.vec3(k_color).set(i, {unit(random_color), unit(random_color), unit(random_color)});
         const Vec3 n0 = bent(n), n1 = bent(n), n2 = bent(n);
         put_triangle(in, i, {n0, n1, n2});
     }

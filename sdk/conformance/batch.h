@@ -85,10 +85,13 @@ inline constexpr std::size_t k_dpdv = 30;
 inline constexpr std::size_t k_uv = 33;                // two
 inline constexpr std::size_t k_corner_positions = 35;  // of the triangle: three vectors
 inline constexpr std::size_t k_corner_normals = 44;    // likewise
-inline constexpr std::size_t k_inputs = 53;
+inline constexpr std::size_t k_color = 53;             // C_o
+inline constexpr std::size_t k_inputs = 56;
 }  // namespace inputs
 
 BatchSubject batch_subject(const Values& values);
+/// Of a reflection model, on a surface of one colour: k_color is not read.
+BatchSubject subject_of_one_color(const Values& values, candela::Rgb color);
 
 /// Lights as data, and an observer, among which inputs_for() places its points: a point light, one infinitely
 /// far away, and a spot light.

@@ -90,9 +90,9 @@ std::string body_of(PluginKind kind) {
             name, before, call, after);
     };
     const std::string surface =
-        fmt::format("Surface s{{{}, {}, {}, vec3(0.8f, 0.5f, 0.2f), {}, vec2(in[{}][i], in[{}][i])}};\n",
+        fmt::format("Surface s{{{}, {}, {}, {}, {}, vec2(in[{}][i], in[{}][i])}};\n",
                     three("in", in::k_normal), three("in", in::k_observer), three("in", in::k_tangent),
-                    three("in", in::k_position), in::k_uv, in::k_uv + 1);
+                    three("in", in::k_color), three("in", in::k_position), in::k_uv, in::k_uv + 1);
     const std::string receiver =
         fmt::format("Receiver s{{{}, {}}};\n", three("in", in::k_position), three("in", in::k_normal));
     switch (kind) {

@@ -294,6 +294,35 @@ TEST_CASE("in one go: of many lights a model makes what it makes of them one by 
     }
 }
 
+TEST_CASE(
+    "colours: a point with a colour of its own looks as it does on a surface that is all of that colour",
+    "[reflection]") {
+    constexpr std::size_t k_points = 70;  // more than a pass of the SDK's loops
+    const Arrays in = inputs_for(k_points, 37);
+    for (const Values& values : many_values(3)) {
+        const BatchSubject own = batch_subject(values);
+        std::vector<Arrays> together;
+        for (const Call& call : own.calls) together.push_back(outputs_of(call, in));
+        for (std::size_t i = 0; i < k_points; i += 3) {
+            const Vec3 color = in.at(inputs::k_color, i);
+            const BatchSubject one = subject_of_one_color(values, {color.x, color.y, color.z});
+            for (std::size_t c = 0; c < own.calls.size(); ++c) {
+                const Arrays alone = outputs_of(one.calls[c], in.part(i, 1));
+                for (std::size_t channel = 0; channel < alone.arrays(); ++channel) {
+                    const float expected = alone[channel][0], got = together[c][channel][i];
+                    if (!(std::abs(got - expected) <= 1e-5f * std::abs(expected) + 1e-6f))
+                        FAIL(own.calls[c].name
+                             << " gives " << got << " in " << own.calls[c].outputs[channel / 3]
+                             << " at point " << i << ", whose colour is [" << color.x << ", " << color.y
+                             << ", " << color.z << "] (SurfaceBatch::point_color), and " << expected
+                             << " where the surface has that colour, for " << text_of_input(in, i)
+                             << ", with " << values.text);
+                }
+            }
+        }
+    }
+}
+
 TEST_CASE("surroundings: where one intensity comes from everywhere, no more than that is seen in the object",
           "[reflection]") {
     class Furnace final : public candela::Surroundings {

@@ -70,6 +70,13 @@ expect "$scratch/out" "CSV (target/csv), version 1.0.0" "candela describe"
 expect "$scratch/tables/lights.csv" ",point,intensity,2.5" "candela generate"
 expect "$scratch/tables/objects.csv" "cube,cube,phong,phong,1" "candela generate"
 [ "$(wc -l <"$scratch/tables/meshes/triangles.csv")" -eq 13 ] || fail "a cube has twelve triangles"
+printf 'v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n' >"$scratch/red.obj"
+printf 'version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[[light]]\ntype = "ambient"\n[[object]]\ntype = "mesh"\nfile = "red.obj"\n' >"$scratch/red.toml"
+code=0
+"$candela" generate --defaults --target csv --plugin-dir "$csv" "$scratch/red.toml" -o "$scratch/red" 2>"$scratch/out" || code=$?
+[ "$code" -eq 1 ] || fail "exit code $code for vertex colours that the target does not know"
+expect "$scratch/out" "has a colour at each vertex, which this target cannot express" "candela generate"
+[ ! -e "$scratch/red" ] || fail "something was written of a scene that is refused"
 code=0
 "$candela" verify --target csv --plugin-dir "$csv" 2>"$scratch/out" || code=$?
 [ "$code" -eq 2 ] || fail "exit code $code for a target that draws nothing"

@@ -10,9 +10,19 @@ SCENES = 14
 OBJECTS = 8  # in two rows; many in few scenes, since most of the time goes into compilers and browsers that start
 COLUMNS = 4
 
-# An icosahedron: closed, with sharp edges, and without normals of its own.
-OBJ = """v -1 1.618 0\nv 1 1.618 0\nv -1 -1.618 0\nv 1 -1.618 0\nv 0 -1 1.618\nv 0 1 1.618\nv 0 -1 -1.618\nv 0 1 -1.618
-v 1.618 0 -1\nv 1.618 0 1\nv -1.618 0 -1\nv -1.618 0 1
+# An icosahedron: closed, with sharp edges, without normals of its own, and of another colour at each vertex.
+OBJ = """v -1 1.618 0 1 1 1
+v 1 1.618 0 1 .4 .3
+v -1 -1.618 0 .4 1 .3
+v 1 -1.618 0 .3 .5 1
+v 0 -1 1.618 1 .9 .2
+v 0 1 1.618 .3 1 1
+v 0 -1 -1.618 1 .3 1
+v 0 1 -1.618 .9 .9 .9
+v 1.618 0 -1 .6 .2 .2
+v 1.618 0 1 .2 .7 .2
+v -1.618 0 -1 .25 .25 .8
+v -1.618 0 1 1 .6 0
 f 1 12 6\nf 1 6 2\nf 1 2 8\nf 1 8 11\nf 1 11 12\nf 2 6 10\nf 6 12 5\nf 12 11 3\nf 11 8 7\nf 8 2 9
 f 4 10 5\nf 4 5 3\nf 4 3 7\nf 4 7 9\nf 4 9 10\nf 5 10 6\nf 3 5 12\nf 7 3 11\nf 9 7 8\nf 10 9 2
 """

@@ -155,6 +155,7 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"light-forgets-highlights", "written", "failed", "does not write the specular of point 0"},
         {"light-describes-another", "data", "failed", "as data, sample 0 sends 1 in red; illuminate() sends"},
         {"reflection-forgets-a-light", "in one go", "failed", "reflect_punctual gives"},
+        {"reflection-one-color-for-all", "colours", "failed", "where the surface has that colour"},
         {"reflection-hasty-at-the-end", "bounds", "failed",
          "reflect_punctual writes after a batch of 1 points"},
         {"light-never-fades", "fall-off", "failed", "it sends 1 times as much"},

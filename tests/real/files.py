@@ -18,6 +18,7 @@ class Case:
     triangles: int = 12
     closed: bool = True
     like: str = "cube"
+    color: tuple = (200, 200, 200)  # of what it looks like
     says: tuple = ()  # parts of the warnings
     silent: bool = False  # no warning at all
     error: str = ""  # a part of the message, where the file must be refused
@@ -82,8 +83,8 @@ def ply_cases():
         yield Case(f"ply-{short}-doubles", {"a.ply": ply_cube(form, coordinate="double")}, silent=True)
         for kind in ("char", "uchar", "short", "ushort", "int", "uint"):
             yield Case(f"ply-{short}-list-{kind}", {"a.ply": ply_cube(form, kind, kind, TRIANGLES)}, silent=True)
-        # The same corners once for each face, with its normal and texture coordinates; colours besides.
-        own = [(*CORNERS[c], *n, u, v, 255, 0, 0) for f, n in zip(FACES, NORMALS)
+        # The same corners once for each face, with its normal and texture coordinates, and a colour.
+        own = [(*CORNERS[c], *n, u, v, 255, 0, 255) for f, n in zip(FACES, NORMALS)
                for c, (u, v) in zip(f, ((0, 0), (1, 0), (1, 1), (0, 1)))]
         for names in (("s", "t"), ("u", "v"), ("texture_u", "texture_v")):
             properties = XYZ + [("nx", "float"), ("ny", "float"), ("nz", "float"), (names[0], "float"),
@@ -92,7 +93,20 @@ def ply_cases():
             yield Case(f"ply-{short}-all-{names[0]}",
                        {"a.ply": ply([("vertex", properties, own),
                                       ("face", [("vertex_index", "uchar", "uint"), ("quality", "int")], faces)], form)},
-                       says=("vertex colours", "the face property 'quality'"))
+                       color=(200, 0, 200), says=("the face property 'quality'",))
+        for kind, most in (("uchar", 255), ("ushort", 65535), ("float", 1), ("double", 1)):
+            for names in (("red", "green", "blue"), ("diffuse_red", "diffuse_green", "diffuse_blue"), ("r", "g", "b")):
+                yield Case(f"ply-{short}-{names[0]}-{kind}",
+                           {"a.ply": ply([("vertex", XYZ + [(n, kind) for n in names],
+                                           [(*c, 0, most, most) for c in CORNERS]),
+                                          ("face", [("vertex_indices", "uchar", "int")], [(f,) for f in FACES])], form)},
+                           color=(0, 200, 200), silent=True)
+        for alpha, says in ((255, ()), (9, ("the opacity of vertices",))):
+            yield Case(f"ply-{short}-alpha-{alpha}",
+                       {"a.ply": ply([("vertex", XYZ + [(n, "uchar") for n in ("red", "green", "blue", "alpha")],
+                                       [(*c, 255, 255, 255, alpha) for c in CORNERS]),
+                                      ("face", [("vertex_indices", "uchar", "int")], [(f,) for f in FACES])], form)},
+                       says=says, silent=not says)
         strip = [4, 5, 6, 7, 2, 3, 0, 1, 4, 5, -1, 0, 4, 2, 6, -1, 1, 3, 5, 7]
         yield Case(f"ply-{short}-tristrips",
                    {"a.ply": ply([("vertex", XYZ, CORNERS), ("tristrips", [("vertex_indices", "int", "int")],
@@ -183,7 +197,13 @@ def obj_cases():
     yield Case("obj-point-five", {"a.obj": lines(*(v.replace("0.5", ".05e1") for v in V), *F)}, silent=True)
     yield Case("obj-w", {"a.obj": lines(*(v + " 1" for v in V), *F)}, silent=True)
     yield Case("obj-w-not-one", {"a.obj": lines(*(v + " 2" for v in V), *F)}, says=("weights of vertices",))
-    yield Case("obj-colours", {"a.obj": lines(*(v + " 1 0 0.5" for v in V), *F)}, says=("vertex colours",))
+    yield Case("obj-colours", {"a.obj": lines(*(v + " 1 0 1" for v in V), *F)}, color=(200, 0, 200), silent=True)
+    yield Case("obj-w-and-colours", {"a.obj": lines(*(v + " 1 1 0 1" for v in V), *F)}, color=(200, 0, 200), silent=True)
+    yield Case("obj-colours-unused", {"a.obj": lines(*(v + " 1 0 1" for v in V), *F)}, silent=True,
+               options="vertex_colors = false")
+    yield Case("obj-colours-of-some", {"a.obj": lines(*V[:5], *(v + " 1 1 1" for v in V[5:]), *F)}, silent=True)
+    yield Case("obj-colours-too-large", {"a.obj": lines(*(v + " 2 0 1e9" for v in V), *F)}, color=(200, 0, 200),
+               says=("vertex colours beyond 0 to 1",))
     back = ["f " + " ".join(str(c - 8) for c in f) for f in FACES]
     yield Case("obj-negative-indices", {"a.obj": lines(*V, *back)}, silent=True)
     yield Case("obj-continued-lines", {"a.obj": lines(*V, *(f[:4] + " \\\n" + f[4:] if f[3] == " " else f for f in F))},
@@ -242,7 +262,7 @@ class Gltf:
         if view is None:
             view = self.view(b"".join(struct.pack(f"<{len(r)}{letter}", *r) for r in flat))
         self.json["accessors"].append({"bufferView": view, "componentType": kind, "count": len(flat),
-                                       "type": {1: "SCALAR", 2: "VEC2", 3: "VEC3"}[len(flat[0])], **more})
+                                       "type": {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}[len(flat[0])], **more})
         return len(self.json["accessors"]) - 1
 
     def mesh(self, **primitive) -> int:
@@ -341,6 +361,16 @@ def gltf_cases():
     g.mesh(attributes={"POSITION": g.accessor(FLOAT, [CORNERS[c] for t in TRIANGLES for c in t])})
     yield Case("glb-without-indices", {"a.glb": g.binary()}, silent=True)
 
+    # Colours, with opacity and without.
+    for name, kind, colors in (("vec3", FLOAT, [(1, 0, 1)] * 8), ("bytes", UBYTE, [(255, 0, 255, 255)] * 8),
+                               ("opacity", UBYTE, [(255, 0, 255, 128)] * 8)):
+        g = Gltf()
+        position = g.accessor(FLOAT, CORNERS)
+        g.mesh(attributes={"POSITION": position, "COLOR_0": g.accessor(kind, colors, normalized=kind != FLOAT)},
+               indices=g.accessor(USHORT, [c for t in TRIANGLES for c in t]))
+        says = ("the opacity of vertices",) if name == "opacity" else ()
+        yield Case(f"glb-colours-{name}", {"a.glb": g.binary()}, color=(200, 0, 200), says=says, silent=not says)
+
     # All that is left out.
     g = gltf_cube(targets=[{"POSITION": 0}])
     g.json |= {"materials": [{}, {}], "textures": [{"source": 0}], "images": [{"uri": "no.png"}],
@@ -351,12 +381,12 @@ def gltf_cases():
                "extras": {"deep": {"deeper": [1, 2]}}}
     g.json["nodes"] = [{"mesh": 0, "skin": 0, "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}]
     g.json["scenes"].append({"nodes": [0]})
-    g.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 0
+    g.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_1"] = 0
     g.json["meshes"][0]["primitives"] += [{"attributes": {"POSITION": 0}, "mode": 0},
                                           {"attributes": {"POSITION": 0}, "mode": 1}]
     yield Case("gltf-everything", {"a.gltf": g.text()},
                says=("2 materials", "1 texture", "1 image", "1 camera", "1 animation", "1 skin", "1 light",
-                     "1 morph target", "1 set of points", "1 set of lines", "vertex colours", "1 other scene",
+                     "1 morph target", "1 set of points", "1 set of lines", "further vertex colours", "1 other scene",
                      "the extension 'EXT_of_ours'"))
 
     for name in ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_of_ours"):

@@ -1,6 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <vector>
 
 #include "support/command.h"
@@ -72,6 +73,13 @@ TEST_CASE("an environment of one pixel is that pixel in every direction") {
     const Environment picture(1, 1, {1, 2, 3});
     Random random(5);
     for (int i = 0; i < 100; ++i) CHECK(is_near(picture.seen(random.direction()), 1, 2, 3));
+}
+
+TEST_CASE("a direction that is no number sees one of the environment's pixels") {
+    const Environment picture(2, 2, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    CHECK(is_near(picture.seen({none, 0, 0}), 1, 1, 1));
+    CHECK(is_near(picture.seen({0, none, 0}), 1, 1, 1));
 }
 
 TEST_CASE("an environment is read from 8-bit files decoded, and from float files as it is") {

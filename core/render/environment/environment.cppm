@@ -2,6 +2,7 @@ module;
 
 #include "candela/api.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -25,10 +26,10 @@ class CANDELA_API Environment {
     bool is_uniform() const noexcept { return width_ == 0; }
     /// Interpolated between neighbouring pixels; `towards` is a unit vector.
     Rgb seen(Vec3 towards) const noexcept;
+    /// The same in `count` directions.
+    void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) const noexcept;
 
   private:
-    Rgb pixel(int column, int row) const noexcept;
-
     Rgb everywhere_;
     int width_ = 0;
     int height_ = 0;

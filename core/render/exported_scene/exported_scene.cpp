@@ -118,17 +118,17 @@ struct SceneExport::Storage final : ExportedGeometry {
     explicit Storage(Registry& plugins) : registry(plugins) {}
 
     ExportedMesh in_object_space(std::size_t object) override {
-        placed =
-            place(*objects[object].tessellator, {.uv = true, .derivatives = scene.needs_derivatives}, {});
+        placed = place(*objects[object].tessellator, request(true), {});
+        require_no_colors(object);
         return view_of(placed.mesh, placed);
     }
 
     ExportedMesh in_world_space(std::size_t object) override {
         normal_sets.clear();
         normals_of.clear();
-        const MeshRequest request{.uv = scene.needs_uv, .derivatives = scene.needs_derivatives};
         const Object& from = objects[object];
-        placed = place(*from.tessellator, request, from.transform);
+        placed = place(*from.tessellator, request(scene.needs_uv), from.transform);
+        require_no_colors(object);
         for (std::size_t i = 0; i < scene.shadings.size(); ++i) {
             const auto shading = registry.create<ShadingModel>(
                 scene.shadings[i].plugin->name, from.shading_values[i], scene.image.color_management);
@@ -144,6 +144,22 @@ struct SceneExport::Storage final : ExportedGeometry {
         view.normals = normals_view;
         view.normals_of = normals_of;
         return view;
+    }
+
+    MeshRequest request(bool needs_uv) const {
+        return {.uv = needs_uv,
+                .derivatives = scene.needs_derivatives,
+                .color = true,
+                .color_management = scene.image.color_management};
+    }
+
+    /// Unless the target can express them.
+    void require_no_colors(std::size_t object) const {
+        if (has_vertex_colors || placed.mesh.color.empty()) return;
+        throw Error(ErrorCategory::failure,
+                    fmt::format("object {} has a colour at each vertex, which this target cannot express; "
+                                "vertex_colors = false leaves them out",
+                                scene.objects[object].label));
     }
 
     bool has_default_normals(std::size_t object, std::size_t shading) override {
@@ -170,6 +186,7 @@ struct SceneExport::Storage final : ExportedGeometry {
                 .authored_normal = span_of(shape.authored_normal),
                 .smooth_group = shape.smooth_group,
                 .uv = mesh.u.empty() ? ConstVec2Span{} : ConstVec2Span{mesh.u.data(), mesh.v.data()},
+                .color = span_of(mesh.color),
                 .dpdu = span_of(mesh.dpdu),
                 .dpdv = span_of(mesh.dpdv),
                 .closed = mesh.closed};
@@ -233,6 +250,7 @@ struct SceneExport::Storage final : ExportedGeometry {
     };
 
     Registry& registry;
+    bool has_vertex_colors = false;  // the target's ability
     std::string title, environment;
     std::vector<ExportedSample> samples;
     std::deque<ParamSet> sets;                    // whose texts the values point into
@@ -265,6 +283,7 @@ class Exporter {
         : to_(to), registry_(to.registry), scene_(scene), request_(request) {}
 
     void run() {
+        to_.has_vertex_colors = request_.abilities.vertex_colors;
         set_image();
         for (const LightSource& light : scene_.lights) add(light);
         for (const Object& object : scene_.objects) add_models(object);

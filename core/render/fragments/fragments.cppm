@@ -36,6 +36,8 @@ struct CANDELA_API SurfacePoints {
     bool any_from_behind = false;
     AlignedVector<float> u, v;  // filled if requested and the mesh has them, otherwise zero
     Vec3Arrays dpdu, dpdv;
+    Vec3Arrays color;                           // the mesh's; filled if has_color
+    bool has_color = false;                     // the mesh has colours, and they were requested
     std::array<Vec3Arrays, 3> corner_position;  // of each point's triangle; empty until first requested
     std::array<Vec3Arrays, 3> corner_normal;    // unit
 };
@@ -46,12 +48,13 @@ struct PointNeeds {
     bool face_normal = true;
     bool vertex_normal = true;
     bool barycentric = true;
+    bool color = true;  // of a mesh that has colours
     bool uv = false;
     bool derivatives = false;
     bool triangle = false;  // of fragments, faces and places; a vertex has none
 
     /// Whether there is more than what is interpolated in one go.
-    constexpr bool more() const { return uv || derivatives || triangle; }
+    constexpr bool more() const { return color || uv || derivatives || triangle; }
 };
 
 /// Adjacent pixels of a row to which one triangle contributes equal shares.

@@ -75,10 +75,15 @@ void repeat_corners(const Mesh& mesh, const Indices& vertices, std::size_t first
     }
 }
 
-/// uv, derivatives and triangle of points whose barycentric coordinates are known.
+/// Colour, uv, derivatives and triangle of points whose barycentric coordinates are known.
 void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
                       std::size_t count, SurfacePoints& points) {
     const ConstVec3Span weight = std::as_const(points.barycentric).span();
+    if (needs.color) {
+        const Corners color = indices(mesh.color, vertices);
+        for (std::size_t i = first; i < first + count; ++i)
+            points.color.span().set(i, blend(color, weight[i]));
+    }
     if (needs.uv) {
         const bool has_uv = !mesh.u.empty();
         for (std::size_t i = first; i < first + count; ++i) {
@@ -129,7 +134,8 @@ void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, Point
 
 SurfacePoints::SurfacePoints() {
     // The whole vectors of a batch's last triangle may begin anywhere.
-    for (Vec3Arrays* const arrays : {&position, &face_normal, &vertex_normal, &barycentric, &dpdu, &dpdv}) {
+    for (Vec3Arrays* const arrays :
+         {&position, &face_normal, &vertex_normal, &barycentric, &dpdu, &dpdv, &color}) {
         arrays->resize(k_batch_size + k_lanes);
     }
     for (AlignedVector<float>* const array : {&facing, &u, &v}) array->resize(k_batch_size + k_lanes);
@@ -252,6 +258,7 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
     fill_all(points.vertex_normal);
     fill_all(points.barycentric);
     fill(points.facing);
+    if (needs.color) fill_all(points.color);
     if (needs.uv) {
         fill(points.u);
         fill(points.v);
@@ -267,7 +274,7 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
 }
 
 Interpolated interpolated_for(PointNeeds needs) {
-    if (needs.face_normal || needs.uv || needs.derivatives) return Interpolated::all;
+    if (needs.face_normal || needs.color || needs.uv || needs.derivatives) return Interpolated::all;
     const bool has_points = needs.position || needs.vertex_normal;
     if (needs.barycentric) return has_points ? Interpolated::all : Interpolated::barycentric;
     return Interpolated::position_and_normal;
@@ -280,6 +287,7 @@ constexpr std::size_t k_worth_a_loop = 16;
 
 void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> runs, PointNeeds needs,
                       SurfacePoints& points) {
+    points.has_color = needs.color = needs.color && !source.mesh.color.empty();
     const Interpolated what = interpolated_for(needs);
     const Places places(source.mesh, runs, what);
     points.count = places.count;
@@ -322,6 +330,7 @@ void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> 
 void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> triangles, PointNeeds needs,
                   SurfacePoints& points) {
     constexpr float k_third = 1.0f / 3.0f;
+    points.has_color = needs.color = needs.color && !source.mesh.color.empty();
     points.count = triangles.size();
     points.any_from_behind = false;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -335,6 +344,7 @@ void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> tr
 
 void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, ConstVec3Span barycentric,
                    PointNeeds needs, SurfacePoints& points) {
+    points.has_color = needs.color = needs.color && !mesh.color.empty();
     points.count = points.filled = triangles.size();
     points.any_from_behind = false;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -347,6 +357,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
                      SurfacePoints& points) {
     const Mesh& mesh = source.mesh;
     needs.triangle = false;
+    points.has_color = needs.color = needs.color && !mesh.color.empty();
     points.count = vertices.size();
     points.any_from_behind = false;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -358,6 +369,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
         points.barycentric.span().set(i, {1, 0, 0});
         points.facing[i] = vertices[i].is_back ? -1.0f : 1.0f;
         points.any_from_behind = points.any_from_behind || vertices[i].is_back;
+        if (needs.color) points.color.span().set(i, mesh.color.span()[v]);
         if (needs.uv) {
             points.u[i] = mesh.u.empty() ? 0 : mesh.u[v];
             points.v[i] = mesh.v.empty() ? 0 : mesh.v[v];

@@ -64,6 +64,7 @@ class TileShader {
     Vec3Arrays batch_;                  // intensities of one batch
     Vec3Arrays places_;                 // of a tile's faces or vertices
     Vec3Arrays pixels_;
+    Vec3Arrays towards_;  // where pixels of a run look
     std::size_t points_lit_ = 0;
     float brightest_ = 0;
 };

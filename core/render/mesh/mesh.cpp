@@ -38,8 +38,8 @@ constexpr float k_farthest = 1e9f;
 
 /// The approximate memory for a mesh while it is made, checked and drawn.
 std::uint64_t memory_for(const MeshLayout& layout) {
-    const std::uint64_t vectors =
-        7u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) + (layout.has_derivatives ? 2u : 0u);
+    const std::uint64_t vectors = 7u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) +
+                                  (layout.has_derivatives ? 2u : 0u) + (layout.has_color ? 1u : 0u);
     constexpr std::uint64_t k_vector = 3 * sizeof(float);
     constexpr std::uint64_t k_triangle = 3 * sizeof(std::uint32_t) + k_vector + 40;  // projected
     const std::uint64_t edges = layout.closedness == Closedness::closed ? 0 : 3 * 8;
@@ -73,6 +73,7 @@ class Collector final : public MeshSink {
             mesh.dpdu.resize(layout.vertices);
             mesh.dpdv.resize(layout.vertices);
         }
+        if (layout.has_color) mesh.color.resize(layout.vertices);
         if (layout.has_smooth_groups) smooth_group.resize(layout.vertices);
         const auto optional = [](Vec3Arrays& arrays) { return arrays.empty() ? Vec3Span{} : arrays.span(); };
         return {.position = mesh.position.span(),
@@ -81,7 +82,8 @@ class Collector final : public MeshSink {
                 .uv = mesh.u.empty() ? Vec2Span{} : Vec2Span{mesh.u.data(), mesh.v.data()},
                 .dpdu = optional(mesh.dpdu),
                 .dpdv = optional(mesh.dpdv),
-                .smooth_group = smooth_group};
+                .smooth_group = smooth_group,
+                .color = optional(mesh.color)};
     }
 
     void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
@@ -160,6 +162,17 @@ void check_finite(const Mesh& mesh) {
     }
 }
 
+void check_colors(const Mesh& mesh) {
+    const auto is_intensity = [](float c) { return c >= 0 && c <= 1; };  // false for NaN
+    for (std::size_t i = 0; i < mesh.color.size(); ++i) {
+        const Vec3 c = mesh.color.span()[i];
+        if (!is_intensity(c.x) || !is_intensity(c.y) || !is_intensity(c.z))
+            throw std::invalid_argument(
+                fmt::format("the colour of vertex {} is [{:g}, {:g}, {:g}], which is not within 0 to 1", i,
+                            c.x, c.y, c.z));
+    }
+}
+
 void check(const Collector& collected) {
     const Mesh& mesh = collected.mesh;
     if (mesh.indices.empty()) throw std::invalid_argument("the mesh has no triangles");
@@ -171,6 +184,7 @@ void check(const Collector& collected) {
         }
     }
     check_finite(mesh);
+    check_colors(mesh);
     for (const std::uint32_t group : collected.smooth_group) {
         if (group >= mesh.vertex_count()) {
             throw std::invalid_argument(

@@ -37,6 +37,7 @@ struct Mesh {
     AlignedVector<MeshVertex> vertices;
     AlignedVector<float> u, v;  // per vertex, or empty
     Vec3Arrays dpdu, dpdv;      // per vertex, or empty
+    Vec3Arrays color;           // red, green, blue, 0 to 1; per vertex, or empty
     bool closed = false;        // otherwise visible from both sides
     std::size_t open_edges = 0;
     Box bounds{};  // of the vertices

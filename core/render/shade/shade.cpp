@@ -302,7 +302,8 @@ SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const Surf
             .tangent = model.needs_tangent() ? tangent_.span() : ConstVec3Span{},
             .color = surface.color,
             .position = points.position.span(),
-            .uv = model.needs_uv() ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{}};
+            .uv = model.needs_uv() ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
+            .point_color = points.has_color ? points.color.span() : ConstVec3Span{}};
 }
 
 void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interior,

@@ -14,10 +14,7 @@ import :surroundings;
 namespace candela {
 
 void ObjectSurroundings::look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const Rgb seen = environment_.seen(towards[i]);
-        intensity.set(i, {seen.r, seen.g, seen.b});
-    }
+    environment_.look(count, towards, intensity);
 }
 
 void ObjectSurroundings::leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
@@ -48,8 +45,9 @@ void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& ori
         rays_.push_back(static_cast<std::uint32_t>(i));
     }
     if (triangles_.empty()) return;
-    gather_places(*interior_.mesh, triangles_, std::as_const(barycentric_).span(), surface_->needs(),
-                  points_);
+    PointNeeds needs = surface_->needs();
+    needs.color = false;
+    gather_places(*interior_.mesh, triangles_, std::as_const(barycentric_).span(), needs, points_);
     shading_normals(*surface_, points_, normal_.span());
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         exit.position.set(rays_[i], points_.position.span()[i]);

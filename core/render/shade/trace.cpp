@@ -40,6 +40,8 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
                      .normal = first_of(normal_),
                      .to_observer = first_of(to_observer_),
                      .tangent = needs_tangent ? first_of(tangent_) : Vec3{},
+                     .color = points.has_color ? first_of(points.color)
+                                               : Vec3{surface.color.r, surface.color.g, surface.color.b},
                      .face_normal = first_of(points.face_normal),
                      .vertex_normal = first_of(points.vertex_normal),
                      .barycentric = first_of(points.barycentric),

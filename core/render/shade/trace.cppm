@@ -32,6 +32,7 @@ struct PointTrace {
     Vec3 normal{};  // N, from the shading model
     Vec3 to_observer{};
     Vec3 tangent{};        // zero unless the reflection model needs it
+    Vec3 color{};          // C_o
     Vec3 face_normal{};    // of the side that is seen, as are the following
     Vec3 vertex_normal{};  // interpolated, not unit
     Vec3 barycentric{};

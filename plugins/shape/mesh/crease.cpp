@@ -203,7 +203,7 @@ class Numbering {
 
 SplitVertices split_at_creases(const Surface& surface, const Corners& corners, double crease_angle) {
     const Array<Vec3> normals = normals_of(surface);
-    const bool merges = surface.u.empty() && surface.normal.empty();
+    const bool merges = surface.u.empty() && surface.color.empty() && surface.normal.empty();
     const std::size_t places = corners.places();
     SplitVertices split;
     // For now within their places.

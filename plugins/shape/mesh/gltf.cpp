@@ -153,6 +153,8 @@ class Reader {
         check_counts(walk.placed);
         for (const Placed& placed : walk.placed) add(placed);
         surface_.losses = std::move(document_.losses);
+        surface_.is_color_linear = true;
+        if (has_opacity_) surface_.losses.emplace_back("the opacity of vertices");
         return std::move(surface_);
     }
 
@@ -162,13 +164,14 @@ class Reader {
     /// Nodes and primitives may share accessors: a small file can describe any number of triangles.
     void check_counts(const std::vector<Placed>& placed) {
         std::uint64_t numbers = 0;
-        bool all_normals = true, any_uv = false;
+        bool all_normals = true, any_uv = false, any_color = false;
         for (const Placed& one : placed) {
             const auto& attributes = one.primitive->attributes;
             numbers += accessor(attributes.at("POSITION"), 3).count();
             if (one.primitive->indices >= 0) numbers += accessor(one.primitive->indices, 1).count();
             all_normals = all_normals && attributes.contains("NORMAL");
             any_uv = any_uv || attributes.contains("TEXCOORD_0");
+            any_color = any_color || attributes.contains("COLOR_0");
             constexpr std::uint64_t k_most_repeated = std::uint64_t{1} << 24;
             if (numbers > std::max<std::uint64_t>(k_most_repeated, document_.bytes)) {
                 throw BadFile(fmt::format("repeats its {} bytes to more than {} vertices and corners",
@@ -179,6 +182,7 @@ class Reader {
                            return one.primitive->attributes.contains("NORMAL");
                        });
         has_uv_ = any_uv;
+        has_color_ = any_color;
     }
 
     void add(const Placed& placed) {
@@ -203,6 +207,7 @@ class Reader {
             }
         }
         if (has_uv_) add_uv(attributes, count);
+        if (has_color_) add_colors(attributes, count);
         add_triangles(placed, first, count, is_mirrored);
     }
 
@@ -234,6 +239,20 @@ class Reader {
             surface_.u.push_back(0);
             surface_.v.push_back(0);
         }
+    }
+
+    void add_colors(const std::map<std::string, int>& attributes, std::size_t count) {
+        if (!attributes.contains("COLOR_0")) {
+            for (std::size_t i = 0; i < count; ++i) surface_.color.push_back({1, 1, 1});
+            return;
+        }
+        const int index = attributes.at("COLOR_0");
+        const bool has_alpha = Accessor::components_of(document_, index) == 4;
+        const Accessor color = accessor(index, has_alpha ? 4 : 3);
+        require_as_many(color, count, "colours");
+        add_vectors(color, [](std::array<double, 3> c) { return c; }, surface_.color);
+        if (has_alpha && !has_opacity_)
+            has_opacity_ = std::ranges::any_of(color.read(3), [](double alpha) { return alpha != 1; });
     }
 
     static void require_as_many(const Accessor& accessor, std::size_t count, std::string_view what) {
@@ -282,6 +301,8 @@ class Reader {
     Surface surface_;
     bool has_normals_ = false;
     bool has_uv_ = false;
+    bool has_color_ = false;
+    bool has_opacity_ = false;
 };
 
 }  // namespace

@@ -48,7 +48,8 @@ Accessor::Accessor(const Document& document, int index, int components)
     const tinygltf::Accessor& a = model_.accessors[static_cast<std::size_t>(index)];
     const int type = components == 1   ? TINYGLTF_TYPE_SCALAR
                      : components == 2 ? TINYGLTF_TYPE_VEC2
-                                       : TINYGLTF_TYPE_VEC3;
+                     : components == 3 ? TINYGLTF_TYPE_VEC3
+                                       : TINYGLTF_TYPE_VEC4;
     if (a.type != type)
         throw BadFile(fmt::format("has an accessor {} whose type does not fit its use", index));
     if (size_of(a.componentType) == 0)
@@ -120,6 +121,23 @@ double Accessor::value(const Bytes& bytes, std::size_t i, int c) const {
             return scaled<std::uint32_t>(from, normalized_);
         default:
             return load<float>(from);
+    }
+}
+
+int Accessor::components_of(const Document& document, int index) {
+    const auto& accessors = document.model.accessors;
+    if (index < 0 || static_cast<std::size_t>(index) >= accessors.size()) return 0;
+    switch (accessors[static_cast<std::size_t>(index)].type) {
+        case TINYGLTF_TYPE_SCALAR:
+            return 1;
+        case TINYGLTF_TYPE_VEC2:
+            return 2;
+        case TINYGLTF_TYPE_VEC3:
+            return 3;
+        case TINYGLTF_TYPE_VEC4:
+            return 4;
+        default:
+            return 0;
     }
 }
 

@@ -17,6 +17,8 @@ class Accessor {
 
     std::size_t count() const { return count_; }
 
+    /// Of the elements of an accessor that exists: 1 to 4; 0 for matrices.
+    static int components_of(const Document& document, int index);
     /// Component `c` of all elements.
     Array<double> read(int c) const;
 

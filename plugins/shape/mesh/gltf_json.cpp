@@ -126,7 +126,7 @@ std::vector<std::string> losses_of(const Json& json) {
             note(losses, array_of(*lights, "lights").size(), "light");
     }
     std::size_t targets = 0, points = 0, lines = 0;
-    bool has_colors = false, has_second_uv = false, has_other_attributes = false;
+    bool has_more_colors = false, has_second_uv = false, has_other_attributes = false;
     for (const Json& mesh : array_of(json, "meshes")) {
         for (const Json& primitive : array_of(mesh, "primitives")) {
             targets += array_of(primitive, "targets").size();
@@ -137,7 +137,7 @@ std::vector<std::string> losses_of(const Json& json) {
             if (attributes == primitive.end() || !attributes->is_object()) continue;
             for (const auto& [name, unused] : attributes->items()) {
                 if (name.starts_with("COLOR_")) {
-                    has_colors = true;
+                    has_more_colors = has_more_colors || name != "COLOR_0";
                 } else if (name.starts_with("TEXCOORD_")) {
                     has_second_uv = has_second_uv || name != "TEXCOORD_0";
                 } else if (name != "POSITION" && name != "NORMAL" && name != "TANGENT" &&
@@ -154,7 +154,7 @@ std::vector<std::string> losses_of(const Json& json) {
         if (loss.ends_with("set of pointss")) loss = fmt::format("{} sets of points", points);
         if (loss.ends_with("set of liness")) loss = fmt::format("{} sets of lines", lines);
     }
-    if (has_colors) losses.emplace_back("vertex colours");
+    if (has_more_colors) losses.emplace_back("further vertex colours");
     if (has_second_uv) losses.emplace_back("further texture coordinates");
     if (has_other_attributes) losses.emplace_back("attributes of vertices of its own");
     const std::size_t scenes = array_of(json, "scenes").size();
@@ -190,7 +190,7 @@ class NeededBuffers {
                 if (!primitive.is_object()) continue;
                 const auto attributes = primitive.find("attributes");
                 if (attributes == primitive.end()) continue;
-                for (const char* const name : {"POSITION", "NORMAL", "TEXCOORD_0"})
+                for (const char* const name : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"})
                     add_accessor(index_of(*attributes, name), is_draco);
             }
         }
@@ -255,7 +255,8 @@ Json meshes_of(const Json& json) {
         for (const Json& primitive : array_of(mesh, "primitives")) {
             Json copy = only(primitive, {"attributes", "indices", "mode"});
             if (copy.is_object() && copy.contains("attributes"))
-                copy["attributes"] = only(copy["attributes"], {"POSITION", "NORMAL", "TEXCOORD_0"});
+                copy["attributes"] =
+                    only(copy["attributes"], {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"});
             primitives.push_back(std::move(copy));
         }
         meshes.push_back({{"primitives", std::move(primitives)}});

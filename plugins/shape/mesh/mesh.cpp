@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "candela/color.h"
 #include "candela/parallel.h"
 #include "candela/shape_plugin.h"
 #include "corners.h"
@@ -30,6 +31,7 @@ struct MeshShape {
     const char* file;
     float crease_angle;  // radians
     std::int32_t allow_outside;
+    std::int32_t vertex_colors;
 };
 
 enum class Format { obj, ply, stl, gltf };
@@ -101,7 +103,8 @@ class FileMesh final : public candela::Shape {
     explicit FileMesh(const MeshShape& shape)
         : file_(shape.file != nullptr ? shape.file : ""),
           crease_angle_(shape.crease_angle),
-          reach_(shape.allow_outside != 0 ? mesh::Reach::anywhere : mesh::Reach::its_folder) {}
+          reach_(shape.allow_outside != 0 ? mesh::Reach::anywhere : mesh::Reach::its_folder),
+          uses_colors_(shape.vertex_colors != 0) {}
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         try {
@@ -118,6 +121,7 @@ class FileMesh final : public candela::Shape {
 
     void write(mesh::Surface surface, const candela::MeshRequest& request, candela::MeshSink& sink) const {
         sink.progress(k_read);
+        if (!uses_colors_ || !request.color) surface.color = {};
         mesh::Corners corners(surface);
         sink.progress(k_joined);
         const mesh::OpenEdges open = mesh::open_edges(surface, corners);
@@ -136,6 +140,7 @@ class FileMesh final : public candela::Shape {
             // Zero without texture coordinates: a triangle's edges, which differ from its neighbours', would
             // make no better tangents.
             .has_derivatives = request.derivatives,
+            .has_color = !surface.color.empty(),
             .has_smooth_groups = !split.group.empty(),
             .closedness = open.count == 0 ? candela::Closedness::closed : candela::Closedness::open,
             .open_edges = open.count};
@@ -146,6 +151,8 @@ class FileMesh final : public candela::Shape {
             copy(surface.u, split.source, layout.vertices, to.uv.x);
             copy(surface.v, split.source, layout.vertices, to.uv.y);
         }
+        if (layout.has_color)
+            write_colors(surface, split.source, request.color_management, layout.vertices, to.color, sink);
         std::ranges::copy(indices, to.indices.begin());
         if (layout.has_smooth_groups) std::ranges::copy(split.group, to.smooth_group.begin());
         if (layout.has_derivatives && layout.has_uv) derivatives_from_uv(to, layout.vertices);
@@ -156,9 +163,27 @@ class FileMesh final : public candela::Shape {
         for (const std::string& note : surface.notes) sink.warn(fmt::format("'{}' {}", file_, note));
     }
 
+    void write_colors(const mesh::Surface& surface, const mesh::Array<std::uint32_t>& source,
+                      candela::ColorEncoding scene, std::size_t count, candela::Vec3Span to,
+                      candela::MeshSink& sink) const {
+        copy(surface.color, source, count, to);
+        const bool is_encoded = !surface.is_color_linear && scene == candela::ColorEncoding::srgb;
+        bool are_within = true;
+        for (float* const channel : {to.x, to.y, to.z}) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const float c = channel[i] > 0 ? std::min(channel[i], 1.0f) : 0.0f;  // 0 for NaN
+                are_within = are_within && c == channel[i];
+                channel[i] = is_encoded ? candela::srgb_to_linear(c) : c;
+            }
+        }
+        if (!are_within)
+            sink.warn(fmt::format("'{}' has vertex colours beyond 0 to 1, which are clamped", file_));
+    }
+
     std::string file_;
     double crease_angle_;
     mesh::Reach reach_;
+    bool uses_colors_;
 };
 
 constexpr auto k_fields = fields(
@@ -168,7 +193,10 @@ constexpr auto k_fields = fields(
           "normals of their faces is larger; 180: none")
         .range(0, 180),
     boolean(&MeshShape::allow_outside, "allow_outside", false,
-            "whether a glTF file may name buffers outside its folder"));
+            "whether a glTF file may name buffers outside its folder"),
+    boolean(
+        &MeshShape::vertex_colors, "vertex_colors", true,
+        "whether the colours of the file's vertices, where it has them, are multiplied with the object's"));
 
 }  // namespace
 
@@ -181,5 +209,6 @@ CANDELA_PLUGIN(
          "model makes them, smooth where corners touch, except across hard edges: those between an OBJ "
          "file's "
          "smoothing groups, or wherever faces (of an STL file: their facet normals) turn by more than "
-         "`crease_angle`. What else the file has, such as materials and lines, is left out with a warning.",
+         "`crease_angle`. The colours of its vertices are multiplied with the object's. What else the file "
+         "has, such as materials and lines, is left out with a warning.",
      .reference = ""})

@@ -86,9 +86,18 @@ class Reader {
             values[count++] = number(word);
         if (count < 3) refuse("a vertex has three coordinates");
         position_.push_back({values[0], values[1], values[2]});
-        // A fourth number is the weight that a rational curve gives the vertex; more are its colour.
-        if (count == 4 && values[3] != 1) ++losses_["weight of a vertex"];
-        if (count > 4) has_colors_ = true;
+        // A fourth number is the weight that a rational curve gives the vertex; the last three of six or
+        // seven are its colour.
+        const bool has_color = count == 6 || count == 7;
+        if ((count == 4 || count == 7) && values[3] != 1) ++losses_["weight of a vertex"];
+        if (has_color && color_.empty()) {
+            for (std::size_t i = 1; i < position_.size(); ++i) color_.push_back({1, 1, 1});
+        }
+        if (has_color) {
+            color_.push_back({values[count - 3], values[count - 2], values[count - 1]});
+        } else if (!color_.empty()) {
+            color_.push_back({1, 1, 1});
+        }
     }
 
     void face() {
@@ -210,6 +219,7 @@ class Reader {
         if (!has_uv && !has_normals) {
             for (std::size_t i = 0; i < corners_.size(); ++i) polygons_.corners[i] = corners_[i][0];
             surface_.position = std::move(position_);
+            surface_.color = std::move(color_);
             return;
         }
         boost::unordered_flat_map<Corner, std::uint32_t, Hash> vertex_of;
@@ -221,6 +231,7 @@ class Reader {
             polygons_.corners[i] = found->second;
             if (!is_new) continue;
             surface_.position.push_back(position_.span()[corner[0]]);
+            if (!color_.empty()) surface_.color.push_back(color_.span()[corner[0]]);
             if (has_uv) {
                 surface_.u.push_back(corner[1] == k_none ? 0.0f : u_[corner[1]]);
                 surface_.v.push_back(corner[1] == k_none ? 0.0f : v_[corner[1]]);
@@ -236,7 +247,6 @@ class Reader {
         if (unknown_ > 0)
             surface_.losses.push_back(fmt::format("{} that no OBJ file has, such as {}",
                                                   counted(unknown_, "statement"), first_unknown_));
-        if (has_colors_) surface_.losses.emplace_back("vertex colours");
         for (const auto& [what, count] : losses_) {
             if (what == "use of a material") {
                 surface_.losses.push_back(count == 1 ? "a use of a material"
@@ -258,7 +268,7 @@ class Reader {
 
     TextScanner scanner_;
     Surface surface_;
-    Vectors position_, normal_;
+    Vectors position_, normal_, color_;
     Array<float> u_, v_;
     std::vector<Corner> corners_;
     Polygons polygons_;                     // their corners are filled in at the end
@@ -266,7 +276,6 @@ class Reader {
     std::array<Highest, 3> highest_{};
     std::uint32_t group_ = k_flat;
     bool has_smoothing_ = false;
-    bool has_colors_ = false;
     std::map<std::string, std::uint64_t> losses_;
     std::uint64_t unknown_ = 0;
     std::string first_unknown_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "candela/parallel.h"
 #include "ply_header.h"
@@ -142,7 +143,41 @@ class Reader {
             use(u, surface_.u);
             use(v, surface_.v);
         }
+        const auto red = scalar({"red", "diffuse_red", "r"}), green = scalar({"green", "diffuse_green", "g"}),
+                   blue = scalar({"blue", "diffuse_blue", "b"});
+        if (red && green && blue) {
+            use(red, surface_.color.x);
+            use(green, surface_.color.y);
+            use(blue, surface_.color.z);
+        }
+        const auto alpha = scalar({"alpha", "diffuse_alpha", "a"});
+        Array<float> opacity;
+        if (alpha) use(alpha, opacity);
         note_others(element, used, "vertex");
+        read_columns(values, element, columns);
+        if (alpha) {
+            scale(opacity, element.properties[*alpha].type);
+            if (std::ranges::any_of(opacity, [](float a) { return a != 1; }))
+                surface_.losses.emplace_back("the opacity of vertices");
+        }
+        if (red && green && blue) {
+            scale(surface_.color.x, element.properties[*red].type);
+            scale(surface_.color.y, element.properties[*green].type);
+            scale(surface_.color.z, element.properties[*blue].type);
+        }
+    }
+
+    /// Integers as shares of their largest one.
+    static void scale(Array<float>& column, Type type) {
+        if (!is_integer(type)) return;
+        with_type(type, [&](auto t) {
+            constexpr auto k_largest = static_cast<float>(std::numeric_limits<decltype(t)>::max());
+            for (float& x : column) x /= k_largest;
+        });
+    }
+
+    template <class Values>
+    void read_columns(Values& values, const Element& element, const Columns& columns) {
         if constexpr (requires { values.go_to(0); }) {
             if (has_fixed_rows(header_, element)) {
                 const std::size_t begin = values.position();

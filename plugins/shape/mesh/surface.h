@@ -61,9 +61,12 @@ struct Surface {
     Vectors position;              // per vertex
     Vectors normal;                // per vertex, of any length, zero where the file has none; or empty
     Array<float> u, v;             // per vertex, or empty
+    Vectors color;                 // per vertex, 0 to 1 as the file has them, or empty
     Array<std::uint32_t> indices;  // three per triangle, < position.size()
     Vectors facet_normal;          // per triangle, unit, zero where the file's is none; or empty
     std::vector<std::uint32_t> smoothing;  // per triangle: its smoothing group; or empty: all k_by_angle
+
+    bool is_color_linear = false;  // else encoded as colours of scenes are
 
     std::vector<std::string> losses;  // what is left out, as objects of the verb: "2 materials"
     std::vector<std::string> notes;   // what was found strange, as whole predicates of the file's name

@@ -92,6 +92,13 @@ class CppWriter {
              {"REFLECTION", reflection()},
              {"LIGHT_LOOPS", loops()},
              {"TANGENT", tangent()},
+             {"MESH_COLOR", if_colors("    std::vector<vec3> color;          // per vertex, which the "
+                                      "object's is multiplied with, or "
+                                      "empty\n")},
+             {"COLOR_PARAMETER", if_colors(", vec3 vertex_color")},
+             {"TIMES_COLOR", if_colors(" * vertex_color")},
+             {"COLOR_WITHIN", if_colors(", m.color.empty() ? vec3(1.0f) : blend(m.color, m, triangle, b)")},
+             {"COLOR_AT_VERTEX", if_colors(", o.mesh.color.empty() ? vec3(1.0f) : o.mesh.color[v]")},
              {"TRIANGLE_OF", if_triangles(k_triangle_of)},
              {"TRIANGLE_PARAMETER", if_triangles(", const Triangle& triangle")},
              {"TRIANGLE_ARGUMENT", if_triangles(", triangle")},
@@ -122,6 +129,9 @@ class CppWriter {
             std::ranges::any_of(scene_.shadings, [](const auto& m) { return m.needs.triangle; });
         return sees ? text : "";
     }
+
+    /// Likewise of colours at vertices.
+    std::string if_colors(const char* text) const { return objects_.has_vertex_colors() ? text : ""; }
 
     std::string model_kernels() const {
         std::string text;
@@ -435,7 +445,7 @@ class CppTarget final : public Target {
   public:
     explicit CppTarget(const sdk::NoParams&) {}
 
-    TargetAbilities abilities() const noexcept override { return {.triangle = true}; }
+    TargetAbilities abilities() const noexcept override { return {.triangle = true, .vertex_colors = true}; }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(), CppWriter(scene).run());
         target::write(files, "CMakeLists.txt", candela_cpp_cmake);

@@ -52,7 +52,7 @@ void CppObjects::add_object(std::size_t index) {
     require_default_normals(index);
     const ExportedMesh mesh = scene_.geometry->in_object_space(index);
     std::optional<GridShape> grid;
-    if (has_function(object.shape, "position")) grid = grid_of(mesh);
+    if (has_function(object.shape, "position") && !mesh.color) grid = grid_of(mesh);
     if (grid) shape_models_.push_back(object.shape);
 
     std::string text = fmt::format("    {{  // {}: {}\n        Object o;\n", tame(object.label),
@@ -126,6 +126,8 @@ std::size_t CppObjects::mesh_number(const ExportedMesh& mesh) {
         add_vectors("dpdu", mesh.dpdu);
         add_vectors("dpdv", mesh.dpdv);
     }
+    add_vectors("color", mesh.color);
+    has_vertex_colors_ = has_vertex_colors_ || mesh.color;
     if (scene_.needs_uv && mesh.uv) {
         body += number_array("float", "uv_pairs", interleaved(mesh.uv, mesh.vertex_count));
         fill +=

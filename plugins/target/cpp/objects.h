@@ -32,6 +32,8 @@ class CppObjects {
     std::string shapes() const;
     /// What stands at the end of the program: triangles as numbers, in functions; empty where there are none.
     const std::string& data() const { return data_; }
+    /// Whether a mesh has colours at its vertices.
+    bool has_vertex_colors() const { return has_vertex_colors_; }
     /// The shapes whose kernels the program makes triangles with.
     const std::vector<ExportedModel>& shape_models() const { return shape_models_; }
 
@@ -45,6 +47,7 @@ class CppObjects {
     std::vector<ExportedModel> shape_models_;
     std::vector<std::string> meshes_;
     std::string statements_, data_;
+    bool has_vertex_colors_ = false;
 };
 
 }  // namespace candela::cpp_target

@@ -78,7 +78,7 @@ class OpenGlWriter {
             {"BIND_TABLES", if_tables("        glActiveTexture(GL_TEXTURE3);\n        table_numbers();\n")},
             {"SET_TABLES",
              if_tables("        set(program, {\"table_numbers\", Uniform::whole, {3, 0, 0}});\n")},
-            {"ATTRIBUTES", sees_triangles(scene_) ? "14" : "8"},
+            {"ATTRIBUTES", sees_triangles(scene_) ? "15" : "9"},
             {"TRIANGLE_COMMENT", if_triangles(", and the triangle's vertices and normals")},
             {"TRIANGLE_SIZES", if_triangles(", 3, 3, 3, 3, 3, 3")},
             {"PUT_TRIANGLE", if_triangles(k_put_triangle)},
@@ -95,8 +95,8 @@ class OpenGlWriter {
   private:
     static constexpr const char* k_put_triangle =
         "            for (std::size_t corner = 0; corner < 3; ++corner) {\n"
-        "                put(8 + corner, vector(mesh.position, v[corner]));\n"
-        "                put(11 + corner, vector(mesh.normals[normals], v[corner]));\n"
+        "                put(9 + corner, vector(mesh.position, v[corner]));\n"
+        "                put(12 + corner, vector(mesh.normals[normals], v[corner]));\n"
         "            }\n";
     const char* if_triangles(const char* text) const { return sees_triangles(scene_) ? text : ""; }
 
@@ -259,13 +259,14 @@ class OpenGlWriter {
             optional("dpdu", needs_derivatives ? interleaved(mesh.dpdu, count) : std::vector<float>());
         const char* const dpdv =
             optional("dpdv", needs_derivatives ? interleaved(mesh.dpdv, count) : std::vector<float>());
+        const char* const color = optional("color", interleaved(mesh.color, count));
         arrays_ += fmt::format(
             "\n// {}\ninline MeshArrays object_{}() {{\n{}    static const float* const normals[] = {{{}}};\n"
             "    static const std::size_t normals_of[] = {{{}}};\n    return {{{}, {}, corners, position, "
             "normals, normals_of, {}, {}, "
-            "{}}};\n}}\n",
+            "{}, {}}};\n}}\n",
             tame(scene_.objects[index].label), index, body, fmt::join(sets, ", "),
-            fmt::join(mesh.normals_of, ", "), count, mesh.triangle_count(), uv, dpdu, dpdv);
+            fmt::join(mesh.normals_of, ", "), count, mesh.triangle_count(), uv, dpdu, dpdv, color);
         return mesh.closed;
     }
 
@@ -278,7 +279,7 @@ class OpenGlTarget final : public Target {
   public:
     explicit OpenGlTarget(const sdk::NoParams&) {}
 
-    TargetAbilities abilities() const noexcept override { return {.triangle = true}; }
+    TargetAbilities abilities() const noexcept override { return {.triangle = true, .vertex_colors = true}; }
     void write(const ExportedScene& scene, FileSink& files) const override { OpenGlWriter(scene).run(files); }
     const char* main_file() const noexcept override { return "scene.cpp"; }
     bool can_draw() const noexcept override { return true; }

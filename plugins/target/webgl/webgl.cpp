@@ -141,7 +141,8 @@ Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh) {
             {"normals_of", std::move(normals_of)},
             {"uv", scene.needs_uv ? packed(mesh.uv, count) : Json()},
             {"dpdu", scene.needs_derivatives ? packed(mesh.dpdu, count) : Json()},
-            {"dpdv", scene.needs_derivatives ? packed(mesh.dpdv, count) : Json()}};
+            {"dpdv", scene.needs_derivatives ? packed(mesh.dpdv, count) : Json()},
+            {"color", packed(mesh.color, count)}};
 }
 
 Json object_json(const ExportedScene& scene, std::size_t index) {
@@ -247,7 +248,7 @@ class WebGlTarget final : public Target {
   public:
     explicit WebGlTarget(const sdk::NoParams&) {}
 
-    TargetAbilities abilities() const noexcept override { return {.triangle = true}; }
+    TargetAbilities abilities() const noexcept override { return {.triangle = true, .vertex_colors = true}; }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(),
                       filled(candela_webgl_page, {{"TITLE", html_text(scene.title)},

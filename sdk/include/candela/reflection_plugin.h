@@ -42,14 +42,14 @@ constexpr SurfaceReads operator|(SurfaceReads a, SurfaceReads b) {
 }
 
 template <SurfaceReads reads, bool has_observer = true>
-CANDELA_KERNEL_INLINE kernel::Surface surface_at(const SurfaceBatch& batch, vec3 color, std::size_t i) {
+CANDELA_KERNEL_INLINE kernel::Surface surface_at(const SurfaceBatch& batch, std::size_t i) {
     kernel::Surface s;
     s.normal = load(batch.normal, i);
     s.to_observer = vec3(0.0f);
     if constexpr (has_observer) s.to_observer = load(batch.to_observer, i);
     s.tangent = vec3(0.0f);
     if constexpr ((reads & reads_tangent) != 0) s.tangent = load(batch.tangent, i);
-    s.color = color;
+    s.color = load(batch.point_color, i);
     s.position = vec3(0.0f);
     if constexpr ((reads & reads_position) != 0) s.position = load(batch.position, i);
     s.uv = vec2(0.0f);
@@ -57,56 +57,95 @@ CANDELA_KERNEL_INLINE kernel::Surface surface_at(const SurfaceBatch& batch, vec3
     return s;
 }
 
-template <class Material, auto reflect, SurfaceReads reads>
-struct ReflectLoop {
-    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, LightingBatch light,
-                                       ReflectedBatch reflected) {
-        const vec3 color = kernel_vector(surface.color);
-        const std::size_t count = surface.count;
-        CANDELA_VECTORIZE_CHAIN
-        for (std::size_t i = 0; i < count; ++i) {
-            const kernel::Surface s = surface_at<reads>(surface, color, i);
-            const kernel::Reflected r = call<reflect>(material, s, load(light.to_light, i));
-            add_product(reflected.diffuse, i, r.diffuse, load(light.diffuse, i));
-            add_product(reflected.specular, i, r.specular, load(light.specular, i));
-        }
-    }
-};
-
-template <class Material, auto reflect_ambient, SurfaceReads reads>
-struct ReflectAmbientLoop {
-    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, ConstVec3Span ambient,
-                                       ReflectedBatch reflected) {
-        const vec3 color = kernel_vector(surface.color);
-        const std::size_t count = surface.count;
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const vec3 k = call<reflect_ambient>(material, surface_at<reads>(surface, color, i));
-            add_product(reflected.ambient, i, k, load(ambient, i));
-        }
-    }
-};
-
 /// A range of the SurfaceBatch's points, from `first` on.
 CANDELA_KERNEL_INLINE SurfaceBatch part_of(const SurfaceBatch& surface, std::size_t first,
                                            std::size_t count) {
     SurfaceBatch part = surface;
     part.count = count;
-    for (ConstVec3Span* const span : {&part.normal, &part.to_observer, &part.tangent, &part.position}) {
+    for (ConstVec3Span* const span :
+         {&part.normal, &part.to_observer, &part.tangent, &part.position, &part.point_color}) {
         if (*span) *span = span->from(first);
     }
     if (part.uv) part.uv = part.uv.from(first);
     return part;
 }
 
-/// Points on their way through one light after another: few enough to stay in the first-level cache.
+/// How many points pass through a loop in one go: few enough to stay in the first-level cache.
+inline constexpr std::size_t k_pass_size = 64;
+
+struct PassVectors {
+    alignas(64) float x[k_pass_size], y[k_pass_size], z[k_pass_size];
+};
+
+/// A batch, pass by pass, in which each point has a colour: its own, or the one that all of them have.
+class SurfacePasses {
+  public:
+    CANDELA_KERNEL_INLINE explicit SurfacePasses(const SurfaceBatch& surface) : surface_(surface) {
+        if (surface.point_color) return;
+        const vec3 color = kernel_vector(surface.color);
+        const std::size_t count = surface.count < k_pass_size ? surface.count : k_pass_size;
+        for (std::size_t i = 0; i < count; ++i) store(color_, i, color);
+    }
+    CANDELA_KERNEL_INLINE SurfaceBatch from(std::size_t first) const {
+        const std::size_t rest = surface_.count - first;
+        SurfaceBatch pass = part_of(surface_, first, rest < k_pass_size ? rest : k_pass_size);
+        if (!pass.point_color) pass.point_color = {color_.x, color_.y, color_.z};
+        return pass;
+    }
+
+  private:
+    SurfaceBatch surface_;
+    PassVectors color_;
+};
+
+template <class Material, auto reflect, SurfaceReads reads>
+struct ReflectLoop {
+    CANDELA_KERNEL_INLINE static void add(const Material& material, const SurfaceBatch& surface,
+                                          ConstVec3Span to_light, ConstVec3Span diffuse,
+                                          ConstVec3Span specular, Vec3Span to_diffuse, Vec3Span to_specular) {
+        const std::size_t count = surface.count;
+        CANDELA_VECTORIZE_CHAIN
+        for (std::size_t i = 0; i < count; ++i) {
+            const kernel::Surface s = surface_at<reads>(surface, i);
+            const kernel::Reflected r = call<reflect>(material, s, load(to_light, i));
+            add_product(to_diffuse, i, r.diffuse, load(diffuse, i));
+            add_product(to_specular, i, r.specular, load(specular, i));
+        }
+    }
+
+    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, LightingBatch light,
+                                       ReflectedBatch reflected) {
+        const SurfacePasses passes(surface);
+        for (std::size_t first = 0; first < surface.count; first += k_pass_size)
+            add(material, passes.from(first), light.to_light.from(first), light.diffuse.from(first),
+                light.specular.from(first), reflected.diffuse.from(first), reflected.specular.from(first));
+    }
+};
+
+template <class Material, auto reflect_ambient, SurfaceReads reads>
+struct ReflectAmbientLoop {
+    CANDELA_KERNEL_INLINE static void add(const Material& material, const SurfaceBatch& surface,
+                                          ConstVec3Span ambient, Vec3Span to_ambient) {
+        const std::size_t count = surface.count;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const vec3 k = call<reflect_ambient>(material, surface_at<reads>(surface, i));
+            add_product(to_ambient, i, k, load(ambient, i));
+        }
+    }
+
+    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, ConstVec3Span ambient,
+                                       ReflectedBatch reflected) {
+        const SurfacePasses passes(surface);
+        for (std::size_t first = 0; first < surface.count; first += k_pass_size)
+            add(material, passes.from(first), ambient.from(first), reflected.ambient.from(first));
+    }
+};
+
+/// Points on their way through one light after another.
 struct PunctualBatch {
-    static constexpr std::size_t k_size = 64;
-    struct Vectors {
-        alignas(64) float x[k_size], y[k_size], z[k_size];
-    };
-    Vectors to_observer, to_light;
-    alignas(64) float attenuation[k_size];
+    PassVectors to_observer, to_light;
+    alignas(64) float attenuation[k_pass_size];
 };
 
 /// The way to a light, and its attenuation. At the light itself, L is N.
@@ -142,24 +181,22 @@ CANDELA_KERNEL_INLINE void look_at(PunctualLight light, std::size_t count, const
 template <class Material, auto reflect, auto reflect_ambient, SurfaceReads reads>
 struct ReflectPunctualLoop {
     CANDELA_KERNEL_INLINE static kernel::Surface point(const SurfaceBatch& surface,
-                                                       const PunctualBatch& batch, vec3 color,
-                                                       std::size_t i) {
-        kernel::Surface s = surface_at<reads, false>(surface, color, i);
+                                                       const PunctualBatch& batch, std::size_t i) {
+        kernel::Surface s = surface_at<reads, false>(surface, i);
         s.to_observer = load(batch.to_observer, i);
         return s;
     }
 
     CANDELA_KERNEL_INLINE static void add_lights(const Material& material, const SurfaceBatch& surface,
                                                  const PunctualLighting& lighting, Vec3Span intensity) {
-        const vec3 color = kernel_vector(surface.color), ambient = kernel_vector(lighting.ambient),
-                   observer = kernel_vector(lighting.observer);
+        const vec3 ambient = kernel_vector(lighting.ambient), observer = kernel_vector(lighting.observer);
         const float w = lighting.w;
         const std::size_t count = surface.count;
         PunctualBatch batch;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             store(batch.to_observer, i, kernel::normalize(observer - w * load(surface.position, i)));
-            store(intensity, i, call<reflect_ambient>(material, point(surface, batch, color, i)) * ambient);
+            store(intensity, i, call<reflect_ambient>(material, point(surface, batch, i)) * ambient);
         }
         for (const PunctualLight& light : lighting.lights) {
             look_at(light, count, surface.position, surface.normal, batch);
@@ -167,7 +204,7 @@ struct ReflectPunctualLoop {
             CANDELA_VECTORIZE_CHAIN
             for (std::size_t i = 0; i < count; ++i) {
                 const kernel::Reflected r =
-                    call<reflect>(material, point(surface, batch, color, i), load(batch.to_light, i));
+                    call<reflect>(material, point(surface, batch, i), load(batch.to_light, i));
                 add_product(intensity, i, r.diffuse * diffuse + r.specular * specular,
                             vec3(batch.attenuation[i]));
             }
@@ -176,12 +213,9 @@ struct ReflectPunctualLoop {
 
     CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, PunctualLighting lighting,
                                        Vec3Span intensity) {
-        for (std::size_t first = 0; first < surface.count; first += PunctualBatch::k_size) {
-            const std::size_t rest = surface.count - first;
-            add_lights(material,
-                       part_of(surface, first, rest < PunctualBatch::k_size ? rest : PunctualBatch::k_size),
-                       lighting, intensity.from(first));
-        }
+        const SurfacePasses passes(surface);
+        for (std::size_t first = 0; first < surface.count; first += k_pass_size)
+            add_lights(material, passes.from(first), lighting, intensity.from(first));
     }
 };
 

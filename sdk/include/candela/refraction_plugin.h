@@ -27,9 +27,10 @@ struct RayArrays {
 
 /// A group of lines of sight that are followed together.
 struct Rays {
-    static constexpr std::size_t k_size = 64;
+    static constexpr std::size_t k_size = k_pass_size;
 
     RayArrays<k_size> origin, direction, weight;  // `weight`: the share of what they meet that is visible
+    RayArrays<k_size> color;                      // C_o where they enter
     RayArrays<k_size> towards, share, seen;       // where they look, and how much of that is visible
     RayArrays<k_size> exit_position, exit_normal;
     float distance[k_size];
@@ -40,12 +41,11 @@ struct Rays {
 template <class Material, auto enter, SurfaceReads reads>
 struct EnterLoop {
     CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, Rays* rays) {
-        const vec3 color = kernel_vector(surface.color);
         const std::size_t count = surface.count;
         Rays& r = *rays;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const kernel::Surface s = surface_at<reads>(surface, color, i);
+            const kernel::Surface s = surface_at<reads>(surface, i);
             const kernel::Refracted refracted = call<enter>(material, s);
             const vec3 mirrored = kernel::reflect(-s.to_observer, s.normal);
             store(r.towards, i, mirrored);
@@ -53,6 +53,7 @@ struct EnterLoop {
             store(r.direction, i, refracted.direction);
             store(r.weight, i, vec3(1.0f - refracted.mirrored));
             store(r.origin, i, load(surface.position, i));
+            store(r.color, i, s.color);
         }
     }
 };
@@ -60,8 +61,7 @@ struct EnterLoop {
 /// At the surface, from within: a part leaves and looks outwards, the rest stays.
 template <class Material, auto leave, auto transmit>
 struct LeaveLoop {
-    CANDELA_BATCH_LOOP static void run(Material material, Rgb object_color, Rays* rays, bool is_last) {
-        const vec3 color = kernel_vector(object_color);
+    CANDELA_BATCH_LOOP static void run(Material material, Rays* rays, bool is_last) {
         Rays& r = *rays;
         const std::size_t count = r.count;
         const float last = is_last ? 1.0f : 0.0f;
@@ -77,7 +77,7 @@ struct LeaveLoop {
             const float out = is_lost ? 1.0f : kernel::max(1.0f - refracted.mirrored, last);
             const float refracts = !is_lost && is_free ? 1.0f : 0.0f;
             const vec3 towards = refracts * refracted.direction + (1.0f - refracts) * direction;
-            const vec3 kept = call<transmit>(material, color, is_lost ? 0.0f : r.distance[i]);
+            const vec3 kept = call<transmit>(material, load(r.color, i), is_lost ? 0.0f : r.distance[i]);
             const vec3 weight = load(r.weight, i) * kept;
             store(r.towards, i, towards);
             store(r.share, i, weight * out);
@@ -127,11 +127,9 @@ class KernelRefraction : public ReflectionModel {
     }
     void show_surroundings(const SurfaceBatch& surface, Surroundings& surroundings,
                            const ReflectedBatch& reflected) const override {
-        for (std::size_t first = 0; first < surface.count; first += Rays::k_size) {
-            const std::size_t left = surface.count - first;
-            follow(part_of(surface, first, left < Rays::k_size ? left : Rays::k_size), surroundings,
-                   reflected.specular.from(first));
-        }
+        const SurfacePasses passes(surface);
+        for (std::size_t first = 0; first < surface.count; first += Rays::k_size)
+            follow(passes.from(first), surroundings, reflected.specular.from(first));
     }
 
   private:
@@ -145,7 +143,7 @@ class KernelRefraction : public ReflectionModel {
         for (int within = 0; within <= material_.internal_reflections; ++within) {
             surroundings.leave(rays.count, rays.origin.span(), rays.direction.span(),
                                {rays.exit_position.span(), rays.exit_normal.span(), rays.distance});
-            multiversion<LeaveLoop<Material, leave_, transmit_>>(material_, surface.color, &rays,
+            multiversion<LeaveLoop<Material, leave_, transmit_>>(material_, &rays,
                                                                  within == material_.internal_reflections);
             look(rays, surroundings, sum);
         }

@@ -7,6 +7,7 @@ in vec2 at_uv;
 in vec3 at_dpdu;
 in vec3 at_dpdv;
 in vec3 at_barycentric;
+in vec3 at_vertex_color;
 #else
 INTENSITY_RATE in vec3 front;
 INTENSITY_RATE in vec3 back;
@@ -28,7 +29,7 @@ void main() {
 #else
     float facing = 1.0;
 #endif
-    intensity = vec4(intensity_at(at_place, point, facing), 1.0);
+    intensity = vec4(intensity_at(at_place, point, at_vertex_color, facing), 1.0);
 #else
     intensity = vec4(gl_FrontFacing ? front : back, 1.0);
 #endif

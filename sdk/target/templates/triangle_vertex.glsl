@@ -1,11 +1,11 @@
 
 #ifdef NEEDS_TRIANGLE
-layout(location = 8) in vec3 p0;
-layout(location = 9) in vec3 p1;
-layout(location = 10) in vec3 p2;
-layout(location = 11) in vec3 n0;
-layout(location = 12) in vec3 n1;
-layout(location = 13) in vec3 n2;
+layout(location = 9) in vec3 p0;
+layout(location = 10) in vec3 p1;
+layout(location = 11) in vec3 p2;
+layout(location = 12) in vec3 n0;
+layout(location = 13) in vec3 n1;
+layout(location = 14) in vec3 n2;
 #ifdef LIT_AT_FRAGMENT
 flat out vec3 at_p0;
 flat out vec3 at_p1;

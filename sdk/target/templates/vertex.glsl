@@ -7,6 +7,7 @@ layout(location = 4) in vec2 uv;
 layout(location = 5) in vec3 dpdu;
 layout(location = 6) in vec3 dpdv;
 layout(location = 7) in vec3 barycentric;
+layout(location = 8) in vec3 vertex_color;
 
 uniform mat4 view_projection;
 
@@ -18,6 +19,7 @@ out vec2 at_uv;
 out vec3 at_dpdu;
 out vec3 at_dpdv;
 out vec3 at_barycentric;
+out vec3 at_vertex_color;
 #else
 INTENSITY_RATE out vec3 front;
 INTENSITY_RATE out vec3 back;
@@ -34,11 +36,12 @@ void main() {
     at_dpdu = dpdu;
     at_dpdv = dpdv;
     at_barycentric = barycentric;
+    at_vertex_color = vertex_color;
 #else
     ShadingPoint point = ShadingPoint(face_normal, vertex_normal, barycentric, uv, dpdu, dpdv);
-    front = intensity_at(place, point, 1.0);
+    front = intensity_at(place, point, vertex_color, 1.0);
 #ifdef TWO_SIDED
-    back = intensity_at(place, point, -1.0);
+    back = intensity_at(place, point, vertex_color, -1.0);
 #else
     back = front;
 #endif

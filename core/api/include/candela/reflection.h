@@ -15,12 +15,13 @@ namespace candela {
 /// surface.
 struct SurfaceBatch {
     std::size_t count = 0;
-    ConstVec3Span normal;       // N
-    ConstVec3Span to_observer;  // V; null in reflect_punctual()
-    ConstVec3Span tangent;      // along dp/du, orthogonal to N; null unless needs_tangent()
-    Rgb color;                  // C_o, the object's colour, 0 to 1, the same for the whole batch
-    ConstVec3Span position{};   // metres
-    ConstVec2Span uv{};         // texture coordinates; null unless needs_uv()
+    ConstVec3Span normal;         // N
+    ConstVec3Span to_observer;    // V; null in reflect_punctual()
+    ConstVec3Span tangent;        // along dp/du, orthogonal to N; null unless needs_tangent()
+    Rgb color;                    // C_o, the object's colour, 0 to 1
+    ConstVec3Span position{};     // metres
+    ConstVec2Span uv{};           // texture coordinates; null unless needs_uv()
+    ConstVec3Span point_color{};  // C_o of each point, where the object has more than one; else null
 };
 
 /// What one sample of a light sends to each of the points.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "candela/api.h"
+#include "candela/color.h"
 #include "candela/descriptor.h"
 #include "candela/math.h"
 
@@ -18,6 +19,8 @@ namespace candela {
 struct MeshRequest {
     bool uv = false;
     bool derivatives = false;
+    bool color = false;
+    ColorEncoding color_management = ColorEncoding::srgb;  // of the scene: what colours of files are read as
 };
 
 /// What a shape knows about its surface.
@@ -34,6 +37,7 @@ struct MeshLayout {
     bool has_normals = false;  // authored normals, which take precedence over those of a shading model
     bool has_uv = false;
     bool has_derivatives = false;
+    bool has_color = false;
     bool has_smooth_groups = false;  // otherwise every vertex has a normal of its own
     Closedness closedness = Closedness::unknown;
     std::size_t open_edges = 0;  // of an open shape, if it has counted them; otherwise the host does
@@ -49,6 +53,7 @@ struct MeshSpans {
     Vec3Span dpdv;
     std::span<std::uint32_t>
         smooth_group;  // per vertex, 0 … vertices - 1; vertices of one group share a normal
+    Vec3Span color{};  // red, green, blue: intensities, 0 to 1, which the object's colour is multiplied with
 };
 
 /// Receives a shape's triangles. Owned by the host; used only during tessellate().

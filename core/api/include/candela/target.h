@@ -92,7 +92,8 @@ struct ExportedMesh {
     ConstVec3Span authored_normal{};  // unit, from the shape; zero at a vertex that has none
     std::span<const std::uint32_t> smooth_group{};  // a vertex each: vertices of one group share a normal
     ConstVec2Span uv{};
-    ConstVec3Span dpdu{};  // partial derivatives of position
+    ConstVec3Span color{};  // intensities, 0 to 1, which the object's colour is multiplied with
+    ConstVec3Span dpdu{};   // partial derivatives of position
     ConstVec3Span dpdv{};
     bool closed = false;  // else it is seen, and lit, from both sides
     // World space alone:
@@ -172,6 +173,7 @@ struct TargetAbilities {
     bool models_without_kernel = false;  // of lights, shading and reflection; shapes always have triangles
     bool surroundings = false;           // pictures all around, and models that show what is behind an object
     bool triangle = false;               // kernels of shading models that see their triangle: ShadingNeeds
+    bool vertex_colors = false;  // ExportedMesh::color; a mesh that has it is refused when it is asked for
 };
 
 /// Something that a scene can be turned into: a program, a page, a file. Any thread.

@@ -64,6 +64,7 @@ struct Mesh {
     std::vector<vec3> authored;       // normals that the shape brings along, or empty
     std::vector<vec2> uv;             // or empty
     std::vector<vec3> dpdu, dpdv;     // partial derivatives of position, or empty
+@MESH_COLOR@
     bool is_closed = true;            // else it is seen, and lit, from both sides
 };
 
@@ -203,12 +204,12 @@ vec3 lights_at(const Object& o, const Surface& s, const Receiver& r) {
 }
 
 // The intensity that a place of an object sends to the observer.
-vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@, bool is_back) {
+vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@COLOR_PARAMETER@, bool is_back) {
     Surface s;
     s.normal = (is_back ? -1.0f : 1.0f) * shading_normal(o, point@TRIANGLE_ARGUMENT@);
     s.to_observer = k_is_perspective ? normalize(k_eye - place) : -k_forward;
 @TANGENT@
-    s.color = o.color;
+    s.color = o.color@TIMES_COLOR@;
     Receiver r;
     r.position = place;
     r.normal = s.normal;
@@ -233,7 +234,7 @@ vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back) {
     p.uv = blend(m.uv, m, triangle, b);
     p.dpdu = blend(m.dpdu, m, triangle, b);
     p.dpdv = blend(m.dpdv, m, triangle, b);
-    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@, is_back);
+    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@COLOR_WITHIN@, is_back);
 }
 
 vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back) {
@@ -244,7 +245,7 @@ vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back) {
     p.uv = o.mesh.uv.empty() ? vec2(0.0f) : o.mesh.uv[v];
     p.dpdu = at(o.mesh.dpdu);
     p.dpdv = at(o.mesh.dpdv);
-    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@, is_back);
+    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@COLOR_AT_VERTEX@, is_back);
 }
 
 vec3 intensity_seen(const Object& o, const Seen& seen) {

@@ -13,5 +13,6 @@ struct MeshArrays {
     const float* uv;                // u v of each vertex
     const float* dpdu;              // partial derivatives of position
     const float* dpdv;
+    const float* color;             // red green blue of each vertex, which the object's colour is multiplied with
 };
 @ARRAYS@

@@ -252,9 +252,9 @@ struct Buffers {
 };
 
 Buffers upload(const MeshArrays& mesh, std::size_t normals, Rate rate) {
-    // Position, place, vertex normal, face normal, uv, dpdu, dpdv, barycentric@TRIANGLE_COMMENT@.
+    // Position, place, vertex normal, face normal, uv, dpdu, dpdv, barycentric, colour@TRIANGLE_COMMENT@.
     std::array<std::vector<float>, @ATTRIBUTES@> all;
-    const std::array<std::size_t, @ATTRIBUTES@> sizes = {3, 3, 3, 3, 2, 3, 3, 3@TRIANGLE_SIZES@};
+    const std::array<std::size_t, @ATTRIBUTES@> sizes = {3, 3, 3, 3, 2, 3, 3, 3, 3@TRIANGLE_SIZES@};
     const auto vector = [](const float* from, std::size_t v) {
         return from == nullptr ? vec3{} : vec3{from[3 * v], from[3 * v + 1], from[3 * v + 2]};
     };
@@ -279,6 +279,7 @@ Buffers upload(const MeshArrays& mesh, std::size_t normals, Rate rate) {
             put(5, at(mesh.dpdu, k));
             put(6, at(mesh.dpdv, k));
             put(7, barycentric);
+            put(8, mesh.color == nullptr ? vec3{1, 1, 1} : at(mesh.color, k));
 @PUT_TRIANGLE@
             for (std::size_t i = 0; i < 2; ++i) {
                 const auto uv = [&](std::size_t vertex) { return mesh.uv == nullptr ? 0.0f : mesh.uv[2 * vertex + i]; };

@@ -2,7 +2,8 @@ import { decodeFloats, decodeIndices } from "./base64.js";
 import { cross, normalize, subtract } from "./vectors.js";
 
 /** The vertex shader's inputs, in the order of their locations. */
-const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", "uv", "dpdu", "dpdv", "barycentric"];
+const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", "uv", "dpdu", "dpdv", "barycentric",
+    "vertex_color"];
 /** Those of shading models that see their triangle: equal ones at its three vertices. */
 const TRIANGLE_ATTRIBUTES = ["p0", "p1", "p2", "n0", "n1", "n2"];
 
@@ -70,7 +71,7 @@ export class Mesh {
 
     /** For each attribute the name of its buffer, or three numbers where it is the same everywhere. */
     attributeSources(rate, normalSet, seesTriangle) {
-        const { uv, dpdu, dpdv } = this.mesh;
+        const { uv, dpdu, dpdv, color } = this.mesh;
         const mean = rate === "face" ? " mean" : "";
         const normals = `normals ${normalSet}${mean}`;
         const triangle = TRIANGLE_ATTRIBUTES.map((name) =>
@@ -85,6 +86,7 @@ export class Mesh {
             dpdu: dpdu === null ? [0, 0, 0] : `dpdu${mean}`,
             dpdv: dpdv === null ? [0, 0, 0] : `dpdv${mean}`,
             barycentric: { face: [1 / 3, 1 / 3, 1 / 3], vertex: [1, 0, 0], fragment: "barycentric" }[rate],
+            vertex_color: color === null ? [1, 1, 1] : `color${mean}`,
         };
     }
 
@@ -133,7 +135,7 @@ export class Mesh {
     /** Whether a scene's mesh is this one, as far as a renderer can tell. */
     isOf(mesh) {
         const areEqual = (a, b) => a === b || (a instanceof Object && JSON.stringify(a) === JSON.stringify(b));
-        return ["vertices", "indices", "position", "uv", "dpdu", "dpdv", "normals", "normals_of"].every((name) => areEqual(this.mesh[name], mesh[name]));
+        return ["vertices", "indices", "position", "uv", "dpdu", "dpdv", "color", "normals", "normals_of"].every((name) => areEqual(this.mesh[name], mesh[name]));
     }
 
     release() {
