@@ -38,7 +38,7 @@ at_least() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$2"; }
 packages=(
   ca-certificates git make
   clang-19 clang-tools-19 lld-19 libstdc++-12-dev ninja-build cmake cmake-data
-  libeigen3-dev libtomlplusplus-dev libtbb-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev
+  libeigen3-dev libtomlplusplus-dev libtbb-dev libembree-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev
   libtinygltf-dev libstb-dev libopenimageio-dev esbuild
 )
 if [ "$everything" = yes ]; then

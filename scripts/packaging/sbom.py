@@ -20,6 +20,7 @@ LICENCES = {
     "boost": "BSL-1.0",
     "catch2": "BSL-1.0",
     "eigen3": "MPL-2.0",
+    "embree": "Apache-2.0",
     "fmtlib": "MIT",
     "gcc": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "glibc": "LGPL-2.1-or-later",

@@ -2,6 +2,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/command.h"
@@ -10,14 +11,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-CommandResult render(const std::string& image, const fs::path& directory) {
+CommandResult render(const std::string& image, const fs::path& directory,
+                     const std::vector<std::pair<std::string, std::string>>& environment = {}) {
     write_file(directory / "scene.toml",
                "version = 1\n[image]\nwidth = 16\nheight = 8\n" + image +
                    "\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
                    "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"dielectric\"\n"
                    "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"sphere\"\n");
     return run_candela({"render", "scene.toml", "-o", "out.ppm"},
-                       {.input = "", .environment = {}, .directory = directory});
+                       {.input = "", .environment = environment, .directory = directory});
 }
 
 void expect(const CommandResult& result, int exit_code, const std::vector<std::string>& parts) {
@@ -74,4 +76,21 @@ TEST_CASE("an environment that cannot be read as a picture is a failure that nam
     expect(render("environment = \"sky.pfm\"", d), 1,
            {"sky.pfm' cannot be read as a picture: it has a pixel that is no finite number"});
     CHECK_FALSE(fs::exists(d / "out.ppm"));
+}
+
+TEST_CASE(
+    "without Embree, a scene with a transparent object is an error that names the package, any other "
+    "renders") {
+    const fs::path d = scratch_directory();
+    for (const char* const name : {"libembree3.so.3", "libembree4.so.4"})
+        write_file(d / "hidden" / name, "no library");
+    const std::vector<std::pair<std::string, std::string>> hidden{
+        {"LD_LIBRARY_PATH", (d / "hidden").string()}};
+    const CommandResult result = render("", d, hidden);
+    expect(result, 1,
+           {"rays within transparent objects are followed by Embree", "Debian's package libembree"});
+    CHECK_FALSE(fs::exists(d / "out.ppm"));
+    CHECK(run_candela({"render", "scene.toml", "--reflection", "phong", "-o", "out.ppm"},
+                      {.input = "", .environment = hidden, .directory = d})
+              .exit_code == 0);
 }
