@@ -96,7 +96,8 @@ void write_text(const fs::path& file, const std::string& text) {
     if (!stream) throw Error(ErrorCategory::failure, fmt::format("cannot write '{}'", file.string()));
 }
 
-/// Of all headers, which the programs are compiled with. The modules, a folder beside them once installed, are not.
+/// Of all headers, which the programs are compiled with. The modules, a folder beside them once installed,
+/// are not.
 std::size_t hash_of_headers(const fs::path& include) {
     std::vector<std::string> names =
         candela::names_in(include / "candela").value_or(std::vector<std::string>());

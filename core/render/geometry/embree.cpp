@@ -1,10 +1,6 @@
 module;
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "internal/embree_headers.h"
 
 #include <fmt/format.h>
 

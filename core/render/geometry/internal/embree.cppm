@@ -1,11 +1,7 @@
 // Intel's Embree, loaded when a model first asks for rays.
 module;
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "embree_headers.h"
 
 #include <boost/dll/shared_library.hpp>
 

@@ -1,0 +1,8 @@
+// Embree's headers, of whichever version is installed.
+#pragma once
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
