@@ -80,12 +80,14 @@ struct PassVectors {
 /// A batch, pass by pass, in which each point has a colour: its own, or the one that all of them have.
 class SurfacePasses {
   public:
-    CANDELA_KERNEL_INLINE explicit SurfacePasses(const SurfaceBatch& surface) : surface_(surface) {
+    // Not within the loops over points, whose vectorisation is watched.
+    explicit SurfacePasses(const SurfaceBatch& surface) : surface_(surface) {
         if (surface.point_color) return;
         const vec3 color = kernel_vector(surface.color);
         const std::size_t count = surface.count < k_pass_size ? surface.count : k_pass_size;
         for (std::size_t i = 0; i < count; ++i) store(color_, i, color);
     }
+    CANDELA_KERNEL_INLINE std::size_t count() const { return surface_.count; }
     CANDELA_KERNEL_INLINE SurfaceBatch from(std::size_t first) const {
         const std::size_t rest = surface_.count - first;
         SurfaceBatch pass = part_of(surface_, first, rest < k_pass_size ? rest : k_pass_size);
@@ -113,11 +115,10 @@ struct ReflectLoop {
         }
     }
 
-    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, LightingBatch light,
+    CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes, LightingBatch light,
                                        ReflectedBatch reflected) {
-        const SurfacePasses passes(surface);
-        for (std::size_t first = 0; first < surface.count; first += k_pass_size)
-            add(material, passes.from(first), light.to_light.from(first), light.diffuse.from(first),
+        for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
+            add(material, passes->from(first), light.to_light.from(first), light.diffuse.from(first),
                 light.specular.from(first), reflected.diffuse.from(first), reflected.specular.from(first));
     }
 };
@@ -134,11 +135,10 @@ struct ReflectAmbientLoop {
         }
     }
 
-    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, ConstVec3Span ambient,
+    CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes, ConstVec3Span ambient,
                                        ReflectedBatch reflected) {
-        const SurfacePasses passes(surface);
-        for (std::size_t first = 0; first < surface.count; first += k_pass_size)
-            add(material, passes.from(first), ambient.from(first), reflected.ambient.from(first));
+        for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
+            add(material, passes->from(first), ambient.from(first), reflected.ambient.from(first));
     }
 };
 
@@ -211,11 +211,10 @@ struct ReflectPunctualLoop {
         }
     }
 
-    CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, PunctualLighting lighting,
-                                       Vec3Span intensity) {
-        const SurfacePasses passes(surface);
-        for (std::size_t first = 0; first < surface.count; first += k_pass_size)
-            add_lights(material, passes.from(first), lighting, intensity.from(first));
+    CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes,
+                                       PunctualLighting lighting, Vec3Span intensity) {
+        for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
+            add_lights(material, passes->from(first), lighting, intensity.from(first));
     }
 };
 
@@ -234,18 +233,24 @@ class KernelReflection : public ReflectionModel {
 
     void reflect(const SurfaceBatch& surface, const LightingBatch& light,
                  const ReflectedBatch& reflected) const override {
-        multiversion<ReflectLoop<Material, reflect_, reads>>(material_, surface, light, reflected);
+        const SurfacePasses passes(surface);
+        const SurfacePasses* const all = &passes;
+        multiversion<ReflectLoop<Material, reflect_, reads>>(material_, all, light, reflected);
     }
 
     void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
                          const ReflectedBatch& reflected) const override {
-        multiversion<ReflectAmbientLoop<Material, reflect_ambient_, reads>>(material_, surface, ambient,
+        const SurfacePasses passes(surface);
+        const SurfacePasses* const all = &passes;
+        multiversion<ReflectAmbientLoop<Material, reflect_ambient_, reads>>(material_, all, ambient,
                                                                             reflected);
     }
 
     bool reflect_punctual(const SurfaceBatch& surface, const PunctualLighting& lighting,
                           const Vec3Span& intensity) const override {
-        multiversion<ReflectPunctualLoop<Material, reflect_, reflect_ambient_, reads>>(material_, surface,
+        const SurfacePasses passes(surface);
+        const SurfacePasses* const all = &passes;
+        multiversion<ReflectPunctualLoop<Material, reflect_, reflect_ambient_, reads>>(material_, all,
                                                                                        lighting, intensity);
         return true;
     }
