@@ -39,7 +39,7 @@ boost::dll::shared_library loaded() {
 }  // namespace
 
 // Trees are built by one thread, so that they are the same ones however many there are.
-Embree::Embree() : library(loaded()), device(rtcNewDevice("threads=1,set_affinity=0")) {
+Embree::Embree() : library(loaded()), device(new_device("threads=1,set_affinity=0")) {
     if (device == nullptr) throw std::bad_alloc();
 }
 

@@ -43,7 +43,7 @@ void ignore_entries(const RTCFilterFunctionNArguments* hits) {
 /// Embree's tree of the triangles, moved to the origin, where floats are finest.
 struct TriangleTree::Tree {
     const Embree& embree = Embree::instance();
-    RTCScene scene = embree.rtcNewScene(embree.device);
+    RTCScene scene = embree.new_scene(embree.device);
     std::span<const float> position;         // x y z of each vertex; Embree's own array
     std::span<const std::uint32_t> indices;  // likewise
     Vector3d middle = Vector3d::Zero();
@@ -52,7 +52,7 @@ struct TriangleTree::Tree {
     Tree() = default;
     Tree(const Tree&) = delete;
     Tree& operator=(const Tree&) = delete;
-    ~Tree() { embree.rtcReleaseScene(scene); }
+    ~Tree() { embree.release_scene(scene); }
 
     Vector3d vertex(std::size_t i) const {
         return {double{position[3 * i]}, double{position[3 * i + 1]}, double{position[3 * i + 2]}};
@@ -73,10 +73,10 @@ TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
     t.middle = box.center();
     t.rounding = 1e-6 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 
-    const RTCGeometry geometry = embree.rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* const vertices = static_cast<float*>(embree.rtcSetNewGeometryBuffer(
+    const RTCGeometry geometry = embree.new_geometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* const vertices = static_cast<float*>(embree.set_new_geometry_buffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
-    auto* const corners = static_cast<std::uint32_t*>(embree.rtcSetNewGeometryBuffer(
+    auto* const corners = static_cast<std::uint32_t*>(embree.set_new_geometry_buffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), indices.size() / 3));
     if (vertices != nullptr && corners != nullptr) {
         for (std::size_t i = 0; i < vertex_count; ++i) {
@@ -87,14 +87,14 @@ TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
         std::ranges::copy(indices, corners);
         t.position = {vertices, 3 * vertex_count};
         t.indices = {corners, indices.size()};
-        embree.rtcSetGeometryIntersectFilterFunction(geometry, ignore_entries);
-        embree.rtcCommitGeometry(geometry);
-        embree.rtcAttachGeometry(t.scene, geometry);
-        embree.rtcSetSceneFlags(t.scene, RTC_SCENE_FLAG_ROBUST);  // nothing slips between triangles
-        embree.rtcCommitScene(t.scene);
+        embree.set_geometry_intersect_filter_function(geometry, ignore_entries);
+        embree.commit_geometry(geometry);
+        embree.attach_geometry(t.scene, geometry);
+        embree.set_scene_flags(t.scene, RTC_SCENE_FLAG_ROBUST);  // nothing slips between triangles
+        embree.commit_scene(t.scene);
     }
-    embree.rtcReleaseGeometry(geometry);
-    if (embree.rtcGetDeviceError(embree.device) != RTC_ERROR_NONE) throw std::bad_alloc();
+    embree.release_geometry(geometry);
+    if (embree.get_device_error(embree.device) != RTC_ERROR_NONE) throw std::bad_alloc();
 }
 
 TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
@@ -122,11 +122,11 @@ std::optional<RayExit> TriangleTree::exit_of(Vec3 origin, Vec3 direction) const 
                .flags = 0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
-    t.embree.rtcIntersect1(t.scene, &ray, nullptr);
+    t.embree.intersect1(t.scene, &ray, nullptr);
 #else
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    t.embree.rtcIntersect1(t.scene, &context, &ray);
+    t.embree.intersect1(t.scene, &context, &ray);
 #endif
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return t.exit_through(ray.hit.primID, point, towards);

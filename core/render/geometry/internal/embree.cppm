@@ -13,20 +13,20 @@ namespace candela {
 struct Embree {
     boost::dll::shared_library library;
 
-#define CANDELA_EMBREE_FUNCTION(name) decltype(&::name) name = &library.get<decltype(::name)>(#name)
-    CANDELA_EMBREE_FUNCTION(rtcNewDevice);
-    CANDELA_EMBREE_FUNCTION(rtcGetDeviceError);
-    CANDELA_EMBREE_FUNCTION(rtcNewScene);
-    CANDELA_EMBREE_FUNCTION(rtcReleaseScene);
-    CANDELA_EMBREE_FUNCTION(rtcSetSceneFlags);
-    CANDELA_EMBREE_FUNCTION(rtcCommitScene);
-    CANDELA_EMBREE_FUNCTION(rtcNewGeometry);
-    CANDELA_EMBREE_FUNCTION(rtcReleaseGeometry);
-    CANDELA_EMBREE_FUNCTION(rtcSetNewGeometryBuffer);
-    CANDELA_EMBREE_FUNCTION(rtcSetGeometryIntersectFilterFunction);
-    CANDELA_EMBREE_FUNCTION(rtcCommitGeometry);
-    CANDELA_EMBREE_FUNCTION(rtcAttachGeometry);
-    CANDELA_EMBREE_FUNCTION(rtcIntersect1);
+#define CANDELA_EMBREE_FUNCTION(name, symbol) decltype(&::symbol) name = &library.get<decltype(::symbol)>(#symbol)
+    CANDELA_EMBREE_FUNCTION(new_device, rtcNewDevice);
+    CANDELA_EMBREE_FUNCTION(get_device_error, rtcGetDeviceError);
+    CANDELA_EMBREE_FUNCTION(new_scene, rtcNewScene);
+    CANDELA_EMBREE_FUNCTION(release_scene, rtcReleaseScene);
+    CANDELA_EMBREE_FUNCTION(set_scene_flags, rtcSetSceneFlags);
+    CANDELA_EMBREE_FUNCTION(commit_scene, rtcCommitScene);
+    CANDELA_EMBREE_FUNCTION(new_geometry, rtcNewGeometry);
+    CANDELA_EMBREE_FUNCTION(release_geometry, rtcReleaseGeometry);
+    CANDELA_EMBREE_FUNCTION(set_new_geometry_buffer, rtcSetNewGeometryBuffer);
+    CANDELA_EMBREE_FUNCTION(set_geometry_intersect_filter_function, rtcSetGeometryIntersectFilterFunction);
+    CANDELA_EMBREE_FUNCTION(commit_geometry, rtcCommitGeometry);
+    CANDELA_EMBREE_FUNCTION(attach_geometry, rtcAttachGeometry);
+    CANDELA_EMBREE_FUNCTION(intersect1, rtcIntersect1);
 #undef CANDELA_EMBREE_FUNCTION
 
     RTCDevice device;
