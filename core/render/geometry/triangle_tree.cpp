@@ -73,7 +73,7 @@ TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
     t.middle = box.center();
     t.rounding = 1e-6 * std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 
-    const RTCGeometry geometry = embree.new_geometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* const geometry = embree.new_geometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* const vertices = static_cast<float*>(embree.set_new_geometry_buffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
     auto* const corners = static_cast<std::uint32_t*>(embree.set_new_geometry_buffer(
