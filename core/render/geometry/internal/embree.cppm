@@ -13,7 +13,8 @@ namespace candela {
 struct Embree {
     boost::dll::shared_library library;
 
-#define CANDELA_EMBREE_FUNCTION(name, symbol) decltype(&::symbol) name = &library.get<decltype(::symbol)>(#symbol)
+#define CANDELA_EMBREE_FUNCTION(name, symbol) \
+    decltype(&::symbol) name = &library.get<decltype(::symbol)>(#symbol)
     CANDELA_EMBREE_FUNCTION(new_device, rtcNewDevice);
     CANDELA_EMBREE_FUNCTION(get_device_error, rtcGetDeviceError);
     CANDELA_EMBREE_FUNCTION(new_scene, rtcNewScene);
