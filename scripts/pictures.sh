@@ -117,5 +117,8 @@ chromium --headless=new "${sandbox[@]}" --use-angle=swiftshader --enable-unsafe-
 "$root/build/release/bin/candela" compare "$root/docs/examples/still-life.toml" --width 320 --height 200 \
     --reflection lambert,phong,ggx,toon --shading flat,phong -o "$out/compare.png"
 
-# The same while somebody works on the scene.
+"$root/build/release/bin/candela" compare "$root/docs/examples/still-life.toml" --width 320 --height 200 --columns 3 \
+    --terms picture,ambient,diffuse,specular,light.lamp,n_dot_l.lamp,normal,depth,triangle -o "$out/terms.png"
+
+# The page while somebody works on the scene.
 /usr/bin/python3 -B "$root/tests/page/view_picture.py" "$root/build/release/bin/candela" "$root/docs/examples/still-life.toml" "$out/view.png" "$out/explanation.png"

@@ -22,12 +22,14 @@
 #include "picture_comparison/differences.h"
 #include "reporting.h"
 #include "terminal.h"
+#include "terms.h"
 #include "variants.h"
 #include "verbs.h"
 
 import candela.film;
 import candela.image;
 import candela.render;
+import candela.scene;
 
 namespace po = boost::program_options;
 using candela::Error;
@@ -129,6 +131,21 @@ std::string json_of(const std::vector<Pane>& panes, int columns) {
                                                           nlohmann::json::error_handler_t::replace);
 }
 
+bool has_several_terms(const std::vector<Axis>& axes) {
+    return std::ranges::any_of(
+        axes, [](const Axis& axis) { return axis.size() > 1 && axis.front().option == "--terms"; });
+}
+
+/// A word of --terms that is a single term.
+NamedTerm one_term(const std::string& word, const candela::Scene& scene) {
+    std::vector<NamedTerm> terms = terms_from(word, scene);
+    if (terms.size() == 1) return terms.front();
+    throw Error(ErrorCategory::bad_request,
+                fmt::format("--terms: '{}' is {}; each picture shows one term, such as {}", word,
+                            terms.empty() ? "no term of this scene" : "several terms",
+                            terms.empty() ? "diffuse" : terms.front().name));
+}
+
 /// Renders one scene again and again.
 class PaneRenderer {
   public:
@@ -162,9 +179,12 @@ class PaneRenderer {
                      fmt::format("no sheet is made: the errors above are those of the picture '{}'", label));
             return std::nullopt;
         }
+        encoding_ = compiled->image.color_management;
+        const auto term = std::ranges::find(variants, "--terms", &Variant::option);
+        if (term != variants.end() && term->value != "picture")
+            return TermRenderer(*compiled, 0).picture(one_term(term->value, draft->scene), pixels_);
         candela::Film film(compiled->image.width, compiled->image.height, pixels_,
                            compiled->image.color_management);
-        encoding_ = compiled->image.color_management;
         const auto statistics = candela::render(*compiled, film, {});
         const std::string darkness = candela::why_black(*compiled, film, statistics);
         if (!darkness.empty()) warn(fmt::format("nothing in the picture '{}' is lit: {}", label, darkness));
@@ -199,7 +219,7 @@ int run_compare(const std::vector<std::string>& arguments) {
         "Renders a scene with different models or values, and puts the pictures on one sheet, each with a\n"
         "label: candela compare scene.toml --reflection lambert,phong,ggx --shading flat,phong. One or two "
         "of\n"
-        "--reflection, --shading and --vary take several values, between commas.");
+        "--reflection, --shading, --vary and --terms take several values, between commas.");
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("comparison.png"),
                    "the sheet; the format follows its extension");
     add_variant_options(line);
@@ -221,6 +241,8 @@ int run_compare(const std::vector<std::string>& arguments) {
             ErrorCategory::bad_request,
             fmt::format("the sheet would have {} pictures; {} is the most", all.size(), k_most_pictures));
     }
+    if (line.has("difference") && has_several_terms(axes))
+        throw Error(ErrorCategory::bad_request, "--difference is between pictures of one term");
     const auto output = line.get<std::string>("output");
     if (output == "-" && line.has("json"))
         throw Error(ErrorCategory::bad_request, "standard output is either the sheet or JSON");

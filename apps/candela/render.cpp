@@ -1,10 +1,12 @@
 // candela render: a scene becomes a picture.
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "command_line.h"
 #include "compiling.h"
@@ -12,12 +14,14 @@
 #include "reporting.h"
 #include "stopwatch.h"
 #include "terminal.h"
+#include "terms.h"
 #include "verbs.h"
 
 import candela.files;
 import candela.film;
 import candela.parallel;
 import candela.render;
+import candela.scene;
 import candela.simd;
 
 namespace po = boost::program_options;
@@ -38,6 +42,15 @@ void require_no_file(const std::string& output) {
     std::error_code problem;
     if (output != "-" && fs::is_regular_file(output, problem))
         throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and --no-clobber was given", output));
+}
+
+/// The terms that --terms names.
+std::vector<NamedTerm> terms_asked_for(const CommandLine& line, const candela::Scene& scene) {
+    if (!line.has("terms")) return {};
+    if (line.get<std::string>("output") == "-")
+        throw Error(ErrorCategory::bad_request,
+                    "--terms writes layers or files beside the picture; name a file by -o");
+    return terms_from(line.get<std::string>("terms"), scene);
 }
 
 int threads_from(const CommandLine& line) {
@@ -62,6 +75,9 @@ int run_render(const std::vector<std::string>& arguments) {
     add_scene_options(line);
     line.options()("threads", po::value<int>()->value_name("N"),
                    "threads to use; default: all cores, or one for a small picture")(
+        "terms", po::value<std::string>()->value_name("TERM,..."),
+        "also what the picture is made of: diffuse, specular, normal, depth, light.NAME ... or all "
+        "(docs/terms.md); layers of an .exr, or files beside the picture")(
         "no-clobber", "do not replace a picture that exists")("verbose", "print how long each stage took");
     if (!line.parse(arguments)) return 0;
 
@@ -79,6 +95,17 @@ int run_render(const std::vector<std::string>& arguments) {
     if (draft && output != "-")
         require_no_input(output, candela::input_files(*draft), "the files that the scene is made from",
                          "give the picture another name");
+    std::vector<NamedTerm> terms;
+    std::vector<fs::path> term_files;
+    if (draft && draft->is_complete) {
+        terms = terms_asked_for(line, draft->scene);
+        if (!format.has_layers) term_files = files_of(terms, output);
+    }
+    for (const fs::path& file : term_files) {
+        if (existing == candela::Existing::kept) require_no_file(file.string());
+        require_no_input(file.string(), candela::input_files(*draft), "the files that the scene is made from",
+                         "give the picture another name");
+    }
     const double read_ms = total.milliseconds();
     const Stopwatch compiling;
     const auto compiled = draft ? compile_scene(*draft, registry, diagnostics, threads) : std::nullopt;
@@ -109,10 +136,21 @@ int run_render(const std::vector<std::string>& arguments) {
     if (!darkness.empty()) warn("nothing in the picture is lit: " + darkness);
     const bool is_verbose = line.has("verbose");
     const Stopwatch writing;
+    TermRenderer term_renderer(*compiled, threads);
     // A pixel takes its encoder some three nanoseconds.
     candela::with_threads(
-        threads, [&] { candela::write_picture(film, format, output, registry, existing); },
+        threads,
+        [&] {
+            if (format.has_layers && !terms.empty()) {
+                write_with_layers(film, terms, term_renderer, format, output, registry, existing);
+            } else {
+                candela::write_picture(film, format, output, registry, existing);
+            }
+        },
         3e-6 * film.width() * film.height());
+    for (std::size_t i = 0; i < term_files.size(); ++i)
+        candela::write_picture(term_renderer.picture(terms[i], format.pixels), format, term_files[i],
+                               registry, existing);
     const double write_ms = writing.milliseconds();
 
     say_afterwards([&] {
@@ -125,10 +163,16 @@ int run_render(const std::vector<std::string>& arguments) {
                 read_ms, compile_ms, 1e3 * statistics.seconds_projecting, 1e3 * statistics.seconds_on_tiles,
                 statistics.points_lit, candela::name_of(candela::instruction_set()), write_ms);
         }
-        return stages + fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded, {}\n",
+        std::string with_terms;
+        if (!terms.empty()) {
+            with_terms = fmt::format(", {} term{} {}", terms.size(), terms.size() == 1 ? "" : "s",
+                                     format.has_layers ? "as layers" : "in files beside it");
+        }
+        return stages + fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded{}, {}\n",
                                     output == "-" ? "picture" : output, film.width(), film.height(),
                                     statistics.triangles, statistics.triangles == 1 ? "" : "s",
-                                    statistics.pixels_shaded, duration_text(total.milliseconds()));
+                                    statistics.pixels_shaded, with_terms,
+                                    duration_text(total.milliseconds()));
     });
     return 0;
 }

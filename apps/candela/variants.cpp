@@ -14,6 +14,8 @@ using candela::ErrorCategory;
 
 namespace {
 
+constexpr const char* k_terms = "terms";
+
 /// Parts between commas that are in no brackets or quotes.
 std::vector<std::string> split(const std::string& list) {
     std::vector<std::string> parts(1);
@@ -55,7 +57,9 @@ Axis axis_from(const std::string& option, const std::string& list, const std::st
 void add_variant_options(CommandLine& line) {
     line.options()("vary", po::value<std::vector<std::string>>()->value_name("PATH=V1,V2,..."),
                    "values of one parameter, such as light.lamp.intensity=1,3; may "
-                   "be repeated");
+                   "be repeated")("terms", po::value<std::string>()->value_name("TERM,..."),
+                                  "what each picture is made of: picture (all of it), diffuse, specular, "
+                                  "normal, depth, light.NAME ... (docs/terms.md)");
 }
 
 std::vector<Axis> axes_from(const CommandLine& line) {
@@ -76,11 +80,12 @@ std::vector<Axis> axes_from(const CommandLine& line) {
         }
         axes.push_back(axis_from(setting.path, setting.value, setting.path + "="));
     }
+    if (line.has(k_terms)) axes.push_back(axis_from("--terms", line.get<std::string>(k_terms), ""));
     if (std::ranges::count_if(axes, [](const Axis& axis) { return axis.size() > 1; }) > 2) {
         throw Error(
             ErrorCategory::bad_request,
-            "a sheet has two sides: at most two of --reflection, --shading and --vary can have several "
-            "values");
+            "a sheet has two sides: at most two of --reflection, --shading, --vary and --terms can have "
+            "several values");
     }
     return axes;
 }
@@ -106,7 +111,7 @@ candela::SceneRequest varied(candela::SceneRequest request, const std::vector<Va
             request.reflection = {variant.value, variant.option};
         } else if (variant.option == "--shading") {
             request.shading = {variant.value, variant.option};
-        } else {
+        } else if (variant.option != "--terms") {
             request.settings.push_back({"--vary " + variant.option, variant.option, variant.value});
         }
     }

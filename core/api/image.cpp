@@ -1,5 +1,6 @@
 #include "candela/image.h"
 
+#include <span>
 #include <stdexcept>
 
 namespace candela {
@@ -7,6 +8,10 @@ namespace candela {
 ByteSink::~ByteSink() = default;
 PictureSink::~PictureSink() = default;
 ImageFormat::~ImageFormat() = default;
+
+void ImageFormat::write_layers(int, int, std::span<const PictureChannel>, const char*, ByteSink&) const {
+    throw std::runtime_error("this plugin writes no layers");
+}
 
 void ImageFormat::read(const char*, PictureSink&) const {
     throw std::runtime_error("this plugin writes pictures and reads none");

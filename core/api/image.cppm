@@ -10,6 +10,7 @@ export import candela.math;
 export namespace candela {
 using candela::ByteSink;
 using candela::ImageFormat;
+using candela::PictureChannel;
 using candela::PictureSink;
 using candela::PictureView;
 }  // namespace candela

@@ -2,18 +2,21 @@
 // vertex normals computed (compile.cpp); the image plugin writes the film (film/picture_file.cpp).
 module;
 
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 module candela.render;
 
 import :tile;
+import candela.color;
 import candela.diagnostics;
 import candela.environment;
 import candela.film;
 import candela.mesh;
 import candela.raster;
 import candela.scene;
+import candela.shade;
 import candela.shading;
 import candela.transform;
 
@@ -26,12 +29,12 @@ Camera camera_of(const Observer& observer, int width, int height) {
 }
 
 // Projection: vertices onto the screen, triangles clipped and sorted into tiles.
-void project_scene(const CompiledScene& scene, int width, int height, int tile_size,
+void project_scene(const CompiledScene& scene, int width, int height, int tile_size, int samples,
                    ProjectedScene& projected) {
     std::vector<const Mesh*> meshes;
     for (const SolidObject& object : scene.objects) meshes.push_back(&object.mesh);
     try {
-        project(meshes, camera_of(scene.observer, width, height), tile_size, scene.image.samples, projected);
+        project(meshes, camera_of(scene.observer, width, height), tile_size, samples, projected);
     } catch (const std::length_error& problem) {
         throw Error(ErrorCategory::failure, problem.what());
     }
@@ -54,6 +57,8 @@ namespace {
 // Shading: at each point of a batch the shading plugin's normal, then, light by light, what arrives from the
 // light plugin and what the reflection plugin sends on to the observer (SurfaceShader::shade()).
 void shade_object(const CompiledScene& scene, const FragmentList& fragments, TileShader& shader) {
+    if (shader.term() == Term::background) return;
+    if (is_geometric(shader.term())) return shader.show_geometry(fragments);
     switch (scene.objects[fragments.object].surface.shading->shading_rate()) {
         case ShadingRate::face:
             return shader.shade_faces(fragments);
@@ -68,8 +73,9 @@ void shade_object(const CompiledScene& scene, const FragmentList& fragments, Til
 
 // From fragments to the film: the background, then object by object.
 void shade_tile(const CompiledScene& scene, const VisibleTile& visible, TileWorker& worker, Film& film) {
-    if (visible.is_empty && scene.environment.is_uniform())
-        return film.fill(visible.x0, visible.y0, visible.width, visible.height, scene.environment.seen({}));
+    const std::optional<Rgb> background = worker.shader.uniform_background();
+    if (visible.is_empty && background)
+        return film.fill(visible.x0, visible.y0, visible.width, visible.height, *background);
     worker.shader.fill_background(visible);
     if (!visible.is_empty) {
         for (const FragmentList& fragments : visible.fragments.lists())

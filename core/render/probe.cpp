@@ -94,7 +94,7 @@ PixelProbe probe(const CompiledScene& scene, int x, int y) {
     const int width = scene.image.width, height = scene.image.height;
     if (x < 0 || y < 0 || x >= width || y >= height) throw std::out_of_range("the picture has no such pixel");
     ProjectedScene projected;
-    project_scene(scene, width, height, k_tile_size, projected);
+    project_scene(scene, width, height, k_tile_size, scene.image.samples, projected);
     TileWorker worker;
     worker.shader.begin(scene, projected);
     VisibleTile& visible = worker.visible;

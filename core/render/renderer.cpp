@@ -23,6 +23,7 @@ import candela.parallel;
 import candela.pool;
 import candela.raster;
 import candela.scene;
+import candela.shade;
 
 namespace candela {
 
@@ -39,12 +40,12 @@ int tile_size_for(int samples) { return samples <= 4 ? 64 : 32; }
 
 /// The parts of a scene that visibility depends on.
 struct SeenScene {
-    explicit SeenScene(const CompiledScene& scene, const Film& film, int size_of_tiles)
+    SeenScene(const CompiledScene& scene, const Film& film, const RenderOptions& options)
         : observer(scene.observer),
           width(film.width()),
           height(film.height()),
-          samples(scene.image.samples),
-          tile_size(size_of_tiles) {
+          samples(is_geometric(options.term) ? 1 : scene.image.samples),
+          tile_size(options.tile_size > 0 ? options.tile_size : tile_size_for(samples)) {
         for (const SolidObject& object : scene.objects)
             meshes.push_back(
                 {object.mesh.position.x.data(), object.mesh.indices.data(), object.mesh.indices.size()});
@@ -63,10 +64,6 @@ struct SeenScene {
 
     friend bool operator==(const SeenScene&, const SeenScene&) = default;
 };
-
-int tile_size_of(const CompiledScene& scene, const RenderOptions& options) {
-    return options.tile_size > 0 ? options.tile_size : tile_size_for(scene.image.samples);
-}
 
 /// What one thread takes to shade a whole picture: the times per point and light, and per triangle, on
 /// processors of 2020.
@@ -95,11 +92,11 @@ struct Renderer::Kept {
 
     /// Runs the stages from projection on, or from shading on if `is_seen`.
     RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options,
-                            bool is_seen) {
+                            const SeenScene& to_see, bool is_seen) {
         RenderStatistics statistics;
         const auto begin = Clock::now();
         if (!is_seen)
-            project_scene(scene, film.width(), film.height(), tile_size_of(scene, options), projected);
+            project_scene(scene, to_see.width, to_see.height, to_see.tile_size, to_see.samples, projected);
         const auto tile_count = static_cast<std::size_t>(projected.tile_count());
         if (what == Keep::visibility) tiles.resize(tile_count);
         statistics.seconds_projecting = seconds_since(begin);
@@ -107,7 +104,7 @@ struct Renderer::Kept {
 
         const auto tiles_begin = Clock::now();
         const auto begin_picture = [&](TileWorker& worker) {
-            worker.shader.begin(scene, projected);
+            worker.shader.begin(scene, projected, options.term, options.light);
             worker.pixels_shaded = 0;
         };
         workers.each(begin_picture);
@@ -146,13 +143,13 @@ Renderer::~Renderer() = default;
 void Renderer::forget() noexcept { kept_->seen.reset(); }
 
 RenderStatistics Renderer::render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
-    SeenScene to_see(scene, film, tile_size_of(scene, options));
+    SeenScene to_see(scene, film, options);
     const bool is_seen = kept_->what == Keep::visibility && kept_->seen == to_see;
     // Until they are complete, the tiles show nothing: something may throw.
     if (!is_seen) kept_->seen.reset();
     RenderStatistics statistics;
     with_threads(
-        options.threads, [&] { statistics = kept_->render(scene, film, options, is_seen); },
+        options.threads, [&] { statistics = kept_->render(scene, film, options, to_see, is_seen); },
         std::exchange(kept_->is_first, false) ? rough_milliseconds(scene, film) : k_again_and_again);
     if (!is_seen) kept_->seen = std::move(to_see);
     return statistics;

@@ -5,16 +5,22 @@ module;
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 export module candela.render:renderer;
 
 import :compiled_scene;
 import candela.film;
+import candela.shade;
 
 export namespace candela {
 
 struct RenderOptions {
+    /// What the pixels are given: the intensity, or something else, to be stored in a film of floats.
+    /// Geometric terms are those of a picture with one sample per pixel.
+    Term term = Term::intensity;
+    std::optional<std::size_t> light{};  // an index: that light alone, without background and surroundings
     int threads = 0;    // 0: all, but one for a first picture that takes less time than starting the others
     int tile_size = 0;  // pixels, a power of two from 16 on; 0: chosen. The picture does not depend on it.
     std::function<void(std::size_t done, std::size_t all)>

@@ -7,7 +7,10 @@ module;
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -60,6 +63,8 @@ struct AddLoop {
     }
 };
 
+constexpr float k_infinitely_far = std::numeric_limits<float>::infinity();
+
 /// A vertex side as an index.
 std::uint32_t index_of(const ProjectedMesh& mesh, std::uint32_t triangle, std::size_t k, bool is_back) {
     return 2 * mesh.mesh.indices[3 * std::size_t{triangle} + k] + (is_back ? 1 : 0);
@@ -69,18 +74,44 @@ std::uint32_t index_of(const ProjectedMesh& mesh, std::uint32_t triangle, std::s
 
 TileShader::TileShader() { batch_.resize(k_batch_size); }
 
-void TileShader::begin(const CompiledScene& scene, const ProjectedScene& projected) {
+void TileShader::begin(const CompiledScene& scene, const ProjectedScene& projected, Term term,
+                       std::optional<std::size_t> light) {
     scene_ = &scene;
     projected_ = &projected;
-    surface_shader_.begin({scene.lights, &scene.environment, projected.camera});
+    term_ = term;
+    has_background_ = term == Term::background || (term == Term::intensity && !light);
+    const std::span<const LitSource> lights = scene.lights;
+    surface_shader_.begin(light ? LitScene{lights.subspan(*light, 1), nullptr, projected.camera}
+                                : LitScene{lights, &scene.environment, projected.camera});
     points_lit_ = 0;
     brightest_ = 0;
 }
 
-// Skips the pixels that belong to a single fragment.
+std::optional<Rgb> TileShader::uniform_background() const {
+    if (has_background_)
+        return scene_->environment.is_uniform() ? std::optional(scene_->environment.seen({})) : std::nullopt;
+    switch (term_) {
+        case Term::depth:
+            return Rgb{k_infinitely_far, k_infinitely_far, k_infinitely_far};
+        case Term::object:
+        case Term::triangle:
+            return Rgb{-1, -1, -1};
+        default:
+            return Rgb{};
+    }
+}
+
+// Skips the pixels that belong to a single fragment, unless they are shown without it.
 void TileShader::fill_background(const VisibleTile& visible) {
     pixels_.resize(visible.plane());
     const Vec3Span pixels = pixels_.span();
+    if (!has_background_ || term_ == Term::background) {
+        const Rgb everywhere = has_background_ ? Rgb{} : *uniform_background();
+        std::ranges::fill(pixels_.x, everywhere.r);
+        std::ranges::fill(pixels_.y, everywhere.g);
+        std::ranges::fill(pixels_.z, everywhere.b);
+    }
+    if (!has_background_) return;
     const bool is_uniform = scene_->environment.is_uniform();
     const auto fill = [&](const BackgroundRun& run) {
         if (is_uniform) {
@@ -123,7 +154,11 @@ ProjectedMesh TileShader::mesh_of(const FragmentList& fragments) const {
 void TileShader::shade_points(std::uint32_t object, const Vec3Span& intensity) {
     const SolidObject& solid = scene_->objects[object];
     const Interior interior{&solid.mesh, solid.tree ? &*solid.tree : nullptr};
-    brightest_ = std::max(brightest_, surface_shader_.shade(solid.surface, interior, points_, intensity));
+    if (term_ == Term::intensity) {
+        brightest_ = std::max(brightest_, surface_shader_.shade(solid.surface, interior, points_, intensity));
+    } else {
+        surface_shader_.find_term(term_, solid.surface, interior, points_, intensity);
+    }
     points_lit_ += points_.count;
 }
 
@@ -139,6 +174,46 @@ void TileShader::shade_fragments(const FragmentList& fragments) {
         gather_fragments(mesh, runs, needs, points_);
         shade_points(fragments.object, batch_.span());
         accumulate(runs, std::as_const(batch_).span());
+    }
+}
+
+void TileShader::show_geometry(const FragmentList& fragments) {
+    const ProjectedMesh mesh = mesh_of(fragments);
+    const bool has_uv = term_ == Term::uv;
+    FragmentBatches batches(fragments);
+    for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
+        gather_fragments(mesh, runs, {.vertex_normal = false, .color = false, .uv = has_uv}, points_);
+        std::size_t i = 0;
+        for (const FragmentRun& run : runs) {
+            for (const std::size_t end = i + run.count; i < end; ++i)
+                batch_.span().set(i, geometry_at(i, fragments.object, run.triangle));
+        }
+        accumulate(runs, std::as_const(batch_).span());
+    }
+}
+
+Vec3 TileShader::geometry_at(std::size_t point, std::uint32_t object, std::uint32_t triangle) const {
+    const auto everywhere = [](float value) { return Vec3{value, value, value}; };
+    const Camera& camera = projected_->camera;
+    switch (term_) {
+        case Term::depth:
+            return everywhere(dot(points_.position.span()[point] - camera.eye, camera.forward));
+        case Term::position:
+            return points_.position.span()[point];
+        case Term::face_normal:
+            return points_.facing[point] * points_.face_normal.span()[point];
+        case Term::barycentric:
+            return points_.barycentric.span()[point];
+        case Term::uv:
+            return {points_.u[point], points_.v[point], 0};
+        case Term::facing:
+            return everywhere(points_.facing[point]);
+        case Term::object:
+            return everywhere(static_cast<float>(object));
+        case Term::triangle:
+            return everywhere(static_cast<float>(triangle));
+        default:
+            throw std::invalid_argument("TileShader::show_geometry(): not geometry");
     }
 }
 

@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -81,6 +83,22 @@ struct Picture {
     std::string size() const { return fmt::format("{} x {}", width, height); }
 };
 
+/// A picture's own channels, and others with values and names that layers have.
+struct LayeredPicture {
+    explicit LayeredPicture(const Picture& picture) {
+        const std::size_t pixels = picture.reals.size() / 3;
+        for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t i = 0; i < pixels; ++i) planes[c].push_back(picture.reals[3 * i + c]);
+        }
+        planes[3].assign(pixels, std::numeric_limits<float>::infinity());
+        planes[4].assign(pixels, -1.0f);
+        constexpr const char* k_names[] = {"R", "G", "B", "Z", "light.l\u00e4mp 1.R"};
+        for (std::size_t c = 0; c < planes.size(); ++c) channels.push_back({k_names[c], planes[c]});
+    }
+    std::array<std::vector<float>, 5> planes;
+    std::vector<candela::PictureChannel> channels;  // refer to the planes
+};
+
 class Memory final : public candela::ByteSink {
   public:
     void write(std::span<const std::byte> written) override {
@@ -146,6 +164,14 @@ std::optional<std::size_t> differing_stretch(const std::vector<float>& sent, con
     return std::nullopt;
 }
 
+/// Layers are for computing, so floats come back as they are, but for the precision of a half.
+std::optional<std::size_t> first_difference(const std::vector<float>& sent, const std::vector<float>& back) {
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        if (!(std::abs(sent[i] - back[i]) <= 1e-3f)) return i;
+    }
+    return std::nullopt;
+}
+
 void write_file(const fs::path& file, std::span<const std::byte> bytes) {
     std::ofstream(file, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -196,6 +222,53 @@ TEST_CASE("round trip: what it writes is read as the same picture, of any size",
         }
     }
     if (compared == 0) SKIP("no installed plugin reads its formats");
+}
+
+TEST_CASE("layers: the picture in a file of layers is its first three channels", "[image]") {
+    const std::shared_ptr<ImageFormat> writer = make<ImageFormat>(default_values());
+    const TemporaryDirectory directory;
+    bool has_any = false;
+    for (const FileFormat& format : subject().formats) {
+        if (!format.layers) continue;
+        has_any = true;
+        if (format.pixels != PixelType::real)
+            FAIL("a ." << format.extension << " has layers, whose values are unbounded, and pixels of bytes");
+        for (const Picture& picture : {Picture(1, 1), Picture(7, 5), Picture(64, 48)}) {
+            const LayeredPicture layers(picture);
+            const auto write = [&](candela::ByteSink& sink) {
+                writer->write_layers(picture.width, picture.height, layers.channels, format.extension, sink);
+            };
+            Memory memory, again;
+            write(memory);
+            write(again);
+            if (memory.bytes != again.bytes)
+                FAIL("a ." << format.extension << " in layers is another file the second time");
+            FullDisk disk(memory.bytes.size() - 1);
+            bool says_so = false;
+            try {
+                write(disk);
+            } catch (const std::exception&) {
+                says_so = true;
+            }
+            if (!says_so)
+                FAIL("a ." << format.extension
+                           << " in layers has no room on the disk, and nothing is reported");
+            const auto reader = reader_of(format, writer);
+            if (reader == nullptr) continue;
+            const fs::path file = directory.path() / (std::string("layers.") + format.extension);
+            write_file(file, memory.bytes);
+            ReadBack back;
+            reader->read(file.c_str(), back);
+            if (back.width != picture.width || back.height != picture.height)
+                FAIL("a ." << format.extension << " in layers of " << picture.size() << " comes back as "
+                           << back.width << " x " << back.height);
+            if (const auto value = first_difference(picture.reals, back.values))
+                FAIL("a ." << format.extension << " in layers of " << picture.size() << ": channel "
+                           << *value % 3 << " of pixel " << *value / 3 << " was " << picture.reals[*value]
+                           << " and comes back as " << back.values[*value]);
+        }
+    }
+    if (!has_any) SKIP("it writes no layers");
 }
 
 TEST_CASE("truncated: a file that is cut off is refused, not read as a picture", "[image]") {

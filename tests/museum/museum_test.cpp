@@ -161,6 +161,7 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"light-never-fades", "fall-off", "failed", "it sends 1 times as much"},
         {"shape-half-derivatives", "derivatives", "failed", "edges dp/du and dp/dv disagree"},
         {"image-miscounts-long-runs", "round trip", "failed", "come back as others"},
+        {"image-layers-out-of-order", "layers", "failed", "comes back as"},
         {"image-reads-what-is-cut-off", "truncated", "failed", "is read as if it were whole"},
     };
     for (const Fault& fault : faults) {

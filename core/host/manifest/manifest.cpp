@@ -109,7 +109,8 @@ Json json_of(const Manifest& m) {
             json["formats"].push_back({{"extension", f.extension},
                                        {"title", f.title},
                                        {"pixels", f.pixels == PixelType::byte ? "byte" : "real"},
-                                       {"reads", f.reads}});
+                                       {"reads", f.reads},
+                                       {"layers", f.layers}});
         }
     }
     if (m.has_kernel) json["kernel"] = {{"prefix", m.kernel_prefix}, {"parameters", m.kernel_parameters}};
@@ -241,7 +242,7 @@ Manifest manifest_from(const Json& json) {
             const auto pixels =
                 f.at("pixels").get<std::string>() == "byte" ? PixelType::byte : PixelType::real;
             m.formats.push_back({f.at("extension").get<std::string>(), f.at("title").get<std::string>(),
-                                 pixels, f.at("reads").get<bool>()});
+                                 pixels, f.at("reads").get<bool>(), f.at("layers").get<bool>()});
         }
     }
     m.has_kernel = json.contains("kernel");
@@ -289,7 +290,8 @@ Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
     for (const ParamSpec& spec : d.parameters) m.parameters.push_back(parameter_of(spec));
     for (const RelationSpec& spec : d.relations) m.relations.push_back(relation_of(spec));
     for (const Property& p : d.properties) m.properties.emplace_back(p.name, p.value);
-    for (const FileFormat& f : d.formats) m.formats.push_back({f.extension, f.title, f.pixels, f.reads});
+    for (const FileFormat& f : d.formats)
+        m.formats.push_back({f.extension, f.title, f.pixels, f.reads, f.layers});
     m.has_kernel = d.kernel.text != nullptr && d.kernel.prefix != nullptr;
     if (m.has_kernel) {
         m.kernel_prefix = d.kernel.prefix;

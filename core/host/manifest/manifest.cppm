@@ -22,6 +22,7 @@ struct ManifestFormat {
     std::string title;
     PixelType pixels = PixelType::byte;
     bool reads = false;
+    bool layers = false;
 
     friend bool operator==(const ManifestFormat&, const ManifestFormat&) = default;
 };

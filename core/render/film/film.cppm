@@ -6,6 +6,7 @@ module;
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 export module candela.film;
@@ -59,6 +60,7 @@ struct PictureFormat {
     std::string plugin;
     std::string extension;
     PixelType pixels = PixelType::byte;
+    bool has_layers = false;
 };
 
 /// The format of a path, by its extension; "-", standard output, is PNG. Throws Error for an extension that
@@ -70,5 +72,10 @@ CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry&
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
                                const std::filesystem::path& path, Registry& registry,
                                Existing existing = Existing::replaced);
+
+/// Writes a picture in layers likewise, in a format that has them.
+CANDELA_API void write_layers(int width, int height, std::span<const PictureChannel> channels,
+                              const PictureFormat& format, const std::filesystem::path& path,
+                              Registry& registry, Existing existing = Existing::replaced);
 
 }  // namespace candela

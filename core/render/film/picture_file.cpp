@@ -35,6 +35,22 @@ class FileSink final : public ByteSink {
     OutputFile& file_;
 };
 
+/// A file of what `call` makes the format's plugin write.
+template <class Call>
+void write(const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing,
+           ColorEncoding encoding, const Call& call) {
+    const auto writer = registry.create<ImageFormat>(
+        format.plugin, registry.parameters(PluginKind::image, format.plugin), encoding);
+    OutputFile file(path, existing);
+    FileSink sink(file);
+    try {
+        call(*writer, sink);
+    } catch (...) {
+        rethrow_as_plugin_error(PluginKind::image, format.plugin);
+    }
+    file.finish();
+}
+
 }  // namespace
 
 PictureFormat format_of(const fs::path& path, Registry& registry) {
@@ -54,21 +70,26 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
     const auto& formats = plugin->manifest.formats;
     const auto format =
         std::ranges::find_if(formats, [&](const ManifestFormat& f) { return f.extension == extension; });
-    return {.plugin = plugin->manifest.name, .extension = extension, .pixels = format->pixels};
+    return {.plugin = plugin->manifest.name,
+            .extension = extension,
+            .pixels = format->pixels,
+            .has_layers = format->layers};
 }
 
 void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry,
                    Existing existing) {
-    const auto writer = registry.create<ImageFormat>(
-        format.plugin, registry.parameters(PluginKind::image, format.plugin), film.view().encoding);
-    OutputFile file(path, existing);
-    FileSink sink(file);
-    try {
-        writer->write(film.view(), format.extension.c_str(), sink);
-    } catch (...) {
-        rethrow_as_plugin_error(PluginKind::image, format.plugin);
-    }
-    file.finish();
+    write(format, path, registry, existing, film.view().encoding,
+          [&](const ImageFormat& writer, ByteSink& sink) {
+              writer.write(film.view(), format.extension.c_str(), sink);
+          });
+}
+
+void write_layers(int width, int height, std::span<const PictureChannel> channels,
+                  const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing) {
+    write(format, path, registry, existing, ColorEncoding::none,
+          [&](const ImageFormat& writer, ByteSink& sink) {
+              writer.write_layers(width, height, channels, format.extension.c_str(), sink);
+          });
 }
 
 }  // namespace candela

@@ -2,6 +2,7 @@ module;
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@ module candela.render:tile;
 import :compiled_scene;
 import :sparse_set;
 import candela.arrays;
+import candela.color;
 import candela.film;
 import candela.fragments;
 import candela.math;
@@ -33,8 +35,15 @@ class TileShader {
   public:
     TileShader();
 
-    /// Sets the scene for the following calls, and resets the counts.
-    void begin(const CompiledScene& scene, const ProjectedScene& projected);
+    /// Sets the scene for the following calls, what of it is shown (see RenderOptions), and resets the
+    /// counts.
+    void begin(const CompiledScene& scene, const ProjectedScene& projected, Term term = Term::intensity,
+               std::optional<std::size_t> light = {});
+
+    Term term() const { return term_; }
+
+    /// What every pixel of an empty tile is given, if it is the same for all.
+    std::optional<Rgb> uniform_background() const;
 
     /// Fills the tile's pixels with the background, weighted by how much of each pixel shows it.
     void fill_background(const VisibleTile& visible);
@@ -43,6 +52,8 @@ class TileShader {
     void shade_fragments(const FragmentList& fragments);
     void shade_faces(const FragmentList& fragments);
     void shade_vertices(const FragmentList& fragments);
+    /// Gives them a geometric term.
+    void show_geometry(const FragmentList& fragments);
 
     /// The tile's intensities, rows VisibleTile::stride apart.
     ConstVec3Span pixels() const { return pixels_.span(); }
@@ -52,11 +63,14 @@ class TileShader {
 
   private:
     ProjectedMesh mesh_of(const FragmentList& fragments) const;
+    Vec3 geometry_at(std::size_t point, std::uint32_t object, std::uint32_t triangle) const;
     void shade_points(std::uint32_t object, const Vec3Span& intensity);
     void accumulate(std::span<const FragmentRun> runs, const ConstVec3Span& intensity);
 
     const CompiledScene* scene_ = nullptr;
     const ProjectedScene* projected_ = nullptr;
+    Term term_ = Term::intensity;
+    bool has_background_ = true;
     SurfaceShader surface_shader_;
     SurfacePoints points_;
     SparseSet sparse_set_;              // of a tile's faces, or sides of vertices
@@ -83,7 +97,7 @@ struct TileWorker {
 Camera camera_of(const Observer& observer, int width, int height);
 
 /// Projects a scene's meshes and sorts their triangles into tiles. Throws Error.
-void project_scene(const CompiledScene& scene, int width, int height, int tile_size,
+void project_scene(const CompiledScene& scene, int width, int height, int tile_size, int samples,
                    ProjectedScene& projected);
 
 /// Finds the fragments that are visible in a tile.

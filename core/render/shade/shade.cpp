@@ -344,7 +344,7 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
             look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
         }
     }
-    if (surface.reflection->shows_surroundings()) {
+    if (surface.reflection->shows_surroundings() && scene_.environment != nullptr) {
         if (surroundings_ == nullptr)
             surroundings_ = std::make_unique<ObjectSurroundings>(*scene_.environment);
         surroundings_->set_object(surface, interior);

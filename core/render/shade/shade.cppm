@@ -15,6 +15,7 @@ module;
 export module candela.shade;
 
 export import :surface;
+export import :term;
 export import :trace;
 import candela.arrays;
 import candela.descriptor;
@@ -48,6 +49,11 @@ class CANDELA_API SurfaceShader {
     /// shade() computes. Throws Error like shade().
     PointTrace trace(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
 
+    /// Writes, instead of the intensity, a term of it that is not geometric, or what it was computed from.
+    /// Slower than shade(), which it calls, so that it throws like that.
+    void find_term(Term term, const SurfaceModels& surface, const Interior& interior,
+                   const SurfacePoints& points, const Vec3Span& values);
+
   private:
     /// Checks the results of each plugin right after its turn, instead of once at the end.
     enum class Scrutiny : bool { none, each_step };
@@ -59,6 +65,7 @@ class CANDELA_API SurfaceShader {
     bool describe(const LitSource& source);
     void find_tangents(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count);
     bool reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points);
+    void find_n_dot_l(const SurfacePoints& points, const Vec3Span& values);
     void scrutinize(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
     /// What the reflection model is given; the arrays are this object's and the points'.
     SurfaceBatch lit_surface(const SurfaceModels& surface, const SurfacePoints& points,

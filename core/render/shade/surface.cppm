@@ -47,7 +47,7 @@ struct Interior {
 /// The lights of a scene, and the view of it.
 struct LitScene {
     std::span<const LitSource> lights;
-    const Environment* environment = nullptr;
+    const Environment* environment = nullptr;  // null: transparent objects show no surroundings
     Camera camera;
 };
 

@@ -58,8 +58,25 @@ bool is_whole_jpeg(const char* path) {
     return scan != std::string::npos && end != std::string::npos && end > scan;
 }
 
-/// All formats that OpenImageIO writes. Some of its writers insist on a file of their own, so the bytes take
-/// a detour.
+/// Sends a file of the extension's format, with the pixels that `write_pixels` writes. Some of OpenImageIO's
+/// writers insist on a file of their own, so the bytes take a detour.
+template <class WritePixels>
+void write_file(OIIO::ImageSpec& spec, const char* extension, candela::ByteSink& sink,
+                const WritePixels& write_pixels) {
+    const MemoryFile file;
+    const std::unique_ptr<OIIO::ImageOutput> output =
+        OIIO::ImageOutput::create(std::string("picture.") + extension);
+    if (output == nullptr) throw std::runtime_error(OIIO::geterror());
+    spec.attribute("Software", "Candela");
+    // If it is missing, some writers insert the current time, and no two files of one picture are the same.
+    spec.attribute("DateTime", "");
+    spec.attribute("CompressionQuality", 95);
+    if (!output->open(file.path(), spec) || !write_pixels(*output) || !output->close())
+        throw std::runtime_error(output->geterror());
+    file.send(sink);
+}
+
+/// All formats that OpenImageIO writes.
 class OpenImageIo final : public candela::ImageFormat {
   public:
     explicit OpenImageIo(const NoParams&) {}
@@ -67,26 +84,36 @@ class OpenImageIo final : public candela::ImageFormat {
     void write(const candela::PictureView& picture, const char* extension,
                candela::ByteSink& sink) const override {
         const bool is_float = picture.pixels == candela::PixelType::real;
-        const MemoryFile file;
-        const std::unique_ptr<OIIO::ImageOutput> output =
-            OIIO::ImageOutput::create(std::string("picture.") + extension);
-        if (output == nullptr) throw std::runtime_error(OIIO::geterror());
-        OIIO::ImageSpec spec(picture.width, picture.height, 3, is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
+        const OIIO::TypeDesc type = is_float ? OIIO::TypeFloat : OIIO::TypeUInt8;
+        OIIO::ImageSpec spec(picture.width, picture.height, 3, type);
         if (picture.encoding == candela::ColorEncoding::srgb) {
             spec.attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
         }
-        spec.attribute("Software", "Candela");
-        // If it is missing, some writers insert the current time, and no two files of one picture are the
-        // same.
-        spec.attribute("DateTime", "");
-        spec.attribute("CompressionQuality", 95);
         const void* const pixels = is_float ? static_cast<const void*>(picture.reals.data())
                                             : static_cast<const void*>(picture.bytes.data());
-        if (!output->open(file.path(), spec) ||
-            !output->write_image(is_float ? OIIO::TypeFloat : OIIO::TypeUInt8, pixels) || !output->close()) {
-            throw std::runtime_error(output->geterror());
-        }
-        file.send(sink);
+        write_file(spec, extension, sink,
+                   [&](OIIO::ImageOutput& output) { return output.write_image(type, pixels); });
+    }
+
+    void write_layers(int width, int height, std::span<const candela::PictureChannel> channels,
+                      const char* extension, candela::ByteSink& sink) const override {
+        OIIO::ImageSpec spec(width, height, static_cast<int>(channels.size()), OIIO::TypeFloat);
+        spec.channelnames.clear();
+        for (const candela::PictureChannel& channel : channels) spec.channelnames.emplace_back(channel.name);
+        spec.attribute("oiio:ColorSpace", "Linear");
+        const auto columns = static_cast<std::size_t>(width);
+        std::vector<float> row(columns * channels.size());
+        write_file(spec, extension, sink, [&](OIIO::ImageOutput& output) {
+            for (int y = 0; y < height; ++y) {
+                const std::size_t first = static_cast<std::size_t>(y) * columns;
+                for (std::size_t c = 0; c < channels.size(); ++c) {
+                    for (std::size_t x = 0; x < columns; ++x)
+                        row[x * channels.size() + c] = channels[c].values[first + x];
+                }
+                if (!output.write_scanline(y, 0, OIIO::TypeFloat, row.data())) return false;
+            }
+            return true;
+        });
     }
 
     void read(const char* path, candela::PictureSink& sink) const override {
@@ -117,7 +144,7 @@ class OpenImageIo final : public candela::ImageFormat {
 using candela::PixelType;
 
 constexpr candela::FileFormat k_formats[] = {
-    {"exr", "OpenEXR, float", PixelType::real, true},
+    {.extension = "exr", .title = "OpenEXR, float", .pixels = PixelType::real, .reads = true, .layers = true},
     {"hdr", "Radiance RGBE, float", PixelType::real, true},
     {"tif", "TIFF", PixelType::byte, true},
     {"tiff", "TIFF", PixelType::byte, true},

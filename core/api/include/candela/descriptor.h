@@ -49,6 +49,7 @@ struct FileFormat {
     const char* title = "";
     PixelType pixels = PixelType::byte;
     bool reads = false;
+    bool layers = false;  // ImageFormat::write_layers() writes it
 };
 
 /// A function of a kernel that programs call: <prefix>_<name>.

@@ -21,6 +21,12 @@ struct PictureView {
     std::span<const float> reals{};
 };
 
+/// One number for each pixel of a picture in layers, rows from the top, no padding.
+struct PictureChannel {
+    const char* name = "";  // "R", or with the layer's name before it: "diffuse.R"
+    std::span<const float> values{};
+};
+
 /// Receives the bytes of the file that an image plugin writes, in order. Owned by the host, which writes the
 /// file atomically.
 class CANDELA_API ByteSink {
@@ -47,6 +53,12 @@ class CANDELA_API ImageFormat : public Instance {
 
     /// Writes `picture` in the format of `extension`, one of the descriptor's. May throw std::exception.
     virtual void write(const PictureView& picture, const char* extension, ByteSink& sink) const = 0;
+
+    /// Writes a picture of any number of channels, in a format that the descriptor declares to have layers.
+    /// The first three are the red, green and blue of the picture itself, all values are linear and unbounded
+    /// (infinity included), and names are unique UTF-8. May throw std::exception.
+    virtual void write_layers(int width, int height, std::span<const PictureChannel> channels,
+                              const char* extension, ByteSink& sink) const;
 
     /// Reads the picture at `path`, in a format that the descriptor declares as read. May throw
     /// std::exception.
