@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <span>
@@ -80,6 +81,39 @@ std::vector<NamedTerm> possible_terms(const candela::Scene& scene) {
                 {fmt::format("{}.{}", known.name, name_of_light(scene.lights[i].label)), known.term, i});
     }
     return all;
+}
+
+/// What one word of a list means: a term by its name, a light's by its number, or several.
+std::vector<NamedTerm> meant_by(const std::string& word, const std::vector<NamedTerm>& possible) {
+    // All lights': none, where the scene has none.
+    const bool is_of_lights = word == "light" || word == "n_dot_l";
+    std::vector<NamedTerm> meant;
+    std::ranges::copy_if(possible, std::back_inserter(meant), [&](const NamedTerm& term) {
+        return word == "all" || word == term.name ||
+               (is_of_lights && term.light && term.name.starts_with(word + "."));
+    });
+    if (!meant.empty() || is_of_lights) return meant;
+    for (const NamedTerm& term : possible) {
+        if (term.light && word == fmt::format("{}.{}", known(term).name, *term.light))
+            return {{word, term.term, term.light}};
+    }
+    std::vector<std::string> words{"all", "light", "n_dot_l"};
+    for (const NamedTerm& term : possible) words.push_back(term.name);
+    const std::string suggestion = candela::suggestion(word, words);
+    throw Error(ErrorCategory::bad_request,
+                fmt::format("--terms: '{}' is no term{}; possible: {}", candela::printable(word),
+                            suggestion.empty() ? "" : "; " + suggestion,
+                            candela::printable(fmt::format("{}", fmt::join(words, ", ")))));
+}
+
+/// Adds a term that is not there yet.
+void add(std::vector<NamedTerm>& terms, NamedTerm term) {
+    const auto same = std::ranges::find(terms, term.name, &NamedTerm::name);
+    if (same == terms.end()) return terms.push_back(std::move(term));
+    if (same->light != term.light)
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--terms: two lights of the scene are '{}'; name them differently",
+                                candela::printable(term.name.substr(term.name.find('.') + 1))));
 }
 
 /// A light's name as part of a file's: what could be a folder, or is special to a shell, becomes a line.
@@ -188,48 +222,19 @@ bool is_intensity(Term term) {
 
 std::vector<NamedTerm> terms_from(const std::string& list, const candela::Scene& scene) {
     const std::vector<NamedTerm> possible = possible_terms(scene);
-    std::vector<std::string> words{"all", "light", "n_dot_l"};
-    for (const NamedTerm& term : possible) words.push_back(term.name);
-
     std::vector<NamedTerm> terms;
-    const auto add = [&](const auto& is_meant) {
-        bool is_known = false;
-        for (const NamedTerm& term : possible) {
-            if (!is_meant(term)) continue;
-            is_known = true;
-            const auto same = std::ranges::find(terms, term.name, &NamedTerm::name);
-            if (same == terms.end()) {
-                terms.push_back(term);
-            } else if (same->light != term.light) {
-                throw Error(ErrorCategory::bad_request,
-                            fmt::format("--terms: two lights of the scene are '{}'; name them differently",
-                                        candela::printable(term.name.substr(term.name.find('.') + 1))));
-            }
-        }
-        return is_known;
-    };
     for (std::size_t begin = 0; begin <= list.size();) {
         const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string word = list.substr(begin, end - begin);
+        for (NamedTerm& term : meant_by(list.substr(begin, end - begin), possible))
+            add(terms, std::move(term));
         begin = end + 1;
-        // All lights: none, where the scene has none.
-        if (word == "light" || word == "n_dot_l") {
-            add([&](const NamedTerm& term) { return term.name.starts_with(word + "."); });
-        } else if (!add([&](const NamedTerm& term) { return word == "all" || word == term.name; })) {
-            const std::string meant = candela::suggestion(word, words);
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("--terms: '{}' is no term{}; possible: {}", candela::printable(word),
-                                    meant.empty() ? "" : "; " + meant,
-                                    candela::printable(fmt::format("{}", fmt::join(words, ", ")))));
-        }
     }
     return terms;
 }
 
-fs::path file_of(const NamedTerm& term, const fs::path& picture) {
+fs::path file_of_term(const std::string& name, const fs::path& picture) {
     fs::path file = picture;
-    file.replace_filename(picture.stem().string() + "." + in_file_name(term.name) +
-                          picture.extension().string());
+    file.replace_filename(picture.stem().string() + "." + in_file_name(name) + picture.extension().string());
     return file;
 }
 
@@ -237,7 +242,7 @@ std::vector<fs::path> files_of(const std::vector<NamedTerm>& terms, const fs::pa
     std::map<fs::path, std::string> names;
     std::vector<fs::path> files;
     for (const NamedTerm& term : terms) {
-        files.push_back(file_of(term, picture));
+        files.push_back(file_of_term(term.name, picture));
         const auto [other, is_new] = names.emplace(files.back(), term.name);
         if (!is_new)
             throw Error(

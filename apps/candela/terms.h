@@ -21,12 +21,12 @@ struct NamedTerm {
     std::optional<std::size_t> light{};  // index among the scene's
 };
 
-/// The terms of a comma-separated list: "diffuse,light.lamp", "light" (each light), "all". Each once, in the
-/// list's order. Throws candela::Error (bad_request) for what is none, with a suggestion.
+/// The terms of a comma-separated list: "diffuse,light.lamp", "light.0", "light" (each light), "all". Each
+/// once, in the list's order. Throws candela::Error (bad_request) for what is none, with a suggestion.
 std::vector<NamedTerm> terms_from(const std::string& list, const candela::Scene& scene);
 
-/// The file that a term is written to, beside the picture: "scene.diffuse.png" for "scene.png".
-std::filesystem::path file_of(const NamedTerm& term, const std::filesystem::path& picture);
+/// The file that a term of that name is written to, beside the picture: "scene.diffuse.png" for "scene.png".
+std::filesystem::path file_of_term(const std::string& name, const std::filesystem::path& picture);
 
 /// The files of all terms. Throws candela::Error (bad_request) if two are one.
 std::vector<std::filesystem::path> files_of(const std::vector<NamedTerm>& terms,

@@ -16,6 +16,7 @@
 #include "descendants.h"
 #include "reporting.h"
 #include "stopwatch.h"
+#include "terms.h"
 
 import candela.diagnostics;
 import candela.files;
@@ -86,7 +87,9 @@ view::Outcome rendered(const std::vector<std::string>& arguments, const std::vec
     const candela::ProgramOutput result =
         run_verb({"render", "--quiet", "--output", file.string()}, arguments, options_of(changes));
     if (result.exit_code != 0) return {.is_success = false, .content = result.err};
-    return {.is_success = true, .content = content_of(file)};
+    const auto term = std::ranges::find(changes, "--terms", &view::Change::option);
+    return {.is_success = true,
+            .content = content_of(term == changes.end() ? file : file_of_term(term->value, file))};
 } catch (const std::exception& problem) {
     return {.is_success = false, .content = problem.what()};
 }

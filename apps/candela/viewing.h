@@ -26,7 +26,8 @@ class WithoutDescendants {
     std::thread thread_;
 };
 
-/// What `candela render` with these arguments makes of a scene, with somebody's changes; `file` is where.
+/// What `candela render` with these arguments makes of a scene, with somebody's changes, or a term of it that
+/// is among them; `file` is where.
 view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
                        const std::filesystem::path& file);
 

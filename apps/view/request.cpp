@@ -56,7 +56,7 @@ std::optional<std::string> decoded(std::string_view text) {
 std::optional<std::vector<Change>> changes_of(std::string_view query, Resource resource) {
     std::vector<Change> changes;
     const int pixels_asked_for = resource == Resource::explanation ? 1 : 0;
-    int pixels = 0;
+    int pixels = 0, terms = 0;
     while (!query.empty()) {
         const std::string_view part = query.substr(0, query.find('&'));
         query.remove_prefix(std::min(part.size() + 1, query.size()));
@@ -64,9 +64,10 @@ std::optional<std::vector<Change>> changes_of(std::string_view query, Resource r
         if (equals == std::string_view::npos) return std::nullopt;
         const std::string_view name = part.substr(0, equals);
         auto value = decoded(part.substr(equals + 1));
-        const bool is_known = name == "set" || name == "shading" || name == "reflection" || name == "pixel";
-        if (!value || !is_known) return std::nullopt;
+        const bool is_change = name == "set" || name == "shading" || name == "reflection";
+        if (!value || !(is_change || name == "pixel" || name == "terms")) return std::nullopt;
         if (name == "pixel") ++pixels;
+        if (name == "terms" && (++terms > 1 || resource != Resource::reference)) return std::nullopt;
         changes.push_back({fmt::format("--{}", name), *std::move(value)});
     }
     if (pixels != pixels_asked_for) return std::nullopt;

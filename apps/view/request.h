@@ -37,14 +37,15 @@ struct Route {
 std::string random_token();
 
 /// What somebody has changed in the page, as the command line of `candela render` has it; or which pixel is
-/// to be explained.
+/// to be explained, or which term of the picture to be shown.
 struct Change {
-    std::string option;  // "--set", "--shading", "--reflection" or "--pixel"
+    std::string option;  // "--set", "--shading", "--reflection", "--pixel" or "--terms"
     std::string value;
 };
 
 /// The changes that a query says ("set=observer.fov%3D20&shading=flat"); nothing where it is not that. A
-/// query for an explanation also has a pixel ("pixel=320%2C240"), exactly one. Any thread.
+/// query for an explanation also has a pixel ("pixel=320%2C240"), exactly one; one for a picture may have a
+/// term ("terms=diffuse"). Any thread.
 std::optional<std::vector<Change>> changes_of(std::string_view query, Resource resource);
 
 /// Any bytes may be in a request. Any thread.

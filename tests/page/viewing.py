@@ -198,6 +198,29 @@ class Viewing(unittest.TestCase):
             return [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data];""")
         shown = bytes(value for i, value in enumerate(shown) if i % 4 < 3)
         self.assertEqual(shown, bytes(reference.pixels))
+
+    def test_a_term_of_the_picture_is_shown_in_its_place(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.unfold_all()
+        self.browser.enter('[data-path="object.0.color"] input', "#20c040")
+        self.compare("wipe")
+        sky = self.browser.run('return [...document.querySelectorAll("#reference-term option")].find((o) => o.value === "light.0").textContent')
+        self.assertEqual(sky, "sky alone")
+        for term in ("diffuse", "light.0", "depth"):
+            with self.subTest(term):
+                self.browser.enter("#reference-term", term)
+                self.wait_for("!document.getElementById('reference-canvas').hidden")
+                picture = self.folder / "picture.ppm"
+                candela("render", self.file, "-o", picture, "--terms", term, "--set", "object.0.color=[32,192,64]")
+                expected = Picture.of_ppm(self.folder / f"picture.{term}.ppm")
+                shown = self.browser.run("""
+                    const canvas = document.getElementById("reference-canvas");
+                    return [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data];""")
+                self.assertEqual(bytes(value for i, value in enumerate(shown) if i % 4 < 3), bytes(expected.pixels))
+        # Where pictures differ is a question about the whole ones.
+        self.assertIn("pixels differ", self.compare("difference"))
+        self.assertFalse(self.browser.one("#reference-term").is_displayed())
         self.assertIn("inset(", self.browser.run("return document.getElementById('reference-canvas').style.clipPath"))
         # Messages take room from the picture; the two stay where they were to one another.
         self.changed("[[light]]", "[[lihgt]]")

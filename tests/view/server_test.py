@@ -274,6 +274,17 @@ class ServerTest(unittest.TestCase):
         self.assertEqual(self.view.status(f"/{self.view.token}/reference.png?pixel=1%2C2"), 400)
         self.assertEqual(self.view.status(f"/{self.view.token}/explanation.json?pixel=1%2C2", method="POST"), 405)
 
+    def test_a_term_stands_in_for_the_picture(self):
+        path = f"/{self.view.token}/reference.png"
+        picture = self.view.get(f"{path}?set=object.0.color%3D%5B9,200,9%5D&terms=diffuse").split(b"\r\n\r\n", 1)[1]
+        expected = self.view.folder / "expected.png"
+        subprocess.run([COMMAND, "render", "--quiet", self.view.file, "-o", expected, "--set", "object.0.color=[9,200,9]", "--terms", "diffuse"],
+                       env=ENVIRONMENT, check=True)
+        self.assertEqual(picture, expected.with_suffix(".diffuse.png").read_bytes())
+        for query, status in (("terms=diffuse&terms=normal", 400), ("terms", 400), ("terms=difuse", 422), ("terms=..%2Fx", 422), ("terms=", 422)):
+            self.assertEqual(self.view.status(f"{path}?{query}"), status, query)
+        self.assertEqual(self.view.status(f"/{self.view.token}/explanation.json?pixel=1%2C2&terms=diffuse"), 400)
+
     def test_options_that_change_no_picture_are_refused(self):
         for query in ("output=/tmp/x", "plugin-dir=/tmp", "set", "set=%", "set=%zz", "set=%00", "=", "set=a&-o=b", "&"):
             self.assertEqual(self.view.status(f"/{self.view.token}/reference.png?{query}"), 400, query)

@@ -1,7 +1,17 @@
 import { queryOf } from "./options.js";
+import { element } from "./elements.js";
 import { layOver, onMoved } from "./overlay.js";
+import { displayName } from "./scene.js";
 
 const DELAY_MS = 120;  // a hand that moves a slider does not wait for pictures
+
+/** What can be shown of a picture: names of terms, as `candela render --terms` has them, and what they are. */
+function termsOf(scene) {
+    const terms = [["", "the picture"], ["ambient", "ambient, I_a"], ["diffuse", "diffuse, the sum of I_d"], ["specular", "specular, the sum of I_s"]];
+    scene.lights.forEach(({ label }, i) => terms.push([`light.${i}`, `${displayName(label, "light", i)} alone`], [`n_dot_l.${i}`, `N·L of ${displayName(label, "light", i)}`]));
+    return [...terms, ["surroundings", "surroundings"], ["background", "background"], ["normal", "N"], ["face_normal", "the faces' normals"], ["depth", "depth"],
+        ["position", "position"], ["barycentric", "barycentric coordinates"], ["uv", "texture coordinates"], ["facing", "front and back"], ["object", "objects"], ["triangle", "triangles"]];
+}
 
 /** How two pictures of RGBA bytes differ: the differences' statistics, and a picture of them from black to white. */
 export function compare(a, b) {
@@ -33,9 +43,12 @@ export class Reference {
         this.mode = document.getElementById("reference-mode");
         this.share = document.getElementById("reference-share");
         this.text = document.getElementById("reference-text");
+        this.term = document.getElementById("reference-term");
+        this.term.replaceChildren(...termsOf(settings.scene).map(([value, text]) => element("option", { value }, text)));
         this.request = 0;
         document.getElementById("reference").hidden = false;
         this.mode.addEventListener("change", () => this.invalidate());
+        this.term.addEventListener("change", () => this.invalidate());
         this.share.addEventListener("input", () => this.place());
         onMoved(this.overlay, canvas, () => this.place());
         settings.listeners.push(() => this.invalidate());
@@ -46,6 +59,7 @@ export class Reference {
         this.request += 1;
         const isOn = this.mode.value !== "off";
         this.share.parentElement.hidden = this.mode.value !== "wipe";
+        this.term.parentElement.hidden = this.mode.value !== "wipe";  // a term differs from the page's picture by design
         this.overlay.hidden = true;
         this.text.textContent = isOn ? "Candela renders …" : "";
         clearTimeout(this.timer);
@@ -55,7 +69,8 @@ export class Reference {
     async update(request) {
         let picture = null, problem = "";
         try {
-            const response = await fetch(`reference.png?${queryOf(this.settings)}`);
+            const query = [queryOf(this.settings), this.shownTerm() === "" ? "" : `terms=${this.shownTerm()}`].filter((part) => part !== "").join("&");
+            const response = await fetch(`reference.png?${query}`);
             if (response.ok) picture = await createImageBitmap(await response.blob(), { colorSpaceConversion: "none" });
             else problem = await response.text();
         } catch (error) {
@@ -66,18 +81,28 @@ export class Reference {
         else this.show(picture);
     }
 
+    /** The term in place of the picture; empty for the picture itself. */
+    shownTerm() {
+        return this.mode.value === "wipe" ? this.term.value : "";
+    }
+
     show(picture) {
         const { width, height } = picture, { overlay } = this;
         Object.assign(overlay, { width, height });
         const context = overlay.getContext("2d", { willReadFrequently: true });
         context.drawImage(picture, 0, 0);
+        if (this.shownTerm() === "") this.tellDifference(context, width, height);
+        else this.text.textContent = "";
+        overlay.hidden = false;
+        this.place();
+    }
+
+    tellDifference(context, width, height) {
         const own = this.pixels(width, height), reference = context.getImageData(0, 0, width, height).data;
         const { heat, largest, mean, beyond, pixels } = compare(own, reference);
         if (this.mode.value === "difference") context.putImageData(new ImageData(heat, width, height), 0, 0);
         const count = beyond === 1 ? "1 pixel differs" : `${beyond} of ${pixels} pixels differ`;
         this.text.textContent = `${count} by more than 2 levels of 255; at most ${largest}, ${mean.toFixed(4)} on average.`;
-        overlay.hidden = false;
-        this.place();
     }
 
     place() {
