@@ -3,7 +3,7 @@
 # release build first.
 #   scripts/lint.sh              what differs from upstream, committed or not, and whatever includes or imports that
 #   scripts/lint.sh --since REV  the same against REV
-#   scripts/lint.sh --all        everything (a quarter of an hour with two cores)
+#   scripts/lint.sh --all        everything (half an hour with two cores)
 #   scripts/lint.sh --format     only clang-format, which takes a second
 # Where nothing differs from upstream, as in a fresh clone, everything is checked, unless the environment variable
 # CANDELA_LINT_SINCE names a commit to compare with.
