@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -178,6 +179,16 @@ candela::SceneRequest scene_request_from(const CommandLine& line) {
     // Who answers types on standard input, which a scene may have used up.
     if (can_ask() && request.streams.empty()) request.ask = ask;
     return request;
+}
+
+std::vector<std::string> words_of(const std::string& list) {
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        words.push_back(list.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return words;
 }
 
 void require_no_terminal(const std::string& output) {

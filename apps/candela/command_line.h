@@ -55,6 +55,9 @@ candela::SceneRequest scene_request_from(const CommandLine& line);
 /// The PATH=VALUE pairs of an option that may be repeated.
 std::vector<candela::Setting> settings_from(const CommandLine& line, const std::string& option);
 
+/// What stands between the commas of a list; empty words too.
+std::vector<std::string> words_of(const std::string& list);
+
 /// Throws Error (bad_request) where `output` is "-", standard output, and that is a terminal.
 void require_no_terminal(const std::string& output);
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "compiling.h"
 #include "output_folder.h"
@@ -13,20 +13,6 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
-
-namespace {
-
-std::vector<std::string> words_of(const std::string& list) {
-    std::vector<std::string> words;
-    for (std::size_t begin = 0; begin <= list.size();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        if (end > begin) words.push_back(list.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return words;
-}
-
-}  // namespace
 
 void add_models_option(CommandLine& line) {
     line.options()(
@@ -52,7 +38,10 @@ std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::R
 candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport& scene,
                                 const CommandLine& line, candela::Registry& registry) {
     candela::ExportRequest request{.title = scene.title, .abilities = target.abilities()};
-    if (line.has("models")) request.extra_models = words_of(line.get<std::string>("models"));
+    if (line.has("models")) {
+        request.extra_models = words_of(line.get<std::string>("models"));
+        std::erase(request.extra_models, "");
+    }
     request.with_model = [&](candela::PluginKind kind, const std::string& name) {
         candela::SceneRequest again = scene_request_from(line);
         // What was asked has been answered.

@@ -137,17 +137,14 @@ int run_render(const std::vector<std::string>& arguments) {
     const bool is_verbose = line.has("verbose");
     const Stopwatch writing;
     TermRenderer term_renderer(*compiled, threads);
-    // A pixel takes its encoder some three nanoseconds.
-    candela::with_threads(
-        threads,
-        [&] {
-            if (format.has_layers && !terms.empty()) {
-                write_with_layers(film, terms, term_renderer, format, output, registry, existing);
-            } else {
-                candela::write_picture(film, format, output, registry, existing);
-            }
-        },
-        3e-6 * film.width() * film.height());
+    if (format.has_layers && !terms.empty()) {
+        write_with_layers(film, terms, term_renderer, format, output, registry, existing);
+    } else {
+        // A pixel takes its encoder some three nanoseconds.
+        candela::with_threads(
+            threads, [&] { candela::write_picture(film, format, output, registry, existing); },
+            3e-6 * film.width() * film.height());
+    }
     for (std::size_t i = 0; i < term_files.size(); ++i)
         candela::write_picture(term_renderer.picture(terms[i], format.pixels), format, term_files[i],
                                registry, existing);

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <utility>
 
+#include "command_line.h"
+
 import candela.diagnostics;
 import candela.image;
 import candela.text;
@@ -223,11 +225,8 @@ bool is_intensity(Term term) {
 std::vector<NamedTerm> terms_from(const std::string& list, const candela::Scene& scene) {
     const std::vector<NamedTerm> possible = possible_terms(scene);
     std::vector<NamedTerm> terms;
-    for (std::size_t begin = 0; begin <= list.size();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        for (NamedTerm& term : meant_by(list.substr(begin, end - begin), possible))
-            add(terms, std::move(term));
-        begin = end + 1;
+    for (const std::string& word : words_of(list)) {
+        for (NamedTerm& term : meant_by(word, possible)) add(terms, std::move(term));
     }
     return terms;
 }
@@ -268,7 +267,8 @@ Film TermRenderer::picture(const NamedTerm& term, candela::PixelType pixels) {
     if (pixels == candela::PixelType::real) return film;
     Planes planes(film);
     if (is_intensity(term.term)) return planes.film(pixels, scene_.image.color_management);
-    map_to_colors(term.term, planes, Planes(values({"facing", Term::facing})).channel[0]);
+    if (facing_.empty()) facing_ = std::move(Planes(values({"facing", Term::facing})).channel[0]);
+    map_to_colors(term.term, planes, facing_);
     return planes.film(pixels, candela::ColorEncoding::none);
 }
 

@@ -51,6 +51,7 @@ class TermRenderer {
     // Each remembers what is visible: with the picture's samples, and in the middle of each pixel.
     candela::Renderer lit_{candela::Renderer::Keep::visibility};
     candela::Renderer geometric_{candela::Renderer::Keep::visibility};
+    std::vector<float> facing_;  // a pixel each, once a term has needed them
 };
 
 /// Writes the picture, whose pixels are floats, and the terms as layers of one file.
