@@ -253,8 +253,9 @@ KernelProgram::KernelProgram() {
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
     const fs::path file = directory_.path() / "kernel.cpp", library = directory_.path() / "kernel.so";
     std::ofstream(file) << source();
-    std::vector<std::string> arguments{"-std=c++20",       "-O1", "-fPIC", "-shared", "-Wall", "-Wextra",
-                                       "-ffp-contract=off"};
+    // What it needs of the libraries is in this process already.
+    std::vector<std::string> arguments{"-std=c++20", "-O1",   "-fPIC",   "-shared",
+                                       "-nostdlib",  "-Wall", "-Wextra", "-ffp-contract=off"};
     // A local variable that is not initialised is NaN then; g++ 11 has no such option.
     if (compiler->find("clang") != std::string::npos)
         arguments.emplace_back("-ftrivial-auto-var-init=pattern");

@@ -9,8 +9,6 @@
 // Include kernels inside `namespace candela::kernel { ... }`, where the names resolve to these functions.
 #pragma once
 
-#include <bit>
-#include <cmath>
 #include <cstdint>
 
 #include "candela/kernel_vectors.h"
@@ -21,6 +19,16 @@
 #define KERNEL [[gnu::always_inline, maybe_unused]] static inline
 
 namespace candela::kernel {
+
+// std::bit_cast() would do, but its header and <cmath> are slower to compile than all the rest of a kernel,
+// and kernels are compiled while somebody waits.
+
+CANDELA_KERNEL_INLINE constexpr std::int32_t float_bits_to_int(float x) {
+    return __builtin_bit_cast(std::int32_t, x);
+}
+CANDELA_KERNEL_INLINE constexpr float int_bits_to_float(std::int32_t x) {
+    return __builtin_bit_cast(float, x);
+}
 
 // Comparison and rounding.
 
@@ -61,7 +69,7 @@ CANDELA_KERNEL_INLINE float sqrt(float x) { return __builtin_sqrtf(x); }
 /// processor computes in one unit, element by element.
 CANDELA_KERNEL_INLINE float inversesqrt(float x) {
     const float bounded = min(x, 3.4e38f);
-    const auto guess = std::bit_cast<float>(0x5f300000 - (std::bit_cast<std::int32_t>(bounded) >> 1));
+    const auto guess = int_bits_to_float(0x5f300000 - (float_bits_to_int(bounded) >> 1));
     const float h = bounded * guess * guess;
     const float y = guess * ((0.44615132f * h - 1.38836106f) * h + 1.94225498f);
     const float rest = 1.0f - bounded * y * y;
@@ -80,14 +88,14 @@ CANDELA_KERNEL_INLINE float exp2(float x) {
     p = p * f + 0.24022652783f;
     p = p * f + 0.69314721497f;
     p = p * f + 1.0f;
-    return std::bit_cast<float>(std::bit_cast<std::int32_t>(p) + (static_cast<std::int32_t>(whole) << 23));
+    return int_bits_to_float(float_bits_to_int(p) + (static_cast<std::int32_t>(whole) << 23));
 }
 
 /// Base-two logarithm of x; that of 2^-126 for anything smaller [1.7e-7].
 CANDELA_KERNEL_INLINE float log2(float x) {
-    const auto bits = std::bit_cast<std::int32_t>(max(x, 1.17549435e-38f));
+    const auto bits = float_bits_to_int(max(x, 1.17549435e-38f));
     const std::int32_t exponent = (bits - 0x3f3504f3) >> 23;  // mantissa in [sqrt(1/2), sqrt(2))
-    const float f = std::bit_cast<float>(bits - (exponent << 23)) - 1.0f;
+    const float f = int_bits_to_float(bits - (exponent << 23)) - 1.0f;
     float p = -0.14581009726f;
     p = p * f + 0.23404164661f;
     p = p * f - 0.24887708166f;
