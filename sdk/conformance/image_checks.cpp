@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -119,6 +120,17 @@ class FullDisk final : public candela::ByteSink {
   private:
     std::size_t room_;
 };
+
+/// Whether `write`, called with a disk that has room for so many bytes, throws.
+bool reports_full_disk(std::size_t room, const std::function<void(candela::ByteSink&)>& write) {
+    FullDisk disk(room);
+    try {
+        write(disk);
+    } catch (const std::exception&) {
+        return true;
+    }
+    return false;
+}
 
 class ReadBack final : public candela::PictureSink {
   public:
@@ -243,14 +255,7 @@ TEST_CASE("layers: the picture in a file of layers is its first three channels",
             write(again);
             if (memory.bytes != again.bytes)
                 FAIL("a ." << format.extension << " in layers is another file the second time");
-            FullDisk disk(memory.bytes.size() - 1);
-            bool says_so = false;
-            try {
-                write(disk);
-            } catch (const std::exception&) {
-                says_so = true;
-            }
-            if (!says_so)
+            if (!reports_full_disk(memory.bytes.size() - 1, write))
                 FAIL("a ." << format.extension
                            << " in layers has no room on the disk, and nothing is reported");
             const auto reader = reader_of(format, writer);
@@ -336,14 +341,9 @@ TEST_CASE("failing writes: where its bytes cannot be stored it says so", "[image
         Memory whole;
         writer->write(picture.view(format.pixels), format.extension, whole);
         for (const std::size_t room : {std::size_t{0}, whole.bytes.size() / 2, whole.bytes.size() - 1}) {
-            FullDisk disk(room);
-            bool says_so = false;
-            try {
-                writer->write(picture.view(format.pixels), format.extension, disk);
-            } catch (const std::exception&) {
-                says_so = true;
-            }
-            if (!says_so)
+            if (!reports_full_disk(room, [&](candela::ByteSink& sink) {
+                    writer->write(picture.view(format.pixels), format.extension, sink);
+                }))
                 FAIL("after " << room << " of " << whole.bytes.size() << " bytes of a ." << format.extension
                               << " the disk is full, and it reports nothing");
         }

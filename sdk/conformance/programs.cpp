@@ -19,19 +19,12 @@ std::optional<std::string> program_called(const std::vector<std::string>& names)
     return std::nullopt;
 }
 
-ProgramOutput output_of(const std::string& program, const std::vector<std::string>& arguments,
-                        StandardError errors) {
-    const auto run = [&](auto&&... streams) {
-        process::ipstream output;
-        process::child child(program, process::args(arguments), process::std_in < process::null,
-                             streams(output)...);
-        const std::string text(std::istreambuf_iterator<char>(output), {});
-        child.wait();
-        const int status = child.native_exit_code();
-        return ProgramOutput{WIFEXITED(status) ? WEXITSTATUS(status) : 126, text};
-    };
-    if (errors == StandardError::kept)
-        return run([](process::ipstream& to) { return (process::std_out & process::std_err) > to; });
-    return run([](process::ipstream& to) { return process::std_out > to; },
-               [](process::ipstream&) { return process::std_err > process::null; });
+ProgramOutput output_of(const std::string& program, const std::vector<std::string>& arguments) {
+    process::ipstream output;
+    process::child child(program, process::args(arguments),
+                         process::std_in<process::null, (process::std_out & process::std_err)> output);
+    const std::string text(std::istreambuf_iterator<char>(output), {});
+    child.wait();
+    const int status = child.native_exit_code();
+    return ProgramOutput{WIFEXITED(status) ? WEXITSTATUS(status) : 126, text};
 }

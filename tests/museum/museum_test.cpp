@@ -94,6 +94,7 @@ TEST_CASE("a plugin without fault conforms") {
 TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
     const std::vector<Fault> faults = {
         {"reflection-traps-on-load", "handshake", "crashed", "SIGILL"},
+        {"reflection-exports-a-helper", "symbols", "failed", "matt_factor"},
         {"reflection-throws-on-create", "instances", "failed", "create() threw 'out of paint'"},
         {"reflection-throws-a-number", "finite", "failed", "Unknown exception"},
         {"reflection-throws-in-ambient", "finite", "failed", "no ambience"},

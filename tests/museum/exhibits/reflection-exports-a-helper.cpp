@@ -1,0 +1,20 @@
+// Built without the SDK's list of what a plugin exports: a helper can be seen by all other plugins.
+#include "museum.h"
+
+[[gnu::visibility("default")]] float matt_factor(float cosine);
+float matt_factor(float cosine) { return cosine > 0 ? cosine : 0; }
+
+namespace {
+class ExportsAHelper final : public museum::Matt {
+  public:
+    using Matt::Matt;
+
+  private:
+    float factor(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                 std::size_t i) const override {
+        return kd_ * matt_factor(dot(s.normal[i], light.to_light[i]));
+    }
+};
+}  // namespace
+
+MUSEUM_PIECE(ExportsAHelper)
