@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <mutex>
 #include <new>
 #include <string>
 #include <string_view>
@@ -35,7 +36,10 @@ void be_quiet() { quiet = true; }
 bool is_quiet() { return quiet; }
 
 void say(const std::string& text) {
-    if (!quiet) std::cerr << text;
+    if (quiet) return;
+    static std::mutex mutex;
+    const std::scoped_lock lock(mutex);
+    std::cerr << text;
 }
 
 int fail(ExitCode code, const std::string& message) {

@@ -112,6 +112,8 @@ int run_view(const std::vector<std::string>& arguments) {
                     if (!outcome.is_success) warn("not saved: " + outcome.content);
                     return outcome;
                 }});
+    // The follower says something on a thread of its own, which is not to flush what is printed by this one.
+    std::cerr.tie(nullptr);
     std::optional<SceneFollower> follower(
         std::in_place,
         SceneFollower::Job{.arguments = for_generate,
