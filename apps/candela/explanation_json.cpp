@@ -106,11 +106,17 @@ Json json_of(const Explanation& e, const FragmentProbe& fragment) {
     Json points = Json::array();
     for (const PointTrace& point : fragment.points)
         points.push_back(json_of(e, point, object.reflection.name));
-    return {{"object", object.label},         {"type", object.shape.name},
-            {"triangle", fragment.triangle},  {"barycentric", json_of(fragment.barycentric)},
-            {"weight", fragment.weight},      {"position", json_of(fragment.position)},
-            {"shading", object.shading.name}, {"shaded_per", name_of(fragment.rate)},
-            {"points", std::move(points)},    {"I", json_of(fragment.intensity)}};
+    return {{"object", object.label},
+            {"index", fragment.object},
+            {"type", object.shape.name},
+            {"triangle", fragment.triangle},
+            {"barycentric", json_of(fragment.barycentric)},
+            {"weight", fragment.weight},
+            {"position", json_of(fragment.position)},
+            {"shading", object.shading.name},
+            {"shaded_per", name_of(fragment.rate)},
+            {"points", std::move(points)},
+            {"I", json_of(fragment.intensity)}};
 }
 
 }  // namespace

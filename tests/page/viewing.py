@@ -1,4 +1,6 @@
 """The page that `candela view` serves, in a browser, while its scene's files are saved."""
+import json
+import math
 import os
 import re
 import shlex
@@ -275,6 +277,75 @@ class Viewing(unittest.TestCase):
         canvas.send_keys(Keys.ARROW_LEFT)
         self.assertEqual(self.browser.text("#explanation-result"), "")
         self.assertEqual(self.browser.errors(), [])
+
+    def test_lobes_are_what_the_model_reflects_of_a_light_in_all_directions(self):
+        self.file.write_text(scenes.PERSPECTIVE.replace("blinn-phong", "phong"))
+        x, y = 54, 60
+
+        def sun_on_ball(*options):
+            text = subprocess.check_output([COMMAND, "explain", self.file, "--pixel", f"{x},{y}", "--json", "--quiet", *options], env=ENVIRONMENT)
+            fragment = json.loads(text)["fragments"][0]
+            self.assertEqual(fragment["object"], "'ball'")
+            point = fragment["points"][0]
+            return point, next(light for light in point["lights"] if light["light"] == "'sun'")
+
+        point, light = sun_on_ball()
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.enter("#explanation-x", str(x))
+        self.browser.enter("#explanation-y", str(y))
+        self.browser.one("#explanation-form button").click()
+        self.explained()
+        lights = self.browser.run('return [...document.querySelectorAll("#explanation-result label")].find((e) => e.textContent === "Light").htmlFor')
+        option = self.browser.run("return [...document.getElementById(arguments[0]).options].find((o) => o.textContent === 'sun').value", lights)
+        self.browser.enter(f"#{lights}", option)
+
+        # Phong (1975) for the ball's kd, ks and shininess, over the angles of the plane of incidence.
+        luminance = lambda color: 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
+        n_dot_l = light["N.L"]
+        diffuse = 0.6 * n_dot_l * luminance([c * i for c, i in zip(point["C_o"], light["diffuse"])])
+        specular = 0.35 * luminance(light["specular"])
+        phong = lambda angle: diffuse + specular * max(0.0, math.cos(angle - math.acos(n_dot_l))) ** 20
+        peak = phong(math.acos(n_dot_l))
+        curve = lambda i: [[float(c) for c in xy.split(",")] for xy in self.browser.run(
+            "return document.querySelectorAll('.lobe-diagram .curve')[arguments[0]].getAttribute('points')", i).split()[1:]]
+        self.assertGreater(len(curve(0)), 180)
+        for right, down in curve(0):
+            self.assertAlmostEqual(math.hypot(right, down) / 100, phong(math.atan2(right, -down)) / peak, delta=2e-3)
+        numbers = lambda: [float(x) for x in re.findall(r"(?:at most|observer:) ([0-9.e-]+)", self.browser.text(".lobe figcaption"))]
+        towards_observer = luminance([d + s for d, s in zip(light["I_d"], light["I_s"])])
+        for shown, expected in zip(numbers(), (peak, towards_observer), strict=True):
+            self.assertAlmostEqual(shown, expected, delta=2e-3 * peak)
+        # Lambert's is the same in all directions: a part of a circle.
+        self.browser.enter(".lobe-choices select", "lambert")
+        lambert = luminance(sun_on_ball("--reflection", "lambert")[1]["I_d"])
+        self.assertAlmostEqual(numbers()[1], lambert, delta=2e-3 * lambert)
+        for right, down in curve(1):
+            self.assertAlmostEqual(math.hypot(right, down) / 100, lambert / max(lambert, peak), delta=2e-3)
+        # On four decades, a hundredth is half as far out.
+        self.browser.one(".lobe-choices input").click()
+        for right, down in curve(0):
+            share = phong(math.atan2(right, -down)) / max(lambert, peak)
+            self.assertAlmostEqual(math.hypot(right, down) / 100, 1 + math.log10(share) / 4, delta=2e-3)
+
+        # The page's picture is still there.
+        seen = Picture.of_png(self.browser.one("#picture-canvas").screenshot_as_png)
+        beside_it = 3 * (seen.width * (seen.height // 2) + 10)
+        self.assertEqual(list(seen.pixels[beside_it:beside_it + 3]), [30, 40, 60])
+
+        # The surface stands on the point, above the ball, and goes with the explanation.
+        covered = lambda: self.browser.run("""
+            const canvas = document.getElementById("lobe-canvas"), { width, height } = canvas;
+            const alphas = canvas.getContext("2d").getImageData(0, 0, width, height).data.filter((_, i) => i % 4 === 3);
+            return [...alphas.keys()].filter((i) => alphas[i] > 100).map((i) => [i % width, Math.floor(i / width)]);""")
+        places = covered()
+        self.assertGreater(len(places), 50)
+        self.assertTrue(all(abs(px - x) < 40 and abs(py - y) < 40 for px, py in places))
+        self.assertLess(min(abs(px - x) + abs(py - y) for px, py in places), 4)
+        self.browser.one("#explanation-close").click()
+        self.assertEqual(covered(), [])
+        self.assertEqual(self.browser.errors(), [])
+        self.assert_shows()
 
     def save_changes(self):
         self.browser.one("#save-scene").click()

@@ -16,6 +16,7 @@
 
 CANDELA_EMBED(candela_webgl_page, CANDELA_SOURCE_DIR "/templates/page.html");
 CANDELA_EMBED(candela_webgl_style, CANDELA_SOURCE_DIR "/templates/page.css");
+CANDELA_EMBED(candela_webgl_lobe, CANDELA_SOURCE_DIR "/templates/lobe.glsl");
 CANDELA_EMBED(candela_webgl_script, CANDELA_PAGE_SCRIPT);
 
 namespace candela::webgl_target {
@@ -209,9 +210,12 @@ Json scene_json(const ExportedScene& scene) {
         Json& json = light_models[model.plugin->name] = model_json(model, model.plugin->kernel.text);
         json["block"] = block_json(model, blocks[i]);
     }
-    for (std::size_t i = 0; i < scene.reflections.size(); ++i)
-        reflections[scene.reflections[i].plugin->name] =
+    for (std::size_t i = 0; i < scene.reflections.size(); ++i) {
+        Json& json = reflections[scene.reflections[i].plugin->name] =
             model_json(scene.reflections[i], glsl.reflections[i]);
+        json["needs_tangent"] = scene.reflections[i].needs_tangent;
+        json["needs_uv"] = scene.reflections[i].needs_uv;
+    }
     for (std::size_t i = 0; i < scene.shadings.size(); ++i) {
         Json& model = shadings[scene.shadings[i].plugin->name] =
             model_json(scene.shadings[i], glsl.shadings[i]);
@@ -230,7 +234,8 @@ Json scene_json(const ExportedScene& scene) {
               {"fragment", glsl.fragment},
               {"screen", glsl.screen},
               {"accumulate", glsl.accumulate},
-              {"encode", glsl.encode}}},
+              {"encode", glsl.encode},
+              {"lobe", std::string(candela_webgl_lobe)}}},
             {"light_table_width", k_light_table_width},
             {"tables", packed(scene.tables)},
             {"table_width", k_table_width},

@@ -49,6 +49,13 @@ function structMembers(settings, model, prefix, fixed, isSrgb) {
     });
 }
 
+/** What a reflection model reads of an object's material, be it the object's own model or not. */
+export function materialUniforms(settings, index, reflection) {
+    const { scene } = settings, isSrgb = scene.image.color_management === "srgb";
+    return modelUniforms(settings, scene.reflection_models[reflection], `object.${index}.material.${reflection}.`,
+        scene.objects[index].fixed.material[reflection], "material", isSrgb);
+}
+
 /** A snapshot of the settings as the renderer takes them, so that they may change while it refines a picture. */
 export function appearanceOf(settings) {
     const { scene } = settings;
@@ -60,14 +67,12 @@ export function appearanceOf(settings) {
             ({ model, members: structMembers(settings, scene.light_models[model], prefix, fixed, isSrgb) }));
     const objects = scene.objects.map((object, i) => {
         const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
-        const shadingModel = scene.shading_models[shading], reflectionModel = scene.reflection_models[reflection];
+        const shadingModel = scene.shading_models[shading];
         return {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
             uniforms: [
                 ["object_color", toUniform(COLOR, settings.get(`object.${i}.color`), isSrgb)],
-                ...modelUniforms(
-                    settings, reflectionModel, `object.${i}.material.${reflection}.`, object.fixed.material[reflection],
-                    "material", isSrgb),
+                ...materialUniforms(settings, i, reflection),
                 ...modelUniforms(
                     settings, shadingModel, `object.${i}.shading.${shading}.`, object.fixed.shading[shading], "shading", isSrgb),
             ],

@@ -1,8 +1,8 @@
 import { viewAxes } from "./camera.js";
+import { svgElement } from "./elements.js";
 import { add, dot, scale, subtract } from "./vectors.js";
 
-const LENGTH = 0.16;  // of the picture's height, at the depth of the point
-const NAMESPACE = "http://www.w3.org/2000/svg";
+export const ARROW_LENGTH = 0.16;  // of the picture's height, at the depth of the point
 
 /** Where a point of the scene is in the picture, in units of its height from its middle, to the right and down; null behind the observer. */
 export function project(observer, position) {
@@ -12,15 +12,8 @@ export function project(observer, position) {
     return across > 0 ? { x: dot(right, from) / across, y: -dot(up, from) / across, across } : null;
 }
 
-const part = (tag, attributes, text = "") => {
-    const result = document.createElementNS(NAMESPACE, tag);
-    for (const [name, value] of Object.entries(attributes)) result.setAttribute(name, value);
-    result.textContent = text;
-    return result;
-};
-
 /** What arrows are drawn into; it lies over the picture. */
-export const arrowLayer = () => part("svg", { id: "arrows", "aria-hidden": "true" });
+export const arrowLayer = () => svgElement("svg", { id: "arrows", "aria-hidden": "true" });
 
 /** Unit vectors that stand on a point, as arrows with their names, drawn into an SVG element that covers the picture. */
 export function drawArrows(svg, observer, width, height, position, vectors) {
@@ -31,15 +24,15 @@ export function drawArrows(svg, observer, width, height, position, vectors) {
     const place = ({ x, y }) => [width / 2 + x * height, height / 2 + y * height];
     const [x0, y0] = place(from), unit = height / 100;
     for (const [name, vector] of vectors) {
-        const to = project(observer, add(position, scale(vector, LENGTH * from.across)));
+        const to = project(observer, add(position, scale(vector, ARROW_LENGTH * from.across)));
         if (to === null) continue;
         const [x, y] = place(to), angle = Math.atan2(y - y0, x - x0), tip = (turn) => `${x - 2.4 * unit * Math.cos(angle + turn)},${y - 2.4 * unit * Math.sin(angle + turn)}`;
-        const group = part("g", { class: `arrow arrow-${name}` });
+        const group = svgElement("g", { class: `arrow arrow-${name}` });
         group.append(
-            part("line", { x1: x0, y1: y0, x2: x, y2: y, "stroke-width": 0.7 * unit }),
-            part("polygon", { points: `${x},${y} ${tip(0.45)} ${tip(-0.45)}` }),
-            part("text", { x: x + 2.6 * unit * Math.cos(angle), y: y + 2.6 * unit * Math.sin(angle) + 1.4 * unit, "font-size": 4.4 * unit, "text-anchor": "middle" }, name));
+            svgElement("line", { x1: x0, y1: y0, x2: x, y2: y, "stroke-width": 0.7 * unit }),
+            svgElement("polygon", { points: `${x},${y} ${tip(0.45)} ${tip(-0.45)}` }),
+            svgElement("text", { x: x + 2.6 * unit * Math.cos(angle), y: y + 2.6 * unit * Math.sin(angle) + 1.4 * unit, "font-size": 4.4 * unit, "text-anchor": "middle" }, name));
         svg.append(group);
     }
-    svg.append(part("circle", { cx: x0, cy: y0, r: 0.9 * unit, class: "arrow-origin" }));
+    svg.append(svgElement("circle", { cx: x0, cy: y0, r: 0.9 * unit, class: "arrow-origin" }));
 }

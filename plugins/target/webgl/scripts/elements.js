@@ -17,5 +17,13 @@ export function element(tag, properties = {}, ...children) {
     return result;
 }
 
+/** An element of a drawing. */
+export function svgElement(tag, attributes, ...children) {
+    const result = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [name, value] of Object.entries(attributes)) result.setAttribute(name, value);
+    result.append(...children);
+    return result;
+}
+
 /** A text of any language, whose writing direction does not affect what stands around it. */
 export const isolated = (text) => element("bdi", {}, text);

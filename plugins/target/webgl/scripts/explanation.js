@@ -1,5 +1,6 @@
 import { arrowLayer, drawArrows } from "./arrows.js";
 import { element, isolated, newId } from "./elements.js";
+import { Lobes } from "./lobes.js";
 import { announce } from "./messages.js";
 import { queryOf } from "./options.js";
 import { layOver, onMoved } from "./overlay.js";
@@ -34,10 +35,12 @@ function steps(title, list) {
  * picture. Only where `candela view` serves the page, since the explanation comes from there.
  */
 export class Explanation {
-    constructor(settings, canvas) {
+    /** `renderer`: gives the one that draws the page now. */
+    constructor(settings, canvas, renderer) {
         Object.assign(this, { settings, canvas, request: 0 });
         const byId = (id) => document.getElementById(id);
         Object.assign(this, { section: byId("explanation"), x: byId("explanation-x"), y: byId("explanation-y"), result: byId("explanation-result"), closing: byId("explanation-close"), arrows: arrowLayer() });
+        this.lobes = new Lobes(settings, canvas, renderer);
         canvas.parentElement.append(this.arrows);
         this.section.hidden = false;
         byId("explanation-form").addEventListener("submit", (event) => {
@@ -70,6 +73,7 @@ export class Explanation {
         this.request += 1;
         this.fit();
         this.arrows.replaceChildren();
+        this.lobes.clear();
         this.result.replaceChildren();
         this.closing.hidden = true;
     }
@@ -129,24 +133,25 @@ export class Explanation {
         const shown = element("div"), { points } = fragment;
         const about = element("p", {}, isolated(nameOf(fragment.object)), `, triangle ${fragment.triangle}, barycentric ${numbers(fragment.barycentric)}; lit per ${fragment.shaded_per} (`,
             isolated(fragment.shading), ")");
-        const choice = this.choice("Point", points.map((_, i) => (points.length === 3 ? `vertex ${i + 1}` : "the point")), (i) => shown.replaceChildren(...this.pointParts(points[i])));
+        const choice = this.choice("Point", points.map((_, i) => (points.length === 3 ? `vertex ${i + 1}` : "the point")), (i) => shown.replaceChildren(...this.pointParts(fragment, points[i])));
         return [about, ...choice, shown];
     }
 
-    pointParts(point) {
+    pointParts(fragment, point) {
         const shown = element("div"), name = ({ light, sample }) => nameOf(light) + (sample > 0 ? `, sample ${sample + 1}` : "");
-        const choice = this.choice("Light", point.lights.map(name), (i) => shown.replaceChildren(...this.lightParts(point, point.lights[i])));
+        const choice = this.choice("Light", point.lights.map(name), (i) => shown.replaceChildren(...this.lightParts(fragment, point, point.lights[i])));
         const sums = table("Of all lights", ["red", "green", "blue"], ["I_a", "I_d", "I_s", "I"].map((sum) => row(sum, ...point[sum].map(number))));
         if (point.lights.length === 0) this.drawVectors(point, vectorsOf(point, {}));
         return [steps("How N is found", point.normal_steps), ...choice, shown, sums].filter((part) => part !== null);
     }
 
-    lightParts(point, light) {
+    lightParts(fragment, point, light) {
         const vectors = vectorsOf(point, light);
         this.drawVectors(point, vectors);
         const arriving = light.ambient ? [["arriving", light.ambient]] : [["arriving, diffuse", light.diffuse], ["arriving, specular", light.specular]];
         return [
             table("Unit vectors", ["x", "y", "z"], vectors.map(([name, vector]) => row(name, ...vector.map(number)))),
+            ...this.lobes.parts(fragment.index, point, light),
             element("p", {}, `C_o = ${numbers(point.C_o)}`),
             "N.L" in light ? element("p", {}, `N·L = ${number(light["N.L"])}`) : null,
             table(`Of ${nameOf(light.light)}`, ["red", "green", "blue"],

@@ -81,7 +81,7 @@ export class Page {
         if (followScene((scene) => this.show(scene), showError)) {
             connectSaving(settings);
             this.reference = new Reference(settings, this.canvas, (width, height) => this.pixels(width, height));
-            this.explanation = new Explanation(settings, this.canvas);
+            this.explanation = new Explanation(settings, this.canvas, () => this.renderer);
         }
     }
 

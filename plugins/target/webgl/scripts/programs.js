@@ -9,7 +9,8 @@ class ShaderError extends Error {
 }
 
 class Program {
-    constructor(gl, title, vertexSource, fragmentSource) {
+    /** `captured`: the vertex shader's outputs that transform feedback writes. */
+    constructor(gl, title, vertexSource, fragmentSource, captured) {
         this.gl = gl;
         this.title = title;
         this.handle = gl.createProgram();
@@ -23,6 +24,7 @@ class Program {
             gl.attachShader(this.handle, shader);
             return shader;
         });
+        if (captured.length > 0) gl.transformFeedbackVaryings(this.handle, captured, gl.INTERLEAVED_ATTRIBS);
         gl.linkProgram(this.handle);
         this.locations = new Map();
         this.isChecked = false;
@@ -76,10 +78,10 @@ export class ProgramCache {
         this.inherited = previous?.bySource ?? new Map();
     }
 
-    compiled(title, vertexSource, fragmentSource) {
+    compiled(title, vertexSource, fragmentSource, captured = []) {
         const source = `${vertexSource}\n${fragmentSource}`;
         const inherited = this.inherited.get(source);
-        const program = inherited?.users > 0 ? inherited : new Program(this.gl, title, vertexSource, fragmentSource);
+        const program = inherited?.users > 0 ? inherited : new Program(this.gl, title, vertexSource, fragmentSource, captured);
         program.users += 1;
         this.bySource.set(source, program);
         return program;
@@ -99,6 +101,17 @@ export class ProgramCache {
                 (isClosed ? "" : "#define TWO_SIDED\n") + [shaders.prelude, shaders.lights, r.glsl, s.glsl, ""].join("\n");
             const title = `${r.title} with the shading model ${s.title}`;
             this.programs.set(key, this.compiled(title, common + shaders.vertex, common + shaders.fragment));
+        }
+        return this.programs.get(key);
+    }
+
+    /** The program that evaluates a reflection model for any directions. */
+    lobe(reflection) {
+        const key = `lobe ${reflection}`;
+        if (!this.programs.has(key)) {
+            const { shaders, reflection_models: { [reflection]: model } } = this.scene;
+            const vertex = [shaders.prelude, model.glsl, shaders.lobe].join("\n");
+            this.programs.set(key, this.compiled(`the lobe of ${model.title}`, vertex, "void main() {}", ["reflected"]));
         }
         return this.programs.get(key);
     }

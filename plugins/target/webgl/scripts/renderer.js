@@ -54,6 +54,11 @@ export class Renderer {
         throw new Error("This device's graphics cannot draw into pictures of floating-point numbers, which light is added up in.");
     }
 
+    /** The uniforms with which shaders read the models' tables. */
+    bindTables() {
+        return this.tables.bind(TABLES_UNIT);
+    }
+
     /** A film of that size; the caller releases it. Throws where the device has no room for it. */
     createFilm(width, height) {
         const { gl } = this;
@@ -86,7 +91,7 @@ export class Renderer {
             is_orthographic: { kind: "int", value: observer.projection === "orthographic" ? 1 : 0 },
             towards_observer: { kind: "vec3", value: scale(viewAxes(observer).forward, -1) },
             ...this.lights.bind(LIGHTS_UNIT, appearance.lights),
-            ...this.tables.bind(TABLES_UNIT),
+            ...this.bindTables(),
         };
         gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
         gl.viewport(0, 0, film.width, film.height);
