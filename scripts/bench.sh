@@ -7,6 +7,9 @@
 #   scripts/bench.sh --mesh-file                  against f3d on a PLY file of ten million triangles (two minutes)
 #   scripts/bench.sh --third-party                plugins built against an installation, as by a third party, against the shipped ones
 #   scripts/bench.sh --third-party --loops --compiler g++    the loops of reflection models, built by another compiler
+#   scripts/bench.sh --animation                  200 frames in one process against 200 processes (half a minute)
+#   scripts/bench.sh --textures                   frames with a texture of 4096 x 4096 against those without (two minutes)
+#   scripts/bench.sh --python                     models and pictures in Python against C++ (a minute)
 #   scripts/bench.sh --instructions               records how many instructions the default scene takes, which a test compares
 # On a machine that does nothing else.
 set -euo pipefail
@@ -30,6 +33,18 @@ fi
 if [ "${1-}" = --mesh-file ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
     exec python3 -B "$root/tests/bench/mesh_file.py" "$root/build/release" "$root/build/bench/mesh-file" "${@:2}"
+fi
+if [ "${1-}" = --textures ]; then
+    cmake --build --preset release --target candela_runtime >/dev/null
+    exec python3 -B "$root/tests/bench/textures.py" "$root/build/release" "$root/build/bench/textures" "${@:2}"
+fi
+if [ "${1-}" = --python ]; then
+    cmake --build --preset release --target candela_runtime candela_python_package candela_python_rival >/dev/null
+    exec /usr/bin/python3 -B "$root/tests/bench/python.py" "$root/build/release" "${@:2}"
+fi
+if [ "${1-}" = --animation ]; then
+    cmake --build --preset release --target candela_runtime >/dev/null
+    exec python3 -B "$root/tests/bench/animation.py" "$root/build/release" "$root/build/bench/animation" "${@:2}"
 fi
 if [ "${1-}" = --third-party ]; then
     cmake --build --preset release --target all candela_kernel_loops >/dev/null

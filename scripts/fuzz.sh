@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the fuzzing harnesses and runs them, one after another, each from its committed corpus.
 #   scripts/fuzz.sh                       each for 60 seconds
-#   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file, request
+#   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file, material, gltf, request, answer
 #   scripts/fuzz.sh --merge [HARNESS…]    puts what was found to reach new code into the corpus, and throws out what no
 #                                         longer adds anything
 # A corpus is tests/fuzz/corpus/<harness>, inputs with telling names, and <harness>.tar.gz, what fuzzing has found to reach code
@@ -17,7 +17,7 @@ if [ "$seconds" != --merge ] && ! [[ $seconds =~ ^[1-9][0-9]*$ ]]; then
     sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
     exit 2
 fi
-[ $# -gt 0 ] || set -- scene setting manifest mesh mesh_file request
+[ $# -gt 0 ] || set -- scene setting manifest mesh mesh_file material gltf request answer
 
 "$root/scripts/setup.sh"
 cmake --preset fuzz -DCANDELA_TESTS=ON >/dev/null
@@ -47,6 +47,8 @@ for harness in "$@"; do
         manifest) options+=(-max_len=4096 -dict=tests/fuzz/json.dict) ;;
         mesh) options+=(-max_len=1024) ;;
         mesh_file) options+=(-max_len=4096) ;;
+        material) options+=(-max_len=2048 -dict=tests/fuzz/mtl.dict) ;;
+        gltf) options+=(-max_len=8192 -dict=tests/fuzz/gltf.dict) ;;
     esac
     if [ "$seconds" = --merge ]; then
         # Inputs with a name of their own are regression tests: they stay. The others must add to them.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up, builds, and makes the Debian packages candela, candela-openimageio and candela-dev in build/packages.
+# Sets up, builds, and makes the Debian packages candela, candela-openimageio, candela-dev and python3-candela in build/packages.
 #   scripts/package.sh             then, as root: apt-get install ./build/packages/*.deb
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)

@@ -102,9 +102,15 @@ render "$root/docs/examples/still-life.toml" -o "$out/still-life.png"
 render "$root/docs/examples/glass.toml" -o "$out/glass.png"
 render --samples 16 -o "$out/default-scene.png"
 
+# A model in place of a scene.
+model=$(mktemp -d)
+trap 'rm -rf "$sheet" "$model"' EXIT
+python3 -B "$root/scripts/vase.py" "$model"
+render "$model/vase.obj" --samples 16 -o "$out/imported.png"
+
 # The generated page, as a browser shows it.
 page=$(mktemp -d)
-trap 'rm -rf "$sheet" "$page"' EXIT
+trap 'rm -rf "$sheet" "$model" "$page"' EXIT
 "$root/build/release/bin/candela" generate "$root/docs/examples/still-life.toml" --target webgl --models phong,lambert,flat,gouraud,ggx,toon -o "$page" 2>/dev/null
 sandbox=()
 [ "$(id -u)" -ne 0 ] || sandbox=(--no-sandbox)
@@ -114,11 +120,24 @@ chromium --headless=new "${sandbox[@]}" --use-angle=swiftshader --enable-unsafe-
 "$root/build/release/bin/candela" plot phong:shininess=20,ks=0.5,kd=0.3 blinn-phong:shininess=80,ks=0.5,kd=0.3 ggx:roughness=0.2,ks=0.2,ior=4,kd=0.3 \
     -o "$out/lobes.svg"
 
+"$root/build/release/bin/candela" plot light/spot:inner_angle=10,outer_angle=30 light/spot:inner_angle=10,outer_angle=30,falloff=linear \
+    light/spot:inner_angle=30,outer_angle=30,attenuation=offset-linear -o "$out/lights.svg"
+
 "$root/build/release/bin/candela" compare "$root/docs/examples/still-life.toml" --width 320 --height 200 \
     --reflection lambert,phong,ggx,toon --shading flat,phong -o "$out/compare.png"
 
 "$root/build/release/bin/candela" compare "$root/docs/examples/still-life.toml" --width 320 --height 200 --columns 3 \
     --terms picture,ambient,diffuse,specular,light.lamp,n_dot_l.lamp,normal,depth,triangle -o "$out/terms.png"
 
+# The page of an exercise, with an answer that makes the mistake of a power that is even.
+/usr/bin/python3 -B "$root/tests/page/exercise_picture.py" "$root/build/release/bin/candela" "$out/exercise.png"
+# A film, as eight of its frames.
+frames=$(mktemp -d)
+trap 'rm -rf "$sheet" "$model" "$page" "$frames"' EXIT
+"$root/build/release/bin/candela" animate "$root/docs/examples/still-life.toml" --width 320 --height 200 --set animation.frames=8 \
+    --set animation.orbit.turns=1 -o "$frames/%d.png" 2>/dev/null
+ffmpeg -loglevel error -y -i "$frames/%d.png" -vf tile=4x2 -frames:v 1 "$out/film.png"
+
 # The page while somebody works on the scene.
-/usr/bin/python3 -B "$root/tests/page/view_picture.py" "$root/build/release/bin/candela" "$root/docs/examples/still-life.toml" "$out/view.png" "$out/explanation.png"
+/usr/bin/python3 -B "$root/tests/page/view_picture.py" "$root/build/release/bin/candela" "$root/docs/examples/still-life.toml" "$out/view.png" "$out/explanation.png" \
+    "$out/panes.png"

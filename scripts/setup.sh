@@ -39,12 +39,13 @@ packages=(
   ca-certificates git make
   clang-19 clang-tools-19 lld-19 libstdc++-12-dev ninja-build cmake cmake-data
   libeigen3-dev libtomlplusplus-dev libtbb-dev libembree-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev
-  libtinygltf-dev libstb-dev libopenimageio-dev esbuild
+  libtinygltf-dev libstb-dev libopenimageio-dev esbuild libjs-codemirror
 )
 if [ "$everything" = yes ]; then
   packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file lintian
-    g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri libpng-dev
-    chromium chromium-sandbox chromium-driver python3-selenium valgrind)
+    g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libopengl-dev libegl1 libgl1-mesa-dri libpng-dev
+    chromium chromium-sandbox chromium-driver firefox-esr xvfb python3-selenium python3-websocket valgrind
+    zsh fish ffmpeg mkdocs mkdocs-material assimp-testmodels pybind11-dev python3-dev python3-numpy povray)
 fi
 
 # Boost: Debian 12 has 1.81 beside its default 1.74; later releases need no such choice.
@@ -66,10 +67,10 @@ oldest_clang() {
   if installed clang-14 || [ -n "$(candidate clang-14)" ]; then echo clang-14; fi
 }
 
-# POV-Ray, f3d with a display for it, and VTK's library, whose package has VTK's version in its name.
+# f3d and what gives it a display, and VTK's library, whose package has VTK's version in its name.
 programs() {
   [ "$programs" = yes ] || return 0
-  echo povray f3d xvfb xauth
+  echo f3d xauth
   { LC_ALL=C apt-cache depends libvtk9-dev 2>/dev/null || true; } | sed -nE 's/^ *Depends: (libvtk9\.[0-9]+(t64)?)$/\1/p'
 }
 

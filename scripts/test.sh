@@ -7,6 +7,8 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 
 "$root/scripts/setup.sh"
+"$root/scripts/axe-core.sh"
+"$root/scripts/gltf-validator.sh"
 [ $# -gt 0 ] || set -- release
 for preset in "$@"; do
     printf '== %s\n' "$preset"

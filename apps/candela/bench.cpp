@@ -117,7 +117,7 @@ int run_bench(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
     const Stopwatch reading;
-    const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
+    const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
     const double read_ms = reading.milliseconds();
     const Stopwatch compiling;
     const auto scene = draft ? candela::compile(*draft, registry, diagnostics, plan.threads) : std::nullopt;

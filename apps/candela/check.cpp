@@ -14,6 +14,7 @@
 #include "compiling.h"
 #include "diagnostics_text.h"
 #include "exit_code.h"
+#include "frame_pattern.h"
 #include "reporting.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -55,6 +56,27 @@ std::size_t triangles_of(const CompiledScene& compiled) {
     return all;
 }
 
+/// A line, if the scene is animated.
+std::string animation_text(const Scene& scene) {
+    if (!scene.animation) return "";
+    const candela::Animation& animation = *scene.animation;
+    std::string moved = animation.orbit ? "the observer's orbit" : "";
+    for (const candela::Track& track : animation.tracks)
+        moved += (moved.empty() ? "" : ", ") + candela::printable(track.path);
+    return fmt::format("  film      {}, {} per second, {:.3g} s{}\n",
+                       count(static_cast<std::size_t>(animation.frames), "frame"), animation.fps,
+                       animation.frames / animation.fps, in_parentheses(moved));
+}
+
+nlohmann::ordered_json animation_json(const candela::Animation& animation) {
+    nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
+    for (const candela::Track& track : animation.tracks) tracks.push_back(track.path);
+    return {{"frames", animation.frames},
+            {"fps", animation.fps},
+            {"orbit", animation.orbit.has_value()},
+            {"tracks", std::move(tracks)}};
+}
+
 void print_summary(const Scene& scene, const CompiledScene& compiled) {
     const candela::Room& room = scene.room;
     std::cout << "The scene is valid.\n"
@@ -63,6 +85,7 @@ void print_summary(const Scene& scene, const CompiledScene& compiled) {
               << fmt::format("  picture   {} x {} pixels, {} per pixel\n", scene.image.width,
                              scene.image.height,
                              count(static_cast<std::size_t>(scene.image.samples), "sample"))
+              << animation_text(scene)
               << fmt::format("  lights    {}{}\n", scene.lights.size(),
                              in_parentheses(
                                  tally(names_of(scene.lights, [](const auto& l) { return l.model.name; }))))
@@ -108,6 +131,7 @@ void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene
                            {"samples", scene->image.samples},
                            {"lights", std::move(lights)},
                            {"objects", std::move(objects)}};
+        if (scene->animation) result["scene"]["animation"] = animation_json(*scene->animation);
     }
     std::cout << candela::printable_json(result.dump(2)) << '\n';
 }
@@ -120,6 +144,7 @@ int run_check(const std::vector<std::string>& arguments) {
         "Reads a scene from one file or several, and reports every error in it, or a summary of what was\n"
         "read.");
     add_scene_options(line);
+    add_frame_option(line);
     line.options()("json", "the diagnostics and the summary as JSON, on standard output")(
         "print", "print the scene as one file: with includes, --set and all defaults filled in");
     if (!line.parse(arguments)) return 0;
@@ -131,12 +156,23 @@ int run_check(const std::vector<std::string>& arguments) {
 
     candela::Registry registry = registry_from(line);
     Diagnostics diagnostics;
-    candela::SceneRequest request = scene_request_from(line);
+    candela::SceneRequest request = scene_request_from(line, registry);
     // A check says the same wherever it runs, and never waits: where `render` would ask, it says what is
     // missing.
     request.ask = nullptr;
-    const auto draft = candela::draft_scene(request, registry, diagnostics);
-    const auto compiled = draft ? compile_scene(*draft, registry, diagnostics) : std::nullopt;
+    auto frames = candela::SceneFrames::read(request, registry, diagnostics);
+    std::optional<candela::SceneDraft> draft;
+    std::optional<CompiledScene> compiled;
+    if (frames && frames->animation()) {
+        // What is wrong with this frame is found with all others.
+        Diagnostics ignored;
+        draft = frames->draft(request.frame, ignored);
+        check_all_frames(*frames, frames_from(std::nullopt, 1, frames->count()), registry, diagnostics);
+        if (!diagnostics.has_errors()) compiled = compile_scene(*draft, registry, ignored);
+    } else if (frames) {
+        draft = frames->draft(request.frame, diagnostics);
+        compiled = compile_scene(*draft, registry, diagnostics);
+    }
     if (line.has("json")) {
         print_json(compiled, draft ? &draft->scene : nullptr, diagnostics);
     } else {

@@ -14,10 +14,15 @@
 #include <optional>
 #include <string_view>
 
+#include "completion.h"
+#include "import/import.h"
+#include "manual.h"
 #include "reporting.h"
+#include "temporary_folder.h"
 #include "terminal.h"
 #include "wrapping.h"
 
+import candela.files;
 import candela.text;
 import candela.toml;
 
@@ -31,6 +36,7 @@ CommandLine::CommandLine(std::string usage, std::string explanation)
       visible_("Options", static_cast<unsigned>(output_width() - 1),
                static_cast<unsigned>(output_width() / 2)) {
     options()("help,h", "this help")("quiet,q", "print nothing on stderr but errors");
+    hidden_.add_options()("help-as", po::value<std::string>());  // "man": for building manual pages
 }
 
 void CommandLine::positional(const std::string& name, int how_many) {
@@ -38,14 +44,24 @@ void CommandLine::positional(const std::string& name, int how_many) {
     positional_.add(name.c_str(), how_many);
 }
 
-bool CommandLine::parse(const std::vector<std::string>& arguments) {
+void CommandLine::read(const std::vector<std::string>& arguments, Unknown unknown) {
     po::options_description all;
     all.add(visible_).add(hidden_);
+    // Abbreviations would change their meaning with every new option.
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    po::command_line_parser parser(arguments);
+    parser.options(all).positional(positional_).style(style);
+    if (unknown == Unknown::allowed) parser.allow_unregistered();
+    po::store(parser.run(), values_);
+}
+
+bool CommandLine::parse(const std::vector<std::string>& arguments) {
+    if (is_completing()) {
+        complete(arguments);
+        return false;
+    }
     try {
-        // Abbreviations would change their meaning with every new option.
-        const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-        po::store(po::command_line_parser(arguments).options(all).positional(positional_).style(style).run(),
-                  values_);
+        read(arguments, Unknown::refused);
         po::notify(values_);
     } catch (const po::unknown_option& problem) {
         std::vector<std::string> known;
@@ -62,6 +78,10 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
         throw Error(ErrorCategory::bad_request, problem.what());
     }
     if (has("quiet")) be_quiet();
+    if (has("help-as")) {
+        std::cout << manual_page(usage_, explanation_, visible_);
+        return false;
+    }
     if (!has("help")) return true;
     constexpr std::string_view k_usage = "Usage: ";
     std::cout << k_usage << wrapped(usage_, k_usage.size(), k_usage.size()) << "\n\n"
@@ -129,6 +149,29 @@ const std::string& contents_of(const std::string& stream) {
     return text->second;
 }
 
+/// The scene that shows a model; made once, and so are the files of pictures that the model contains, which
+/// live as long as the command.
+const std::string& scene_of_model(const std::string& file, candela::Registry& registry) {
+    static std::map<std::string, std::string> known;
+    static std::optional<TemporaryFolder> pictures;
+    const auto [scene, is_new] = known.try_emplace(file);
+    if (!is_new) return scene->second;
+    const importing::Imported imported = importing::import_model(
+        {.file = file,
+         .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
+         .write_picture =
+             [&](const std::string& name, const std::string& content) {
+                 if (!pictures) pictures.emplace(std::filesystem::temp_directory_path(), "candela-import-");
+                 const std::filesystem::path path = pictures->path() / name;
+                 candela::write_text_file(path, content);
+                 return path.string();
+             },
+         .name_of_picture = [](const std::filesystem::path& picture) { return picture.string(); }},
+        registry);
+    for (const std::string& note : imported.notes) warn(note);
+    return scene->second = imported.scene;
+}
+
 }  // namespace
 
 void add_scene_options(CommandLine& line) {
@@ -146,6 +189,23 @@ void add_scene_options(CommandLine& line) {
     add_plugin_options(line);
 }
 
+void add_frame_option(CommandLine& line) {
+    line.options()("frame", po::value<int>()->value_name("N"), "frame of an animated scene; default: 0");
+}
+
+int count_from(const CommandLine& line, const std::string& option, int most) {
+    const int count = line.get<int>(option);
+    if (count < 1 || count > most) {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--{} is {}; it can be 1 to {}", option, count, most));
+    }
+    return count;
+}
+
+int threads_from(const CommandLine& line) {
+    return line.has("threads") ? count_from(line, "threads", 1024) : 0;
+}
+
 std::vector<candela::Setting> settings_from(const CommandLine& line, const std::string& option) {
     std::vector<candela::Setting> settings;
     for (const std::string& setting : line.all(option)) {
@@ -160,11 +220,23 @@ std::vector<candela::Setting> settings_from(const CommandLine& line, const std::
     return settings;
 }
 
-candela::SceneRequest scene_request_from(const CommandLine& line) {
+candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry) {
     candela::SceneRequest request;
-    for (const std::string& file : line.all("scene")) {
+    const std::vector<std::string> files = line.all("scene");
+    for (const std::string& file : files) {
+        if (file.empty()) throw Error(ErrorCategory::bad_request, "the name of a scene is empty");
         request.files.emplace_back(file);
-        if (is_stream(file)) request.streams.emplace(file, contents_of(file));
+        if (is_stream(file)) {
+            request.streams.emplace(file, contents_of(file));
+        } else if (importing::is_model(file)) {
+            if (files.size() > 1)
+                throw Error(
+                    ErrorCategory::bad_request,
+                    fmt::format("'{}' is a model, which is shown on its own; candela import makes a scene of "
+                                "it that can be combined with others",
+                                file));
+            request.streams.emplace(file, scene_of_model(file, registry));
+        }
     }
     for (const char* const flag : {"width", "height", "samples"}) {
         if (!line.has(flag)) continue;
@@ -176,9 +248,24 @@ candela::SceneRequest scene_request_from(const CommandLine& line) {
     if (line.has("shading")) request.shading = {line.get<std::string>("shading"), "--shading"};
     if (line.has("reflection")) request.reflection = {line.get<std::string>("reflection"), "--reflection"};
     request.use_defaults = line.has("defaults");
+    if (line.has("frame")) request.frame = line.get<int>("frame");
     // Who answers types on standard input, which a scene may have used up.
     if (can_ask() && request.streams.empty()) request.ask = ask;
     return request;
+}
+
+std::vector<std::string> scene_words_from(const CommandLine& line) {
+    std::vector<std::string> words;
+    for (const std::string& file : line.all("scene"))
+        words.push_back(file.starts_with('-') ? "./" + file : file);
+    for (const char* const option : {"shading", "reflection", "width", "height", "samples"})
+        if (line.has(option)) words.push_back(fmt::format("--{}={}", option, line.get<std::string>(option)));
+    for (const char* const option : {"set", "plugin-dir"})
+        for (const std::string& value : line.all(option))
+            words.push_back(fmt::format("--{}={}", option, value));
+    for (const char* const option : {"defaults", "allow-untrusted-plugins"})
+        if (line.has(option)) words.push_back(fmt::format("--{}", option));
+    return words;
 }
 
 std::vector<std::string> words_of(const std::string& list) {

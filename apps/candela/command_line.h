@@ -22,7 +22,7 @@ class CommandLine {
     /// Takes all arguments that are no options.
     void positional(const std::string& name, int how_many);
 
-    /// False where help was asked for (and printed): the verb is done.
+    /// False where help or completions were asked for (and printed): the verb is done.
     bool parse(const std::vector<std::string>& arguments);
 
     bool has(const std::string& name) const { return values_.count(name) > 0; }
@@ -34,6 +34,15 @@ class CommandLine {
     std::vector<std::string> all(const std::string& name) const;
 
   private:
+    enum class Unknown : bool { refused, allowed };
+
+    void read(const std::vector<std::string>& arguments, Unknown unknown);
+    /// Prints what the last word may become (completion.h).
+    void complete(const std::vector<std::string>& words);
+    void complete_value(const boost::program_options::option_description& option, const std::string& given,
+                        const std::string& typed) const;
+    void complete_positional(const std::string& typed) const;
+
     std::string usage_;
     std::string explanation_;
     boost::program_options::options_description visible_;
@@ -50,13 +59,25 @@ candela::Registry registry_from(const CommandLine& line);
 
 /// Adds what says how a scene is read: SCENE..., --shading, --set and so on.
 void add_scene_options(CommandLine& line);
-candela::SceneRequest scene_request_from(const CommandLine& line);
+/// A model's file in place of a scene is imported, once, and what is lost is said.
+candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry);
+/// The words that say the same to another command, in this folder.
+std::vector<std::string> scene_words_from(const CommandLine& line);
+
+/// Adds --frame, for scene_request_from().
+void add_frame_option(CommandLine& line);
 
 /// The PATH=VALUE pairs of an option that may be repeated.
 std::vector<candela::Setting> settings_from(const CommandLine& line, const std::string& option);
 
 /// What stands between the commas of a list; empty words too.
 std::vector<std::string> words_of(const std::string& list);
+
+/// A number from 1 to `most`. Throws Error (bad_request).
+int count_from(const CommandLine& line, const std::string& option, int most);
+
+/// What --threads says; 0 where it is not given. Throws Error (bad_request).
+int threads_from(const CommandLine& line);
 
 /// Throws Error (bad_request) where `output` is "-", standard output, and that is a terminal.
 void require_no_terminal(const std::string& output);

@@ -22,7 +22,7 @@
 #include "picture_comparison/differences.h"
 #include "reporting.h"
 #include "terminal.h"
-#include "terms.h"
+#include "terms/terms.h"
 #include "variants.h"
 #include "verbs.h"
 
@@ -138,7 +138,7 @@ bool has_several_terms(const std::vector<Axis>& axes) {
 
 /// A word of --terms that is a single term.
 NamedTerm one_term(const std::string& word, const candela::Scene& scene) {
-    std::vector<NamedTerm> terms = terms_from(word, scene);
+    std::vector<NamedTerm> terms = terms_from({word}, scene, "--terms");
     if (terms.size() == 1) return terms.front();
     throw Error(ErrorCategory::bad_request,
                 fmt::format("--terms: '{}' is {}; each picture shows one term, such as {}", word,
@@ -151,7 +151,10 @@ class PaneRenderer {
   public:
     PaneRenderer(const CommandLine& line, const std::string& output, candela::Registry& registry,
                  candela::PixelType pixels)
-        : request_(scene_request_from(line)), output_(output), registry_(registry), pixels_(pixels) {
+        : request_(scene_request_from(line, registry)),
+          output_(output),
+          registry_(registry),
+          pixels_(pixels) {
         request_.reflection.reset();
         request_.shading.reset();
         if (!request_.ask) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 import candela.diagnostics;
 import candela.registry;
@@ -12,3 +13,7 @@ import candela.scene;
 std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& draft,
                                                     candela::Registry& registry,
                                                     candela::Diagnostics& diagnostics, int threads = 0);
+
+/// candela::check_frames(), likewise.
+void check_all_frames(candela::SceneFrames& frames, const std::vector<int>& numbers,
+                      candela::Registry& registry, candela::Diagnostics& diagnostics, int threads = 0);

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -13,6 +14,8 @@
 #include "directory_entries.h"
 
 namespace {
+
+constinit std::atomic<bool> are_to_end{false}, are_ending{false};
 
 /// A path under /proc, put together without memory of its own.
 class ProcPath {
@@ -83,6 +86,7 @@ void inherit_orphans() noexcept { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
 void end_descendants() noexcept {
     constexpr int k_levels = 12, k_generations = 20;
     const pid_t self = ::getpid();
+    are_ending = true;
     // Those that are orphaned by this are children then.
     for (int i = 0; i < k_generations; ++i) {
         bool has_children = false;
@@ -95,3 +99,9 @@ void end_descendants() noexcept {
         }
     }
 }
+
+void end_descendants_on_signals() noexcept { are_to_end = true; }
+
+bool are_descendants_ended_on_signals() noexcept { return are_to_end; }
+
+bool are_descendants_ending() noexcept { return are_ending; }

@@ -7,3 +7,11 @@ void inherit_orphans() noexcept;
 /// Kills them all. To be called on the thread that starts programs; async-signal-safe. Without /proc, it
 /// kills none.
 void end_descendants() noexcept;
+
+/// From here on, a signal that ends this program ends them too, for programs that work for it alone.
+void end_descendants_on_signals() noexcept;
+bool are_descendants_ended_on_signals() noexcept;
+
+/// Whether end_descendants() was called: who has waited for one of them on another thread learns nothing from
+/// its end, and should start no other.
+bool are_descendants_ending() noexcept;

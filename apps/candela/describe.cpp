@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "command_line.h"
 #include "verbs.h"
@@ -67,6 +69,25 @@ std::string what_is_allowed(const candela::Parameter& p) {
     return fmt::format("{}{}; required", allowed, says_unit ? "" : ", in " + p.unit);
 }
 
+/// As in a scene file: "color = [255, 255, 255], ks = [0.9, 0.8, 0.4]".
+std::string text_of(const candela::Preset& preset) {
+    std::vector<std::string> parts;
+    if (preset.color) parts.push_back("color = " + candela::text_of(*preset.color));
+    for (const auto& [name, value] : preset.values)
+        parts.push_back(fmt::format("{} = {}", name, candela::text_of(value)));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Each once, in the order of the presets.
+std::vector<std::string> sources_of(const std::vector<candela::Preset>& presets) {
+    std::vector<std::string> sources;
+    for (const candela::Preset& p : presets) {
+        if (!p.source.empty() && std::ranges::find(sources, p.source) == sources.end())
+            sources.push_back(p.source);
+    }
+    return sources;
+}
+
 void print(const candela::PluginFile& file) {
     constexpr std::size_t k_names = 20;
     const candela::Manifest& m = file.manifest;
@@ -84,6 +105,10 @@ void print(const candela::PluginFile& file) {
     }
     for (const candela::Relation& r : m.relations)
         std::cout << "  " << wrapped(line(candela::text_of(r)), 2, 4) << '\n';
+    if (!m.presets.empty()) std::cout << "\nPresets\n";
+    for (const candela::Preset& p : m.presets) std::cout << row(line(p.name), line(text_of(p)), k_names);
+    for (const std::string& source : sources_of(m.presets))
+        std::cout << "  " << wrapped(line("from " + source), 2, 4) << '\n';
     if (!m.formats.empty()) std::cout << "\nFormats\n";
     for (const candela::ManifestFormat& f : m.formats)
         std::cout << row('.' + line(f.extension), line(f.title), 7);

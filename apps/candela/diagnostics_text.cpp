@@ -117,15 +117,21 @@ std::string pointer(const Help& help) {
     }
 }
 
-std::string hint_of(const Diagnostic& d) {
-    const std::string more = pointer(d.help);
-    return d.hint + (d.hint.empty() || more.empty() ? "" : "  ") + more;
-}
-
 }  // namespace
 
+const HelpWords k_help_of_command{.after_message = remedy, .hint = pointer};
+
+std::string full_message(std::string message, const Help& help, const HelpWords& words) {
+    return std::move(message) + words.after_message(help);
+}
+
+std::string full_hint(const Diagnostic& diagnostic, const HelpWords& words) {
+    const std::string more = words.hint(diagnostic.help);
+    return diagnostic.hint + (diagnostic.hint.empty() || more.empty() ? "" : "  ") + more;
+}
+
 std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_color, std::size_t most,
-                             Shown shown) {
+                             Shown shown, const HelpWords& words) {
     const auto styled = [&](const fmt::text_style& style, std::string_view text) {
         return fmt::format(in_color ? style : fmt::text_style(), "{}", text);
     };
@@ -141,8 +147,8 @@ std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_co
         result += fmt::format("{}{} {} {}\n", styled(bold, sentence(location(d.place))),
                               d.place.file.empty() ? "" : ":",
                               styled(bold | fmt::fg(color), fmt::format("{}:", word(d.severity))),
-                              styled(bold, sentence(full_message(d.message, d.help))));
-        const std::string hint = sentence(hint_of(d));
+                              styled(bold, sentence(full_message(d.message, d.help, words))));
+        const std::string hint = sentence(full_hint(d, words));
         if (const auto line = diagnostics.source_line(d.place)) {
             const auto [text, marks] = excerpt(*line, d.place);
             result += fmt::format("{:5} | {}\n{:5} | {}", d.place.line, text, "",
@@ -170,9 +176,7 @@ std::string diagnostics_json(const candela::Diagnostics& diagnostics) {
                        {"column", d.place.column},
                        {"length", d.place.length},
                        {"message", full_message(d.message, d.help)},
-                       {"hint", hint_of(d)}});
+                       {"hint", full_hint(d)}});
     }
     return candela::printable_json(all.dump(2, ' ', false, Json::error_handler_t::replace));
 }
-
-std::string full_message(std::string message, const Help& help) { return std::move(message) + remedy(help); }

@@ -8,6 +8,7 @@
 #include "command_line.h"
 #include "compiling.h"
 #include "exit_code.h"
+#include "import/import.h"
 #include "reporting.h"
 #include "verbs.h"
 
@@ -34,11 +35,17 @@ int run_edit(const std::vector<std::string>& arguments) {
         throw Error(ErrorCategory::bad_request,
                     "nothing is to be changed; say what, as in --change image.width=640");
     }
-    candela::SceneRequest request = scene_request_from(line);
+    candela::Registry registry = registry_from(line);
+    for (const std::string& file : line.all("scene")) {
+        if (importing::is_model(file))
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("'{}' is a model and no scene; candela import makes a scene of it", file));
+    }
+    candela::SceneRequest request = scene_request_from(line, registry);
     if (!request.streams.empty())
         throw Error(ErrorCategory::bad_request, "a scene that is read from a pipe has no file to write into");
 
-    candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
     const auto texts = candela::edited_files(request, changes, registry, diagnostics);
     request.unsaved = texts;

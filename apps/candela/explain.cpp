@@ -4,6 +4,7 @@
 #include <charconv>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@
 #include "command_line.h"
 #include "compiling.h"
 #include "exit_code.h"
-#include "explanation.h"
+#include "explanation/explanation.h"
 #include "reporting.h"
 #include "verbs.h"
 
@@ -41,6 +42,45 @@ std::optional<Pixel> pixel_from(std::string_view text) {
     return pixel;
 }
 
+Error no_pixel(const std::string& written) {
+    return {ErrorCategory::bad_request,
+            fmt::format("--pixel is '{}'; it is two whole numbers, as in --pixel 320,240", written)};
+}
+
+/// Throws candela::Error (bad_request) where it is none of the picture's.
+Pixel pixel_of(const std::string& written, const candela::ImageSettings& image) {
+    const auto pixel = pixel_from(written);
+    if (!pixel) throw no_pixel(written);
+    if (pixel->x < 0 || pixel->y < 0 || pixel->x >= image.width || pixel->y >= image.height) {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--pixel is {}; the picture's pixels are 0,0 to {},{}", written,
+                                image.width - 1, image.height - 1));
+    }
+    return *pixel;
+}
+
+/// Explains what standard input asks for, a pixel per line. What is no pixel is no end: the next may be one.
+template <class Explain>
+int explain_all(const candela::ImageSettings& image, bool is_json, const Explain& explain) {
+    std::cin.exceptions(std::ios::badbit);
+    int code = 0;
+    for (std::string line; std::getline(std::cin, line);) {
+        try {
+            explain(pixel_of(line, image));
+        } catch (const Error& problem) {
+            code = static_cast<int>(exit_code_of(problem.category()));
+            if (is_json) {
+                const nlohmann::json answer{{"error", problem.what()}};
+                std::cout << candela::printable_json(answer.dump()) << '\n';
+            } else {
+                fail(exit_code_of(problem.category()), problem.what());
+            }
+        }
+        std::cout << std::flush;  // somebody may be waiting for it
+    }
+    return code;
+}
+
 }  // namespace
 
 int run_explain(const std::vector<std::string>& arguments) {
@@ -50,9 +90,12 @@ int run_explain(const std::vector<std::string>& arguments) {
         "and\n"
         "H, what arrives and what is reflected, every value that the models' formulas name on the way, the\n"
         "sum, its encoding, and the byte. Without a scene: the default scene.");
-    line.options()("pixel", po::value<std::string>()->value_name("X,Y"),
-                   "the pixel, counted from the top left one, 0,0");
+    line.options()(
+        "pixel", po::value<std::string>()->value_name("X,Y"),
+        "the pixel, counted from the top left one, 0,0; -: pixels are read from standard input, one "
+        "per line, until it ends");
     add_scene_options(line);
+    add_frame_option(line);
     line.options()("json", "print the explanation as JSON")(
         "keep", po::value<std::string>()->value_name("FOLDER"),
         "keep the compiled kernels there, for the next pixels");
@@ -60,34 +103,36 @@ int run_explain(const std::vector<std::string>& arguments) {
     if (!line.has("pixel"))
         throw Error(ErrorCategory::bad_request, "candela explain needs a pixel: --pixel X,Y");
     const auto written = line.get<std::string>("pixel");
-    const auto pixel = pixel_from(written);
-    if (!pixel) {
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("--pixel is '{}'; it is two whole numbers, as in --pixel 320,240", written));
-    }
+    const bool is_for_many = written == "-";
+    if (!is_for_many && !pixel_from(written)) throw no_pixel(written);
 
     candela::Registry registry = registry_from(line);
     candela::Diagnostics diagnostics;
-    const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
+    const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
     const auto compiled = draft ? compile_scene(*draft, registry, diagnostics) : std::nullopt;
     report(diagnostics);
     if (!compiled) return static_cast<int>(exit_code_of(diagnostics));
-    const candela::ImageSettings& image = compiled->image;
-    if (pixel->x < 0 || pixel->y < 0 || pixel->x >= image.width || pixel->y >= image.height) {
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("--pixel is {}; the picture's pixels are 0,0 to {},{}", written,
-                                image.width - 1, image.height - 1));
-    }
     const fs::path kept = line.has("keep") ? line.get<std::string>("keep") : "";
     if (!kept.empty() && !fs::is_directory(kept)) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' is no folder, in which compiled kernels could be kept", kept.string()));
     }
-    const Explanation explanation(draft->scene, *compiled, registry, pixel->x, pixel->y, kept);
-    if (line.has("json")) {
-        std::cout << candela::printable_json(explanation_json(explanation)) << '\n';
-    } else {
-        std::cout << explanation_text(explanation);
+    KernelRunner kernels(plugins_explained_in(draft->scene, registry), kept);
+    const bool is_json = line.has("json");
+    const auto explain = [&](Pixel pixel) {
+        const Explanation explanation(draft->scene, *compiled, registry, pixel.x, pixel.y, kernels);
+        if (!is_json) {
+            std::cout << explanation_text(explanation);
+        } else {
+            const auto text =
+                explanation_json(explanation, is_for_many ? JsonLayout::one_line : JsonLayout::indented);
+            std::cout << candela::printable_json(text) << '\n';
+        }
+    };
+    if (is_for_many) {
+        kernels.prepare();  // while nobody has asked
+        return explain_all(compiled->image, is_json, explain);
     }
+    explain(pixel_of(written, compiled->image));
     return 0;
 }

@@ -42,7 +42,7 @@ int run_generate(const std::vector<std::string>& arguments) {
     const std::string any = target_names(installed, " or ");
     CommandLine line("candela generate [SCENE...] --target NAME [options]",
                      "Writes a program that renders a scene, with the formulas of its models as their "
-                     "authors wrote them:\n" +
+                     "authors wrote them, or the\nscene of another program:\n" +
                          target_summaries(installed) +
                          "`candela verify` shows that its picture is Candela's.");
     const std::string help = "what to write: " + any;
@@ -52,6 +52,7 @@ int run_generate(const std::vector<std::string>& arguments) {
         "also write the names of all files that the scene is made from, as a JSON array")(
         "build", "also build it")("run", "build it and run it: a picture, a window, or a browser");
     add_models_option(line);
+    add_approximate_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
     candela::Registry registry = registry_from(line);
@@ -67,7 +68,7 @@ int run_generate(const std::vector<std::string>& arguments) {
     report(diagnostics);
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));
     const auto exported = export_for(target, *scene, line, registry);
-    const auto files = target.files_of(exported.scene());
+    const std::vector<candela::ExportedFile> files = program_for(target, exported, line).files;
     require_no_input_in(directory, names_of(files), *scene, "output");
     write_program(files, directory);
     if (line.has("inputs")) write_inputs(*scene, line.get<std::string>("inputs"));

@@ -1,6 +1,7 @@
 #include "generating.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "compiling.h"
 #include "output_folder.h"
+#include "reporting.h"
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
@@ -21,9 +23,16 @@ void add_models_option(CommandLine& line) {
         "shading/flat, or all");
 }
 
+void add_approximate_option(CommandLine& line) {
+    line.options()(
+        "approximate",
+        "accept what a target can express only approximately, such as a renderer with models of its own; "
+        "each approximation is said");
+}
+
 std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::Registry& registry,
                                              candela::Diagnostics& diagnostics) {
-    auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
+    auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
     auto compiled = draft ? compile_scene(*draft, registry, diagnostics) : std::nullopt;
     if (!compiled) return std::nullopt;
     const std::vector<std::string> files = line.all("scene");
@@ -43,7 +52,7 @@ candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport&
         std::erase(request.extra_models, "");
     }
     request.with_model = [&](candela::PluginKind kind, const std::string& name) {
-        candela::SceneRequest again = scene_request_from(line);
+        candela::SceneRequest again = scene_request_from(line, registry);
         // What was asked has been answered.
         again.ask = nullptr;
         again.use_defaults = true;
@@ -58,6 +67,20 @@ candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport&
         if (problem.category() != ErrorCategory::bad_request) throw;
         throw Error(problem.category(), fmt::format("--models: {}", problem.what()), problem.help());
     }
+}
+
+candela::ExportedProgram program_for(const LoadedTarget& target, const candela::SceneExport& exported,
+                                     const CommandLine& line) {
+    candela::ExportedProgram program = target.program_of(exported.scene());
+    if (!program.approximations.empty() && !line.has("approximate"))
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format(
+                "target/{} can express this scene only approximately, which --approximate accepts: {}",
+                target.name(), fmt::join(program.approximations, "; ")));
+    for (const std::string& sentence : program.approximations)
+        warn(fmt::format("target/{}: {}", target.name(), sentence));
+    return program;
 }
 
 std::vector<fs::path> names_of(const std::vector<candela::ExportedFile>& files) {

@@ -13,6 +13,8 @@ import candela.render;
 
 /// Adds --models.
 void add_models_option(CommandLine& line);
+/// Adds --approximate, which program_for() reads.
+void add_approximate_option(CommandLine& line);
 
 /// A scene that has passed all checks.
 struct SceneToExport {
@@ -28,6 +30,11 @@ std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::R
 /// What a target has of a scene. Throws candela::Error where it cannot express it.
 candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport& scene,
                                 const CommandLine& line, candela::Registry& registry);
+
+/// What the target makes of it. What it can only approximate is a warning with --approximate; without, throws
+/// candela::Error (failure) that names all of it.
+candela::ExportedProgram program_for(const LoadedTarget& target, const candela::SceneExport& exported,
+                                     const CommandLine& line);
 
 std::vector<std::filesystem::path> names_of(const std::vector<candela::ExportedFile>& files);
 

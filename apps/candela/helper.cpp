@@ -30,6 +30,10 @@ fs::path comparing_program() {
     return helper("candela-diff", "the program that compares pictures", "package candela-openimageio");
 }
 
+fs::path conformance_kit() {
+    return helper("candela-conformance", "the conformance kit", "package candela-dev, or a build with tests");
+}
+
 void become_helper(const fs::path& file, const std::vector<std::string>& arguments) {
     std::vector<std::string> words{file.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());

@@ -17,5 +17,8 @@ std::filesystem::path helper(const char* program, const char* what, const char* 
 /// candela-diff. Throws like helper(): it is in a package of its own.
 std::filesystem::path comparing_program();
 
+/// candela-conformance. Throws likewise.
+std::filesystem::path conformance_kit();
+
 /// Becomes this program. Throws candela::Error where it cannot be run.
 [[noreturn]] void become_helper(const std::filesystem::path& file, const std::vector<std::string>& arguments);

@@ -9,6 +9,8 @@
 #include <memory>
 #include <numbers>
 
+#include "diagram.h"
+
 import candela.diagnostics;
 import candela.math;
 import candela.parameters;
@@ -25,51 +27,17 @@ namespace {
 constexpr double k_step = 0.5;  // degrees
 constexpr int k_half = 179;     // steps on each side: grazing directions themselves are left out
 
-/// A scene whose object has the model: what can be wrong with a material is found where it always is.
-candela::SceneRequest request_for(const NamedModel& model) {
-    constexpr const char* k_name = "plot";
-    candela::SceneRequest request;
-    request.files = {k_name};
-    request.streams[k_name] = fmt::format(
-        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\nmodel = \"phong\"\n"
-        "[reflection]\nmodel = \"{}\"\n[[light]]\ntype = \"directional\"\ndirection = [0, -1, 0]\n"
-        "[[object]]\ntype = \"sphere\"\ncolor = [255, 255, 255]\n",
-        model.name);
-    for (const auto& [name, value] : model.values) {
-        const std::string origin = fmt::format("reflection/{}:{}", model.name, name);
-        request.settings.push_back({origin, "object.0.material." + name, value});
-    }
-    return request;
-}
-
 std::unique_ptr<candela::ReflectionModel> instance_of(const NamedModel& model, candela::Registry& registry) {
-    registry.require(candela::PluginKind::reflection, model.name);
-    candela::Diagnostics diagnostics;
-    const auto scene = candela::read_scene(request_for(model), registry, diagnostics);
-    if (!scene) {
-        std::string problems;
-        for (const candela::Diagnostic& problem : diagnostics.sorted()) {
-            if (problem.severity != candela::Severity::error) continue;
-            problems += fmt::format("{}{}: {}{}", problems.empty() ? "" : "; ", problem.place.file,
-                                    problem.message, problem.hint.empty() ? "" : ", " + problem.hint);
-        }
-        throw Error(ErrorCategory::bad_request, problems);
-    }
-    const candela::Model& reflection = scene->objects.front().reflection;
+    const candela::Scene scene = scene_with(model, registry);
+    const candela::Model& reflection = scene.objects.front().reflection;
     return registry.create<candela::ReflectionModel>(reflection.name, reflection.parameters,
-                                                     scene->image.color_management);
+                                                     scene.image.color_management);
 }
 
 /// In the plane z = 0, whose normal is +y.
 Vec3 direction_at(double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     return {static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
-}
-
-/// Rec. ITU-R BT.709: the luminance of linear RGB.
-double luminance(const Vec3& rgb) {
-    return 0.2126 * static_cast<double>(rgb.x) + 0.7152 * static_cast<double>(rgb.y) +
-           0.0722 * static_cast<double>(rgb.z);
 }
 
 LobePoint point_at(const candela::ReflectionModel& model, double incidence, double angle) {
@@ -117,47 +85,6 @@ const candela::Parameter& number_called(const std::string& name, const NamedMode
 }
 
 }  // namespace
-
-std::string NamedModel::label() const {
-    std::string text = name;
-    for (const auto& [key, value] : values)
-        text += fmt::format("{}{}={}", &values.front().first == &key ? ":" : ",", key, value);
-    return text;
-}
-
-std::pair<std::string, std::string> value_from(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == std::string::npos)
-        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is no value; write it as in ks=0.5", text));
-    return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-NamedModel model_from(const std::string& text) {
-    const std::size_t colon = text.find(':');
-    std::string name = text.substr(0, colon);
-    if (const std::size_t slash = name.find('/'); slash != std::string::npos) {
-        if (name.substr(0, slash) != "reflection") {
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("'{}' is no reflection model; those are what can be plotted", name));
-        }
-        name.erase(0, slash + 1);
-    }
-    NamedModel model{.name = name};
-    if (colon == std::string::npos) return model;
-    // Commas within brackets belong to a value.
-    int depth = 0;
-    std::string part;
-    for (const char c : text.substr(colon + 1) + ",") {
-        if (c == ',' && depth == 0) {
-            model.values.push_back(value_from(part));
-            part.clear();
-            continue;
-        }
-        depth += c == '[' ? 1 : c == ']' ? -1 : 0;
-        part += c;
-    }
-    return model;
-}
 
 double Lobe::peak() const {
     double peak = 0;

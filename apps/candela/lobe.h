@@ -4,20 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "named_model.h"
+
 import candela.registry;
-
-/// A model as a person names it: "reflection/phong:shininess=20,ks=0.5".
-struct NamedModel {
-    std::string name;
-    std::vector<std::pair<std::string, std::string>> values{};  // parameters and values, as in a scene
-
-    std::string label() const;
-};
-
-/// Throws candela::Error (bad_request) for what is no such text or another kind of plugin.
-NamedModel model_from(const std::string& text);
-/// "shininess=20". Throws likewise.
-std::pair<std::string, std::string> value_from(const std::string& text);
 
 /// A direction towards the observer, and the intensity that a white surface sends there of a light of
 /// intensity 1: what the model adds to I_d and I_s, as luminance (Rec. 709).

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
-#include "candela/target/literals.h"
+#include "diagram.h"
 
 import candela.text;
 
@@ -16,22 +14,6 @@ namespace {
 
 constexpr double k_width = 720, k_center_x = 360, k_center_y = 335, k_radius = 300;
 constexpr double k_decades = 4;  // of a logarithmic diagram
-
-/// Okabe and Ito (2008), "Color universal design": told apart without seeing all colours, and by their
-/// dashes.
-constexpr std::array<std::string_view, 6> k_colors = {"#0072b2", "#d55e00", "#009e73",
-                                                      "#cc79a7", "#e69f00", "#56b4e9"};
-constexpr std::array<std::string_view, 6> k_dashes = {"none", "9 4", "2 4", "12 4 2 4", "5 5", "1 3"};
-
-std::string in_xml(const std::string& text) { return candela::target::html_text(candela::printable(text)); }
-
-/// As RFC 4180 has it.
-std::string in_csv(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string result = "\"";
-    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return result + '"';
-}
 
 /// 1, 2 or 5 times a power of ten, and not less.
 double rounded_up(double x) {
@@ -60,21 +42,14 @@ class Diagram {
     }
 
     std::string text() const {
-        const double height = k_center_y + 40 + 22 * static_cast<double>(lobes_.size());
-        std::string labels;
-        for (const Lobe& lobe : lobes_) labels += (labels.empty() ? "" : ", ") + in_xml(lobe.label);
-        return fmt::format(
-                   "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\" "
-                   "aria-labelledby=\"title description\" font-family=\"sans-serif\" font-size=\"13\">\n"
-                   "<title id=\"title\">Reflected intensity: {}</title>\n"
-                   "<desc id=\"description\">Polar diagram in the plane of incidence, {} from 0 to {:g}. "
-                   "Light "
-                   "falls in from the left, {:g} degrees from the normal.</desc>\n"
-                   "<style>.line{{fill:none;stroke:#777}}text{{fill:#222}}"
-                   "@media(prefers-color-scheme:dark){{text{{fill:#ddd}}.line{{stroke:#888}}}}</style>\n",
-                   k_width, height, labels, scale_ == RadialScale::linear ? "linear" : "logarithmic", full_,
-                   incidence_) +
-               grid() + light() + curves() + legend() + "</svg>\n";
+        const double height = k_center_y + 40 + k_legend_row * static_cast<double>(lobes_.size());
+        return svg_begin(
+                   k_width, height, "Reflected intensity", labels(),
+                   fmt::format(
+                       "Polar diagram in the plane of incidence, {} from 0 to {:g}. Light falls in from "
+                       "the left, {:g} degrees from the normal.",
+                       scale_ == RadialScale::linear ? "linear" : "logarithmic", full_, incidence_)) +
+               grid() + light() + curves() + legend_of(labels(), k_center_y + 46) + "</svg>\n";
     }
 
   private:
@@ -130,26 +105,15 @@ class Diagram {
                 const Place place = place_at(point.angle, radius_of(point.intensity()));
                 points += fmt::format("{}{:.2f},{:.2f}", points.empty() ? "" : " ", place.x, place.y);
             }
-            text += fmt::format(
-                "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\" "
-                "points=\"{}\"/>\n",
-                k_colors[i % k_colors.size()], k_dashes[i % k_dashes.size()], points);
+            text += fmt::format("<polyline {} points=\"{}\"/>\n", curve_style(i), points);
         }
         return text;
     }
 
-    std::string legend() const {
-        std::string text;
-        for (std::size_t i = 0; i < lobes_.size(); ++i) {
-            const double y = k_center_y + 46 + 22 * static_cast<double>(i);
-            text += fmt::format(
-                "<path fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-dasharray=\"{}\" d=\"M60 {} "
-                "H110\"/>\n"
-                "<text x=\"120\" y=\"{}\">{}</text>\n",
-                k_colors[i % k_colors.size()], k_dashes[i % k_dashes.size()], y - 4, y,
-                in_xml(lobes_[i].label));
-        }
-        return text;
+    std::vector<std::string> labels() const {
+        std::vector<std::string> labels;
+        for (const Lobe& lobe : lobes_) labels.push_back(lobe.label);
+        return labels;
     }
 
     const std::vector<Lobe>& lobes_;

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "completion.h"
 #include "exit_code.h"
+#include "manual.h"
 #include "reporting.h"
 #include "signals.h"
 #include "verbs.h"
@@ -23,7 +25,12 @@ using candela::ErrorCategory;
 
 constexpr std::array k_verbs = {
     Verb{"new", "write a starter scene", run_new},
+    Verb{"import", "write a scene that shows a model from another program", run_import},
     Verb{"render", "render a scene to a picture", run_render},
+    Verb{"animate", "render the frames of an animated scene, or a film", run_animate},
+    Verb{"submit", "have many processes or machines render frames, or parts", run_submit},
+    Verb{"status", "say how far a submitted job is, and what failed", run_status},
+    Verb{"assemble", "put the parts of a picture together", run_assemble},
     Verb{"check", "check a scene and report its errors", run_check},
     Verb{"edit", "write changes into a scene's files", run_edit},
     Verb{"explain", "explain how a pixel gets its colour", run_explain},
@@ -33,7 +40,8 @@ constexpr std::array k_verbs = {
     Verb{"compare", "put a scene with different models on one sheet", run_compare},
     Verb{"bench", "time each stage of rendering a scene", run_bench},
     Verb{"diff", "compare two pictures", run_diff},
-    Verb{"plot", "draw the lobes of reflection models", run_plot},
+    Verb{"plot", "draw the lobes of reflection models, or what lights send", run_plot},
+    Verb{"exercise", "leave a formula blank, and grade the answers", run_exercise},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
     Verb{"plugin", "create, test and diagnose plugins", run_plugin},
@@ -70,6 +78,7 @@ void choose_instruction_set() {
 }
 
 int run(const std::vector<std::string>& arguments) {
+    if (complete_verb(arguments, k_verbs)) return 0;
     if (arguments.empty()) {
         std::cerr << help();
         return static_cast<int>(ExitCode::usage);
@@ -84,6 +93,11 @@ int run(const std::vector<std::string>& arguments) {
         std::cout << help();
         return 0;
     }
+    if (name == "--help-as") {
+        std::cout << manual_page(k_verbs);
+        return 0;
+    }
+    if (name == "help" && complete_verb(rest, k_verbs)) return 0;
     if (name == "help") return run({rest.front(), "--help"});
     choose_instruction_set();
     std::vector<std::string> names;
@@ -99,6 +113,14 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 std::span<const Verb> verbs() { return k_verbs; }
+
+bool complete_verb(const std::vector<std::string>& arguments, std::span<const Verb> verbs) {
+    if (!is_completing() || arguments.size() > 1) return false;
+    std::vector<Completion> names;
+    for (const Verb& verb : verbs) names.push_back({verb.name, verb.summary});
+    print_completions(arguments.empty() ? "" : arguments.front(), names);
+    return true;
+}
 
 int main(int argc, char** argv) {
     prepare_for_signals();

@@ -77,3 +77,13 @@ void OutputFolder::finish(const std::vector<fs::path>& outdated) try {
 } catch (const fs::filesystem_error& problem) {
     fail(target_, problem.code().message());
 }
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code problem;
+    fs::create_directories(folder, problem);
+    if (problem) fail(folder, problem.message());
+}

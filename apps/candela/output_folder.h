@@ -27,3 +27,9 @@ class OutputFolder {
     std::filesystem::path target_;
     TemporaryFolder beside_;
 };
+
+/// The folder that a file is in.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
+/// Makes a folder, and those that it is in. Throws candela::Error (failure).
+void make_folder(const std::filesystem::path& folder);

@@ -1,13 +1,15 @@
-// candela plot: the lobes of reflection models.
+// candela plot: the lobes of reflection models, and what lights send.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "command_line.h"
+#include "light_curves.h"
 #include "lobe.h"
 #include "lobe_text.h"
 #include "reporting.h"
@@ -40,6 +42,12 @@ std::vector<NamedModel> models_from(const CommandLine& line) {
             ErrorCategory::bad_request,
             "candela plot needs a model, as in candela plot reflection/phong:shininess=20 -o lobe.svg");
     }
+    for (const NamedModel& model : models) {
+        if (model.kind != models.front().kind)
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("{} and {}: a diagram has either reflection models or lights",
+                                    models.front().label(), model.label()));
+    }
     return models;
 }
 
@@ -50,7 +58,7 @@ void set_where_known(std::vector<NamedModel>& models, const std::string& text, c
     bool is_known = false;
     for (NamedModel& model : models) {
         for (const candela::Parameter& parameter :
-             registry.require(candela::PluginKind::reflection, model.name).manifest.parameters) {
+             registry.require(model.kind, model.name).manifest.parameters) {
             known.push_back(parameter.name);
             if (parameter.name != value.first) continue;
             is_known = true;
@@ -83,6 +91,30 @@ void match_to_first(std::vector<NamedModel>& models, const std::string& paramete
     }
 }
 
+/// A diagram, or the table where there is no file for one.
+void write(const std::string& output, const std::string& extension, const std::function<std::string()>& svg,
+           const std::function<std::string()>& csv) {
+    if (output.empty()) {
+        std::cout << csv();
+    } else {
+        candela::write_text_file(output, extension == "svg" ? svg() : csv());
+    }
+}
+
+void plot_lights(const CommandLine& line, const std::vector<NamedModel>& models, const std::string& output,
+                 const std::string& extension, candela::Registry& registry) {
+    for (const char* const option : {"match", "log"}) {
+        if (line.has(option))
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("--{} is about reflection models; these are lights", option));
+    }
+    std::vector<LightCurves> lights;
+    for (const NamedModel& model : models) lights.push_back(light_curves_of(model, registry));
+    write(
+        output, extension, [&] { return light_curves_svg(lights); },
+        [&] { return light_curves_csv(lights); });
+}
+
 }  // namespace
 
 int run_plot(const std::vector<std::string>& arguments) {
@@ -90,7 +122,9 @@ int run_plot(const std::vector<std::string>& arguments) {
         "candela plot MODEL... [options]",
         "Draws what reflection models reflect of light from one direction, as a polar diagram in "
         "the plane of\nincidence (SVG), or as a table (CSV). MODEL: reflection/ggx, or with values of "
-        "its parameters\nreflection/ggx:roughness=0.3,f0=0.9. Several are drawn over one another.");
+        "its parameters\nreflection/ggx:roughness=0.3,f0=0.9. Several are drawn over one another. Of lights "
+        "(light/spot), "
+        "what they send\nis drawn over the angle with their axis and over the distance.");
     line.positional("model", -1);
     line.options()("output,o", po::value<std::string>()->value_name("FILE"),
                    "the diagram, .svg or .csv; default: the table on standard output")(
@@ -113,16 +147,17 @@ int run_plot(const std::vector<std::string>& arguments) {
     std::vector<NamedModel> models = models_from(line);
     candela::Registry registry = registry_from(line);
     for (const std::string& value : line.all("set")) set_where_known(models, value, registry);
+    if (models.front().kind == candela::PluginKind::light) {
+        plot_lights(line, models, output, extension, registry);
+        return 0;
+    }
     if (line.has("match")) match_to_first(models, line.get<std::string>("match"), incidence, registry);
     if (line.has("match") && output.empty()) return 0;
     std::vector<Lobe> lobes;
     for (const NamedModel& model : models) lobes.push_back(lobe_of(model, incidence, registry));
     const auto scale = line.has("log") ? RadialScale::logarithmic : RadialScale::linear;
-    if (output.empty()) {
-        std::cout << lobes_csv(lobes);
-    } else {
-        candela::write_text_file(output,
-                                 extension == "svg" ? lobes_svg(lobes, incidence, scale) : lobes_csv(lobes));
-    }
+    write(
+        output, extension, [&] { return lobes_svg(lobes, incidence, scale); },
+        [&] { return lobes_csv(lobes); });
     return 0;
 }

@@ -1,63 +1,42 @@
-// candela plugin new: a project for a plugin, from the installed template.
+// candela plugin new: a project for a plugin, from the installed template, or from another model's kernel.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
-#include "helper.h"
+#include "exercises.h"
 #include "output_folder.h"
 #include "plugin.h"
+#include "plugin_project.h"
 #include "reporting.h"
 
 import candela.files;
 import candela.text;
 
+namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
 
 namespace {
 
-std::string replaced(std::string text, const std::map<std::string, std::string>& values) {
-    for (const auto& [from, to] : values) {
-        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-            text.replace(at, from.size(), to);
-    }
-    return text;
-}
+constexpr std::size_t k_largest_kernel = 1'000'000;  // bytes
 
-/// "my-model" as my_model, MyModel and My model.
-std::map<std::string, std::string> names_of(const std::string& name) {
-    std::string ident, type, title;
-    bool begins_word = true;
-    for (const char c : name) {
-        const char upper = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-        ident += c == '-' ? '_' : c;
-        if (c != '-') type += begins_word ? upper : c;
-        title += c == '-' ? ' ' : (title.empty() ? upper : c);
-        begins_word = c == '-';
-    }
-    return {{"@NAME@", name}, {"@IDENT@", ident}, {"@TYPE@", type}, {"@TITLE@", title}};
-}
-
-void check_name(const std::string& name) {
-    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
-    const auto is_allowed = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
-    bool good = !name.empty() && is_letter(name.front()) && name.back() != '-' &&
-                name.find("--") == std::string::npos;
-    for (const char c : name) good = good && is_allowed(c);
-    if (!good) {
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' cannot be a plugin's name: lower-case letters, digits "
-                                "and single hyphens, a letter first",
-                                name));
-    }
+/// The kernel text to begin from: the file that is named, else the model's own.
+std::string kernel_from(const CommandLine& line, const candela::PluginFile& model) {
+    if (!line.has("kernel")) return model.descriptor->kernel.text;
+    const auto file = line.get<std::string>("kernel");
+    auto text = candela::read_text_file(file, k_largest_kernel);
+    if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file));
+    if (text->size() > k_largest_kernel || candela::first_invalid_byte(*text))
+        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is no kernel text", file));
+    return *std::move(text);
 }
 
 }  // namespace
@@ -69,6 +48,11 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
         "in DIR (or NAME). KIND is light, reflection, shading, shape, image or target. It builds and passes\n"
         "its tests as it stands.");
     line.positional("arguments", 3);
+    line.options()("from", po::value<std::string>()->value_name("MODEL"),
+                   "begin from this reflection model's kernel and parameters, not from the template's")(
+        "kernel", po::value<std::string>()->value_name("FILE"),
+        "with --from: this kernel text in place of the model's own, as the page of candela view keeps it");
+    add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> words = line.all("arguments");
     if (words.size() < 2)
@@ -81,28 +65,28 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
                     fmt::format("there is no template for '{}'{} (kinds: {})", words[0],
                                 meant.empty() ? "" : "; " + meant, fmt::join(kinds, ", ")));
     }
-    check_name(words[1]);
+    if (line.has("kernel") && !line.has("from"))
+        throw Error(ErrorCategory::bad_request,
+                    "--kernel needs --from: the model whose parameters the text reads");
+    if (line.has("from") && words[0] != "reflection")
+        throw Error(ErrorCategory::bad_request,
+                    "--from begins from a reflection model, so the kind has to be reflection");
+    const ProjectNames names = project_names(words[1]);
     const fs::path target = words.size() > 2 ? words[2] : words[1];
-    const fs::path source = beside_command("share/candela/templates") / words[0];
-    if (!fs::is_directory(source))
-        throw Error(ErrorCategory::failure,
-                    fmt::format("the templates are not installed: there is no '{}' (package candela-dev)",
-                                source.string()));
     if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
         throw Error(ErrorCategory::failure, fmt::format("'{}' is already there", target.string()));
-    const auto values = names_of(words[1]);
-    OutputFolder folder(target);
-    const auto templates = candela::names_in(source);
-    if (!templates)
-        throw Error(ErrorCategory::failure, fmt::format("the folder '{}' cannot be read", source.string()));
-    for (const std::string& name : *templates) {
-        const auto read = candela::read_text_file(source / name);
-        if (!read)
-            throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", (source / name).string()));
-        folder.write(replaced(name, values), replaced(*read, values));
+    candela::Registry registry = registry_from(line);
+    std::vector<candela::ExportedFile> files = template_files(words[0], names);
+    if (line.has("from")) {
+        const candela::PluginFile& model = loaded_model(line.get<std::string>("from"), registry);
+        for (candela::ExportedFile& file : files_like(model, kernel_from(line, model), names)) {
+            std::erase_if(files, [&](const candela::ExportedFile& other) { return other.name == file.name; });
+            files.push_back(std::move(file));
+        }
     }
+    OutputFolder folder(target);
+    for (const candela::ExportedFile& file : files) folder.write(file.name, file.content);
     folder.finish();
-    candela::Registry registry(candela::plugin_search_path({}));
     const auto kind = candela::plugin_kind_named(words[0]);
     if (const auto* const hidden = kind ? registry.find(*kind, words[1]) : nullptr)
         warn(fmt::format(

@@ -11,10 +11,12 @@
 #include "command_line.h"
 #include "compiling.h"
 #include "exit_code.h"
+#include "part_rendering.h"
 #include "reporting.h"
 #include "stopwatch.h"
+#include "task_journal.h"
 #include "terminal.h"
-#include "terms.h"
+#include "terms/terms.h"
 #include "verbs.h"
 
 import candela.files;
@@ -31,12 +33,6 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// "7.3 ms", "1.37 s".
-std::string duration_text(double milliseconds) {
-    return milliseconds < 1000 ? fmt::format("{:.3g} ms", milliseconds)
-                               : fmt::format("{:.3g} s", milliseconds / 1000);
-}
-
 /// For --no-clobber: better to know before rendering.
 void require_no_file(const std::string& output) {
     std::error_code problem;
@@ -50,37 +46,10 @@ std::vector<NamedTerm> terms_asked_for(const CommandLine& line, const candela::S
     if (line.get<std::string>("output") == "-")
         throw Error(ErrorCategory::bad_request,
                     "--terms writes layers or files beside the picture; name a file by -o");
-    return terms_from(line.get<std::string>("terms"), scene);
+    return terms_from(words_of(line.get<std::string>("terms")), scene, "--terms");
 }
 
-int threads_from(const CommandLine& line) {
-    if (!line.has("threads")) return 0;
-    const int threads = line.get<int>("threads");
-    if (threads < 1 || threads > 1024) {
-        throw Error(ErrorCategory::bad_request, fmt::format("--threads is {}; it can be 1 to 1024", threads));
-    }
-    return threads;
-}
-
-}  // namespace
-
-int run_render(const std::vector<std::string>& arguments) {
-    CommandLine line(
-        "candela render [SCENE...] [options]",
-        "Renders a scene, or several files that together are one, to a picture. Without a scene: the "
-        "default\n"
-        "scene, one cube and one point light. The format follows the extension of the picture's name.");
-    line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("candela.png"),
-                   "the picture; - writes a PNG to standard output");
-    add_scene_options(line);
-    line.options()("threads", po::value<int>()->value_name("N"),
-                   "threads to use; default: all cores, or one for a small picture")(
-        "terms", po::value<std::string>()->value_name("TERM,..."),
-        "also what the picture is made of: diffuse, specular, normal, depth, light.NAME ... or all "
-        "(docs/terms.md); layers of an .exr, or files beside the picture")(
-        "no-clobber", "do not replace a picture that exists")("verbose", "print how long each stage took");
-    if (!line.parse(arguments)) return 0;
-
+int render_picture(const CommandLine& line) {
     const Stopwatch total;
     const auto output = line.get<std::string>("output");
     require_no_terminal(output);
@@ -91,7 +60,7 @@ int run_render(const std::vector<std::string>& arguments) {
     const candela::PictureFormat format = candela::format_of(output, registry);
 
     candela::Diagnostics diagnostics;
-    const auto draft = candela::draft_scene(scene_request_from(line), registry, diagnostics);
+    const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
     if (draft && output != "-")
         require_no_input(output, candela::input_files(*draft), "the files that the scene is made from",
                          "give the picture another name");
@@ -114,6 +83,8 @@ int run_render(const std::vector<std::string>& arguments) {
     if (!compiled) return static_cast<int>(exit_code_of(diagnostics));
 
     const candela::ImageSettings& image = compiled->image;
+    if (is_streamed(image, format, registry) && terms.empty())
+        return render_by_rows(line, *compiled, format, existing, registry, total);
     std::optional<candela::Film> made;
     try {
         made.emplace(image.width, image.height, format.pixels, image.color_management);
@@ -172,4 +143,29 @@ int run_render(const std::vector<std::string>& arguments) {
                                     duration_text(total.milliseconds()));
     });
     return 0;
+}
+
+}  // namespace
+
+int run_render(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela render [SCENE...] [options]",
+        "Renders a scene, or several files that together are one, to a picture. Without a scene: the "
+        "default\n"
+        "scene, one cube and one point light. The format follows the extension of the picture's name.");
+    line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("candela.png"),
+                   "the picture; - writes a PNG to standard output");
+    add_scene_options(line);
+    add_frame_option(line);
+    line.options()("threads", po::value<int>()->value_name("N"),
+                   "threads to use; default: all cores, or one for a small picture")(
+        "terms", po::value<std::string>()->value_name("TERM,..."),
+        "also what the picture is made of: diffuse, specular, normal, depth, light.NAME ... or all "
+        "(docs/terms.md); layers of an .exr, or files beside the picture")(
+        "part", po::value<std::string>()->value_name("K/N"),
+        "only the K-th of N bands of rows, into the folder FILE.parts; candela assemble puts them together")(
+        "no-clobber", "do not replace a picture that exists")("verbose", "print how long each stage took");
+    add_journal_option(line);
+    if (!line.parse(arguments)) return 0;
+    return with_journal(line, [&] { return line.has("part") ? render_part(line) : render_picture(line); });
 }

@@ -23,6 +23,7 @@ import candela.files;
 namespace {
 
 bool quiet = false;
+std::string reported_errors;
 
 /// Past the filter, which would escape colours. The text must be printable.
 void print_styled(std::string_view text) {
@@ -55,6 +56,22 @@ void warn(const std::string& message) { say(fmt::format("candela: warning: {}\n"
 void report(const candela::Diagnostics& diagnostics) {
     print_styled(diagnostics_text(diagnostics, stderr_takes_color(), k_most_diagnostics_shown,
                                   quiet ? Shown::errors : Shown::errors_and_warnings));
+    if (diagnostics.has_errors())
+        reported_errors += diagnostics_text(diagnostics, false, k_most_diagnostics_shown, Shown::errors);
+}
+
+std::string errors_reported() { return reported_errors; }
+
+Failure current_failure() {
+    try {
+        throw;
+    } catch (const candela::Error& problem) {
+        return {exit_code_of(problem.category()), full_message(problem.what(), problem.help())};
+    } catch (const std::bad_alloc&) {
+        return {ExitCode::failure, "not enough memory"};
+    } catch (const std::exception& problem) {
+        return {ExitCode::failure, problem.what()};
+    }
 }
 
 void report_refusals(const candela::Registry& registry) {
@@ -96,11 +113,8 @@ int run_and_report(const std::function<int()>& work) {
         std::cout.flush();
         if (!std::cout) return fail(ExitCode::failure, "cannot write to standard output");
         return code;
-    } catch (const candela::Error& problem) {
-        return fail(exit_code_of(problem.category()), full_message(problem.what(), problem.help()));
-    } catch (const std::bad_alloc&) {
-        return fail(ExitCode::failure, "not enough memory");
-    } catch (const std::exception& problem) {
-        return fail(ExitCode::failure, problem.what());
+    } catch (const std::exception&) {
+        const Failure failure = current_failure();
+        return fail(failure.code, failure.message);
     }
 }

@@ -36,6 +36,18 @@ void warn(const std::string& message);
 /// Prints diagnostics on stderr; only the errors if --quiet was given.
 void report(const candela::Diagnostics& diagnostics);
 
+/// The errors among what report() has printed, without colours: for who writes down why something failed.
+std::string errors_reported();
+
+/// What an exception means to whoever gave the command.
+struct Failure {
+    ExitCode code;
+    std::string message;
+};
+
+/// Of the exception that is being handled; one that is no std::exception passes on.
+Failure current_failure();
+
 /// Prints on stderr why plugins cannot be used; those that others were used for have been reported then.
 void report_refusals(const candela::Registry& registry);
 

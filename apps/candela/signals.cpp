@@ -22,10 +22,8 @@ void leave_nothing_behind(int signal) {
         return;
     }
     // Programs write to folders.
-    if (has_temporary_folders()) {
-        end_descendants();
-        remove_temporary_folders();
-    }
+    if (has_temporary_folders() || are_descendants_ended_on_signals()) end_descendants();
+    remove_temporary_folders();
     candela::remove_unfinished_files();
     leave_line();
     struct sigaction action{};

@@ -3,5 +3,5 @@
 
 /// From here on, SIGINT, SIGTERM and SIGHUP end the process as ever, but leave no unfinished file and no
 /// temporary folder behind; a file that grows beyond its limit (RLIMIT_FSIZE) is an error like a full disk.
-/// To be called first in main().
+/// To be called first in main(), and again when something else has had these signals for a while.
 void prepare_for_signals();

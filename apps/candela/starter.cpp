@@ -1,7 +1,12 @@
 #include "starter.h"
 
-std::string_view starter_scene() {
-    return R"(# A scene for Candela. Text after a # is for people; change the numbers and render again.
+#include <string>
+#include <string_view>
+
+namespace {
+
+constexpr std::string_view k_picture =
+    R"(# A scene for Candela. Text after a # is for people; change the numbers and render again.
 #
 #   candela render scene.toml -o scene.png     makes the picture (.ppm, .exr, .jpg ... work as well)
 #   candela check scene.toml                   says what is wrong with a scene
@@ -90,4 +95,28 @@ reflection = "lambert"               # instead of what [reflection] says; shadin
 kd = 0.8
 ka = 0.2
 )";
+
+constexpr std::string_view k_film = R"(
+# What makes it a film: candela animate scene.toml -o film.mp4, or -o frames/%04d.png for the frames.
+[animation]
+frames = 96                          # numbered from 0
+fps    = 24.0                        # frames per second: four seconds
+
+# The observer goes once around what it looks at, and is back after the last frame.
+[animation.orbit]
+turns = 1.0                          # 2.0 is twice, -1.0 the other way round
+
+# Whatever --set can set may change over time: any number of tracks.
+[[animation.track]]
+path = "light.lamp.intensity"
+keys = [[0.0, 19.0], [2.0, 6.0], [4.0, 19.0]]  # seconds, and the value then
+interpolation = "smooth"             # between keys; or "linear", or "step"
+)";
+
+}  // namespace
+
+std::string starter_scene(Starter starter) {
+    std::string scene(k_picture);
+    if (starter == Starter::film) scene += k_film;
+    return scene;
 }

@@ -1,7 +1,9 @@
 // The scene that `candela new` writes.
 #pragma once
 
-#include <string_view>
+#include <string>
+
+enum class Starter { picture, film };
 
 /// A valid scene whose comments say what each key does.
-std::string_view starter_scene();
+std::string starter_scene(Starter starter);

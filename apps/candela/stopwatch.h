@@ -1,7 +1,10 @@
 // How long something takes.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <string>
 
 /// Runs from where it is made.
 class Stopwatch {
@@ -13,3 +16,9 @@ class Stopwatch {
   private:
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
+
+/// "7.3 ms", "1.37 s".
+inline std::string duration_text(double milliseconds) {
+    return milliseconds < 1000 ? fmt::format("{:.3g} ms", milliseconds)
+                               : fmt::format("{:.3g} s", milliseconds / 1000);
+}

@@ -22,8 +22,8 @@ class LoadedTarget {
     /// The name of the file that a person opens first.
     std::string main_file() const { return target_->main_file(); }
 
-    std::vector<candela::ExportedFile> files_of(const candela::ExportedScene& scene) const {
-        return candela::files_of(*target_, name_, scene);
+    candela::ExportedProgram program_of(const candela::ExportedScene& scene) const {
+        return candela::program_of(*target_, name_, scene);
     }
     void build(const std::filesystem::path& directory) const;
     void draw(const std::filesystem::path& directory, const std::filesystem::path& picture) const;

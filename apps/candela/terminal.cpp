@@ -91,6 +91,19 @@ void ProgressBar::update(std::size_t done, std::size_t all) {
     }
 }
 
+/// ", 2 min left", where it takes long enough to be worth knowing.
+std::string ProgressBar::time_left(std::size_t all) const {
+    constexpr double k_wait = 3;  // seconds: before, it is a guess
+    const std::size_t done = done_;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (done == 0 || seconds < k_wait) return "";
+    const double left = seconds * static_cast<double>(all - std::min(done, all)) / static_cast<double>(done);
+    constexpr double k_minute = 60, k_hour = 3600;
+    if (left < 2 * k_minute) return fmt::format(", {:.0f} s left", left);
+    return left < 2 * k_hour ? fmt::format(", {:.0f} min left", left / k_minute)
+                             : fmt::format(", {:.0f} h left", left / k_hour);
+}
+
 void ProgressBar::draw() {
     constexpr std::size_t k_width = 40;
     const std::size_t all = all_;
@@ -98,6 +111,8 @@ void ProgressBar::draw() {
     const std::size_t filled = k_width * done_ / all;
     const std::string bar = std::string(filled, '#') + std::string(k_width - filled, '.');
     open_line = OpenLine::bar;
-    std::fputs(fmt::format("\r{} [{}] {:3} %", label_, bar, 100 * done_ / all).c_str(), stderr);
+    std::fputs(
+        fmt::format("\r{} [{}] {:3} %{}\x1b[K", label_, bar, 100 * done_ / all, time_left(all)).c_str(),
+        stderr);
     std::fflush(stderr);
 }

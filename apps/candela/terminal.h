@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
@@ -39,8 +40,10 @@ class ProgressBar {
 
   private:
     void draw();
+    std::string time_left(std::size_t all) const;
 
     std::string label_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     std::atomic<std::size_t> done_{0}, all_{0};
     std::mutex mutex_;
     std::condition_variable end_;

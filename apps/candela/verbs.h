@@ -12,7 +12,12 @@ struct Verb {
 };
 
 int run_new(const std::vector<std::string>& arguments);
+int run_import(const std::vector<std::string>& arguments);
 int run_render(const std::vector<std::string>& arguments);
+int run_animate(const std::vector<std::string>& arguments);
+int run_assemble(const std::vector<std::string>& arguments);
+int run_submit(const std::vector<std::string>& arguments);
+int run_status(const std::vector<std::string>& arguments);
 int run_check(const std::vector<std::string>& arguments);
 int run_edit(const std::vector<std::string>& arguments);
 int run_explain(const std::vector<std::string>& arguments);
@@ -25,7 +30,12 @@ int run_diff(const std::vector<std::string>& arguments);
 int run_plot(const std::vector<std::string>& arguments);
 int run_list(const std::vector<std::string>& arguments);
 int run_describe(const std::vector<std::string>& arguments);
+int run_exercise(const std::vector<std::string>& arguments);
 int run_plugin(const std::vector<std::string>& arguments);
 int run_schema(const std::vector<std::string>& arguments);
 
 std::span<const Verb> verbs();
+
+/// Whether a shell asks for the name of one of `verbs`, of which all that is typed is in `arguments`: prints
+/// those it may become.
+bool complete_verb(const std::vector<std::string>& arguments, std::span<const Verb> verbs);

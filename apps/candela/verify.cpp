@@ -47,7 +47,9 @@ std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registr
     if (is_all) {
         for (const std::string& each : registry.names(candela::PluginKind::target)) {
             LoadedTarget target(each, registry);
-            if (target.can_draw()) chosen.push_back(std::move(target));
+            // A renderer with models of its own shows only some scenes as Candela does.
+            if (target.can_draw() && !target.abilities().models_without_kernel)
+                chosen.push_back(std::move(target));
         }
         return chosen;
     }
@@ -121,8 +123,8 @@ verify::Verdict verdict_on(const std::string& name, const verify::Expectation& e
 
 struct Verification {
     std::vector<LoadedTarget> targets;
-    std::vector<candela::SceneExport> exports;  // one for each target
-    std::optional<fs::path> program;            // made earlier
+    std::vector<std::vector<candela::ExportedFile>> programs;  // one for each target
+    std::optional<fs::path> program;                           // made earlier, instead
     verify::Limits limits;
     fs::path comparing;
 };
@@ -141,7 +143,7 @@ std::vector<verify::Verdict> verdicts_on(const Verification& what, candela::Comp
         const LoadedTarget& target = what.targets[i];
         const std::string& name = target.name();
         const fs::path program = what.program.value_or(folder / name);
-        if (!what.program) write_program(target.files_of(what.exports[i].scene()), program);
+        if (!what.program) write_program(what.programs[i], program);
         target.build(program);
         step();
         target.draw(program, folder / (name + ".png"));
@@ -158,7 +160,7 @@ void require_no_input_in_report(const std::string& report, const Verification& w
     std::vector<fs::path> names = Workplace::pictures_of(what.targets);
     names.emplace_back("index.html");
     for (std::size_t i = 0; i < what.targets.size() && !what.program; ++i)
-        for (const fs::path& name : names_of(what.targets[i].files_of(what.exports[i].scene())))
+        for (const fs::path& name : names_of(what.programs[i]))
             names.push_back(what.targets[i].name() / name);
     require_no_input_in(report, names, scene, "report");
 }
@@ -167,7 +169,8 @@ void require_no_input_in_report(const std::string& report, const Verification& w
 
 int run_verify(const std::vector<std::string>& arguments) {
     candela::Registry installed(candela::plugin_search_path({}));
-    const std::string help = target_names(installed) + ", or all";
+    const std::string help =
+        target_names(installed) + ", or all: those that are made from the formulas of the scene's models";
     CommandLine line(
         "candela verify [SCENE...] [options]",
         "Generates programs from a scene, builds and runs them, and compares their pictures with Candela's "
@@ -187,6 +190,7 @@ int run_verify(const std::vector<std::string>& arguments) {
         "compare the program generated earlier in this folder instead of a new one")(
         "json", "print the figures as JSON");
     add_models_option(line);
+    add_approximate_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
     const fs::path comparing = comparing_program();  // before anything is built for it
@@ -198,11 +202,16 @@ int run_verify(const std::vector<std::string>& arguments) {
     auto scene = scene_to_export(line, registry, diagnostics);
     report(diagnostics);
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));
-    Verification what{
-        .targets = std::move(chosen), .exports = {}, .program = {}, .limits = limits, .comparing = comparing};
-    for (const LoadedTarget& target : what.targets)
-        what.exports.push_back(export_for(target, *scene, line, registry));
+    Verification what{.targets = std::move(chosen),
+                      .programs = {},
+                      .program = {},
+                      .limits = limits,
+                      .comparing = comparing};
     if (line.has("program")) what.program = line.get<std::string>("program");
+    for (const LoadedTarget& target : what.targets) {
+        const candela::SceneExport exported = export_for(target, *scene, line, registry);
+        if (!what.program) what.programs.push_back(program_for(target, exported, line).files);
+    }
     std::optional<std::string> report_folder;
     if (line.has("report")) {
         report_folder = line.get<std::string>("report");

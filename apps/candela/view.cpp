@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "command_line.h"
+#include "explainer.h"
 #include "generating.h"
 #include "reporting.h"
+#include "signals.h"
 #include "targets.h"
 #include "temporary_folder.h"
 #include "terminal.h"
@@ -96,6 +98,10 @@ int run_view(const std::vector<std::string>& arguments) {
     const auto for_render = without({"--no-open", "--quiet"}, {"--port", "--target", "--models"}, arguments);
     auto for_explain = for_render;
     for_explain.push_back(fmt::format("--keep={}", kernels.path().string()));
+    std::vector<std::string> for_keep;
+    for (const std::string& folder : line.all("plugin-dir")) for_keep.push_back("--plugin-dir=" + folder);
+    if (line.has("allow-untrusted-plugins")) for_keep.emplace_back("--allow-untrusted-plugins");
+    std::optional<Explainer> explainer(std::in_place, for_explain);
     std::optional<view::Server> server(
         std::in_place, port_from(line),
         view::Server::Handlers{
@@ -104,31 +110,46 @@ int run_view(const std::vector<std::string>& arguments) {
                 [&](const std::vector<view::Change>& changes) {
                     return rendered(for_render, changes, pictures.path() / "reference.png");
                 },
-            .explain =
-                [&](const std::vector<view::Change>& changes) { return explained(for_explain, changes); },
+            .explain = [&](const std::vector<view::Change>& changes) { return explainer->explain(changes); },
             .save =
                 [&](const std::vector<view::Change>& changes) {
                     const view::Outcome outcome = saved(for_render, changes);
                     if (!outcome.is_success) warn("not saved: " + outcome.content);
                     return outcome;
+                },
+            .keep =
+                [&](const std::vector<view::Change>& changes, const std::string& kernel) {
+                    const view::Outcome outcome =
+                        kept(for_keep, changes, kernel, pictures.path() / "kept.kernel");
+                    say(outcome.content + '\n');
+                    return outcome;
                 }});
     // The follower says something on a thread of its own, which is not to flush what is printed by this one.
     std::cerr.tie(nullptr);
-    std::optional<SceneFollower> follower(
-        std::in_place,
-        SceneFollower::Job{.arguments = for_generate,
-                           .target = target.name(),
-                           .main_file = target.main_file(),
-                           .scenes = line.all("scene"),
-                           .plugin_folders = registry.search_path()},
-        [&](view::Publication publication) { server->publish(std::move(publication)); });
+    std::optional<SceneFollower> follower(std::in_place,
+                                          SceneFollower::Job{.arguments = for_generate,
+                                                             .target = target.name(),
+                                                             .main_file = target.main_file(),
+                                                             .scenes = line.all("scene"),
+                                                             .plugin_folders = registry.search_path()},
+                                          [&](view::Publication publication) {
+                                              // What is wrong now is not what is shown.
+                                              if (publication.problems.empty()) explainer->scene_changed();
+                                              server->publish(std::move(publication));
+                                          });
     const std::string address = server->address();
     std::cout << address << '\n' << std::flush;  // somebody may be waiting for it
     if (!line.has("no-open")) open_browser(address);
     server->run();
-    // Both wait for programs that they have started.
+    // All wait for programs that they have started.
     const WithoutDescendants from_now_on;
     follower.reset();
-    server.reset();
+    {
+        // The server leaves signals as the system has them. A second one is to leave nothing behind either.
+        const WithoutInterruption until_prepared;
+        server.reset();
+        prepare_for_signals();
+    }
+    explainer.reset();
     return 0;
 }

@@ -14,9 +14,10 @@
 #include <utility>
 
 #include "descendants.h"
+#include "plugin_project.h"
 #include "reporting.h"
 #include "stopwatch.h"
-#include "terms.h"
+#include "terms/terms.h"
 
 import candela.diagnostics;
 import candela.files;
@@ -94,16 +95,6 @@ view::Outcome rendered(const std::vector<std::string>& arguments, const std::vec
     return {.is_success = false, .content = problem.what()};
 }
 
-view::Outcome explained(const std::vector<std::string>& arguments,
-                        const std::vector<view::Change>& changes) try {
-    const candela::ProgramOutput result =
-        run_verb({"explain", "--quiet", "--json"}, arguments, options_of(changes));
-    const bool is_success = result.exit_code == 0;
-    return {.is_success = is_success, .content = is_success ? result.out : result.err};
-} catch (const std::exception& problem) {
-    return {.is_success = false, .content = problem.what()};
-}
-
 view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes) try {
     std::vector<std::string> options;
     for (const view::Change& change : changes) {
@@ -116,6 +107,30 @@ view::Outcome saved(const std::vector<std::string>& arguments, const std::vector
     return {.is_success = result.exit_code == 0, .content = result.err};
 } catch (const std::exception& problem) {
     return {.is_success = false, .content = problem.what()};
+}
+
+view::Outcome kept(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
+                   const std::string& kernel, const fs::path& file) try {
+    const auto value_of = [&](const char* option) {
+        return std::ranges::find(changes, option, &view::Change::option)->value;
+    };
+    // Which folder that is, is checked before anything is written: a plugin's name has no '/'.
+    const std::string name = project_names(value_of("--name")).name;
+    std::error_code problem;
+    if (fs::exists(fs::symlink_status(name, problem)))
+        return {.is_success = false, .content = fmt::format("It is not kept: '{}' is already there.", name)};
+    candela::write_text_file(file, kernel);
+    const candela::ProgramOutput result =
+        run_verb({"plugin", "new", "reflection", name}, arguments,
+                 {fmt::format("--from={}", value_of("--model")), fmt::format("--kernel={}", file.string())});
+    if (result.exit_code != 0) return {.is_success = false, .content = result.err};
+    return {.is_success = true,
+            .content =
+                fmt::format("Kept in '{}'. Build and test it there: cmake -B build && cmake --build build && "
+                            "ctest --test-dir build. {}",
+                            fs::absolute(name).string(), result.err)};
+} catch (const std::exception& problem) {
+    return {.is_success = false, .content = fmt::format("It is not kept: {}", problem.what())};
 }
 
 SceneFollower::SceneFollower(Job job, std::function<void(view::Publication)> publish)

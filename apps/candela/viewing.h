@@ -31,11 +31,14 @@ class WithoutDescendants {
 view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
                        const std::filesystem::path& file);
 
-/// What `candela explain` with these arguments says of a pixel, as JSON; the pixel is among `changes`.
-view::Outcome explained(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes);
-
 /// Has `candela edit` with these arguments write somebody's changes into the scene's files.
 view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes);
+
+/// Has `candela plugin new` with these arguments make a project of a formula, whose text is `kernel`, in a
+/// new folder of the working directory: the model and the folder's name are among `changes`. The text is
+/// handed over in `file`. What is to be said about it.
+view::Outcome kept(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
+                   const std::string& kernel, const std::filesystem::path& file);
 
 /// Makes a scene's page anew as often as one of the files changes that it is made from. `candela generate`
 /// makes it, in a process of its own: it has no library loaded that has been built again since, and may

@@ -53,10 +53,13 @@ std::optional<std::string> decoded(std::string_view text) {
 
 }  // namespace
 
+bool changes_something(Resource resource) { return resource == Resource::save || resource == Resource::keep; }
+
 std::optional<std::vector<Change>> changes_of(std::string_view query, Resource resource) {
     std::vector<Change> changes;
     const int pixels_asked_for = resource == Resource::explanation ? 1 : 0;
-    int pixels = 0, terms = 0;
+    const int names_asked_for = resource == Resource::keep ? 1 : 0;
+    int pixels = 0, terms = 0, models = 0, names = 0;
     while (!query.empty()) {
         const std::string_view part = query.substr(0, query.find('&'));
         query.remove_prefix(std::min(part.size() + 1, query.size()));
@@ -65,12 +68,17 @@ std::optional<std::vector<Change>> changes_of(std::string_view query, Resource r
         const std::string_view name = part.substr(0, equals);
         auto value = decoded(part.substr(equals + 1));
         const bool is_change = name == "set" || name == "shading" || name == "reflection";
-        if (!value || !(is_change || name == "pixel" || name == "terms")) return std::nullopt;
+        const bool is_known =
+            is_change || name == "pixel" || name == "terms" || name == "model" || name == "name";
+        if (!value || !is_known || (is_change && resource == Resource::keep)) return std::nullopt;
         if (name == "pixel") ++pixels;
+        if (name == "model") ++models;
+        if (name == "name") ++names;
         if (name == "terms" && (++terms > 1 || resource != Resource::reference)) return std::nullopt;
         changes.push_back({fmt::format("--{}", name), *std::move(value)});
     }
-    if (pixels != pixels_asked_for) return std::nullopt;
+    if (pixels != pixels_asked_for || models != names_asked_for || names != names_asked_for)
+        return std::nullopt;
     return changes;
 }
 
@@ -99,10 +107,11 @@ Route route_of(const Request& request, std::string_view token, std::uint16_t por
                               : path == "reference.png"    ? Resource::reference
                               : path == "explanation.json" ? Resource::explanation
                               : path == "save"             ? Resource::save
+                              : path == "keep"             ? Resource::keep
                                                            : Resource::none;
     if (resource == Resource::none) return {.status = 404};
-    if (request.method != (resource == Resource::save ? "POST" : "GET")) return {.status = 405};
-    if (resource == Resource::save && request.origin.empty()) return {.status = 403};
+    if (request.method != (changes_something(resource) ? "POST" : "GET")) return {.status = 405};
+    if (changes_something(resource) && request.origin.empty()) return {.status = 403};
     return {.status = 200, .resource = resource, .query = std::string(query)};
 }
 

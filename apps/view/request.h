@@ -24,6 +24,7 @@ enum class Resource {
     reference,
     explanation,  // of one pixel
     save,         // changes something, so browsers must say that it is this page that asks
+    keep,         // likewise: an edited formula, which is the request's body, as a plugin's project
 };
 
 /// What to do about a request.
@@ -37,16 +38,19 @@ struct Route {
 std::string random_token();
 
 /// What somebody has changed in the page, as the command line of `candela render` has it; or which pixel is
-/// to be explained, or which term of the picture to be shown.
+/// to be explained, which term of the picture to be shown, or what formula to be kept.
 struct Change {
-    std::string option;  // "--set", "--shading", "--reflection", "--pixel" or "--terms"
+    std::string option;  // "--set", "--shading", "--reflection", "--pixel", "--terms", "--model" or "--name"
     std::string value;
 };
 
 /// The changes that a query says ("set=observer.fov%3D20&shading=flat"); nothing where it is not that. A
 /// query for an explanation also has a pixel ("pixel=320%2C240"), exactly one; one for a picture may have a
-/// term ("terms=diffuse"). Any thread.
+/// term ("terms=diffuse"). One to keep something has a model and a name, and nothing else. Any thread.
 std::optional<std::vector<Change>> changes_of(std::string_view query, Resource resource);
+
+/// Whether a request for it changes something, and so has to be a POST of the page itself.
+bool changes_something(Resource resource);
 
 /// Any bytes may be in a request. Any thread.
 Route route_of(const Request& request, std::string_view token, std::uint16_t port);

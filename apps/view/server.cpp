@@ -43,6 +43,7 @@ namespace {
 
 constexpr std::size_t k_most_connections = 64;
 constexpr std::size_t k_longest_header = 8192;  // bytes
+constexpr std::size_t k_longest_body = 65536;   // likewise: of a kernel's text
 constexpr std::size_t k_most_refusals_logged = 10;
 constexpr int k_most_waiting = 8;  // for a picture or a file
 constexpr seconds k_longest_request{10};
@@ -98,7 +99,8 @@ class Server::Implementation {
     void leave(Connection& connection) { std::erase(connections_, &connection); }
     void refused(unsigned status);
     /// False if too many wait for one.
-    bool work(Resource resource, std::vector<Change> changes, std::function<void(Outcome)> answer);
+    bool work(Resource resource, std::vector<Change> changes, std::string body,
+              std::function<void(Outcome)> answer);
 
   private:
     void accept();
@@ -132,6 +134,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
 
     void start() {
         parser_.header_limit(k_longest_header);
+        parser_.body_limit(k_longest_body);
         stream_.expires_after(k_longest_request);
         http::async_read(stream_, buffer_, parser_,
                          [self = shared_from_this()](error_code problem, std::size_t) {
@@ -162,7 +165,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
 
     void answer() {
         has_asked_ = true;
-        const http::request<http::empty_body>& request = parser_.get();
+        const http::request<http::string_body>& request = parser_.get();
         const auto text = [](beast::string_view view) { return std::string_view(view.data(), view.size()); };
         const Route route = route_of({.method = text(request.method_string()),
                                       .target = text(request.target()),
@@ -173,6 +176,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
             server_.refused(route.status);
             return send(refusal(route.status));
         }
+        if (route.resource != Resource::keep && !request.body().empty()) return send(refusal(400));
         if (route.resource == Resource::events) return open_events();
         if (route.resource == Resource::page) return send(page(route.query));
         work(route);
@@ -220,14 +224,15 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
         const char* const type = route.resource == Resource::reference     ? "image/png"
                                  : route.resource == Resource::explanation ? "application/json"
                                                                            : "text/plain; charset=utf-8";
-        const bool is_accepted = server_.work(
-            route.resource, *std::move(changes), [self = shared_from_this(), type](Outcome outcome) {
-                Response answer = self->response(outcome.is_success ? http::status::ok
-                                                                    : http::status::unprocessable_entity);
-                if (outcome.is_success) answer.set(http::field::content_type, type);
-                answer.body() = std::move(outcome.content);
-                self->send(std::move(answer));
-            });
+        const bool is_accepted =
+            server_.work(route.resource, *std::move(changes), parser_.get().body(),
+                         [self = shared_from_this(), type](Outcome outcome) {
+                             Response answer = self->response(
+                                 outcome.is_success ? http::status::ok : http::status::unprocessable_entity);
+                             if (outcome.is_success) answer.set(http::field::content_type, type);
+                             answer.body() = std::move(outcome.content);
+                             self->send(std::move(answer));
+                         });
         if (!is_accepted) send(refusal(503));
     }
 
@@ -278,7 +283,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     asio::steady_timer heartbeat_;
     Implementation& server_;
     beast::flat_buffer buffer_{2 * k_longest_header};
-    http::request_parser<http::empty_body> parser_;
+    http::request_parser<http::string_body> parser_;
     Response response_;
     std::string text_;  // being written
     bool has_asked_ = false;
@@ -323,15 +328,16 @@ void Server::Implementation::accept() {
     });
 }
 
-bool Server::Implementation::work(Resource resource, std::vector<Change> changes,
+bool Server::Implementation::work(Resource resource, std::vector<Change> changes, std::string body,
                                   std::function<void(Outcome)> answer) {
     if (waiting_ == k_most_waiting) return false;
     ++waiting_;
-    const auto& handler = resource == Resource::save          ? handlers_.save
-                          : resource == Resource::explanation ? handlers_.explain
-                                                              : handlers_.render;
-    asio::post(worker_, [this, &handler, changes = std::move(changes), answer = std::move(answer)]() mutable {
-        Outcome outcome = handler(changes);
+    asio::post(worker_, [this, resource, changes = std::move(changes), body = std::move(body),
+                         answer = std::move(answer)]() mutable {
+        Outcome outcome = resource == Resource::keep          ? handlers_.keep(changes, body)
+                          : resource == Resource::save        ? handlers_.save(changes)
+                          : resource == Resource::explanation ? handlers_.explain(changes)
+                                                              : handlers_.render(changes);
         asio::post(context_, [this, outcome = std::move(outcome), answer = std::move(answer)]() mutable {
             --waiting_;
             answer(std::move(outcome));

@@ -12,8 +12,8 @@
 
 namespace view {
 
-/// What becomes of somebody's changes: the bytes of a PNG file, an explanation as JSON, or nothing where they
-/// are saved; or what is wrong.
+/// What becomes of somebody's changes: the bytes of a PNG file, an explanation as JSON, nothing where they
+/// are saved, or what has been made of a formula; or what is wrong.
 struct Outcome {
     bool is_success = false;
     std::string content;
@@ -30,6 +30,7 @@ class Server {
         std::function<Outcome(const std::vector<Change>&)> render;
         std::function<Outcome(const std::vector<Change>&)> explain;
         std::function<Outcome(const std::vector<Change>&)> save;
+        std::function<Outcome(const std::vector<Change>&, const std::string& kernel)> keep;
     };
 
     /// Port 0: one that is free. Throws candela::Error (failure) where it cannot be listened on.

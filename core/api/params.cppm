@@ -12,6 +12,8 @@ using candela::NumberList;
 using candela::ParamSpec;
 using candela::ParamType;
 using candela::ParamValue;
+using candela::PresetSpec;
+using candela::PresetValue;
 using candela::RelationSpec;
 using candela::RelationType;
 }  // namespace candela

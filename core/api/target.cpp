@@ -10,6 +10,8 @@ FileSink::~FileSink() = default;
 ProgramRunner::~ProgramRunner() = default;
 Target::~Target() = default;
 
+void FileSink::approximate(const char*) {}
+
 void Target::build(const char*, ProgramRunner&) const {}
 
 void Target::draw(const char*, const char*, ProgramRunner&) const {

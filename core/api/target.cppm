@@ -6,6 +6,7 @@ export module candela.target;
 
 export import candela.descriptor;
 export import candela.math;
+export import candela.punctual;
 export import candela.shading;
 export import candela.transform;
 
@@ -21,6 +22,8 @@ using candela::ExportedReflection;
 using candela::ExportedSample;
 using candela::ExportedScene;
 using candela::ExportedShading;
+using candela::ExportedTexture;
+using candela::ExportedTextureLevel;
 using candela::ExportedValues;
 using candela::FileSink;
 using candela::ProgramResult;

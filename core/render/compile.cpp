@@ -5,6 +5,7 @@ module;
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -30,28 +31,63 @@ import candela.registry;
 import candela.scene;
 import candela.shading;
 import candela.shape;
+import candela.texture;
 
 namespace candela {
 
 namespace {
 
+/// A scene and what it was compiled to, for the next to take from what is the same in it.
+struct Before {
+    Scene scene;
+    CompiledScene compiled;
+    std::vector<std::vector<std::string>> warnings;  // of the objects' shapes
+};
+
+/// Whether nothing has moved, so that the constraints hold as before. Objects are compared elsewhere.
+bool is_placed_as(const Scene& a, const Scene& b) {
+    const auto is_same_light = [](const LightSource& x, const LightSource& y) {
+        return x.label == y.label && position_of(x) == position_of(y);
+    };
+    // Warnings are said again in every frame.
+    return a.constraints == b.constraints && a.constraints.overlap != Severity::warning && a.room == b.room &&
+           a.observer.position == b.observer.position &&
+           std::ranges::equal(a.lights, b.lights, is_same_light);
+}
+
 class Compiler {
   public:
-    Compiler(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics, const Progress& progress)
-        : scene_(draft.scene), registry_(registry), diagnostics_(diagnostics), progress_(progress) {
+    /// `before`, if not null, loses what is taken from it.
+    Compiler(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics, const Progress& progress,
+             Before* before = nullptr)
+        : scene_(draft.scene),
+          registry_(registry),
+          diagnostics_(diagnostics),
+          progress_(progress),
+          before_(before != nullptr &&
+                          before->scene.image.color_management == draft.scene.image.color_management &&
+                          before->scene.objects.size() == draft.scene.objects.size()
+                      ? before
+                      : nullptr),
+          warnings_(draft.scene.objects.size()) {
         tell();
         compiled_.observer = scene_.observer;
         compiled_.image = scene_.image;
         if (draft.is_complete) make_models();
+        if (draft.is_complete) make_textures();
         if (draft.is_complete) make_environment();
         place_shapes();
-        check(draft);
+        if (!has_kept_triangles() || !is_placed_as(before_->scene, scene_)) check(draft);
     }
+
+    bool has_kept_triangles() const { return before_ != nullptr && kept_ == scene_.objects.size(); }
+    std::vector<std::vector<std::string>> take_warnings() { return std::move(warnings_); }
 
     std::optional<CompiledScene> take(int threads) {
         if (diagnostics_.has_errors()) return std::nullopt;
         double triangles = 0;
-        for (const auto& placed : placed_) triangles += static_cast<double>(placed->mesh.triangle_count());
+        for (const auto& placed : placed_)
+            triangles += placed ? static_cast<double>(placed->mesh.triangle_count()) : 0;
         constexpr double k_milliseconds = 2e-5;  // for a triangle's normals, by one thread
         with_threads(
             threads,
@@ -97,15 +133,30 @@ class Compiler {
     }
 
     void make_models() {
-        for (const LightSource& light : scene_.lights) {
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            const LightSource& light = scene_.lights[i];
+            if (before_ != nullptr && i < before_->scene.lights.size() &&
+                before_->scene.lights[i].model == light.model) {
+                compiled_.lights.push_back(std::move(before_->compiled.lights[i]));
+                continue;
+            }
             guarded("light " + light.label, light.place,
                     [&] { compiled_.lights.push_back({light.model.name, made<Light>(light.model)}); });
         }
-        for (const Object& object : scene_.objects) {
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+            const Object& object = scene_.objects[i];
             SolidObject& solid = compiled_.objects.emplace_back();
             solid.label = object.label;
+            if (const Object* const old = object_before(i);
+                old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
+                old->color_texture_wrap == object.color_texture_wrap && old->shading == object.shading &&
+                old->reflection == object.reflection) {
+                solid.surface = std::move(before_->compiled.objects[i].surface);
+                continue;
+            }
             guarded("object " + object.label, object.place, [&] {
                 solid.surface = {.color = decoded(object.color, encoding()),
+                                 .color_texture_wrap = object.color_texture_wrap,
                                  .shading_plugin = object.shading.name,
                                  .shading = made<ShadingModel>(object.shading),
                                  .reflection_plugin = object.reflection.name,
@@ -114,9 +165,52 @@ class Compiler {
         }
     }
 
+    /// Those that are said of an object at the place of its texture. Objects share pictures.
+    void make_textures() {
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+            const Object& object = scene_.objects[i];
+            if (object.color_texture.empty() || compiled_.objects[i].surface.color_texture != nullptr)
+                continue;
+            const Object* const old = object_before(i);
+            if (old != nullptr && old->color_texture == object.color_texture) {
+                compiled_.objects[i].surface.color_texture =
+                    before_->compiled.objects[i].surface.color_texture;
+                continue;
+            }
+            guarded("object " + object.label, object.texture_place, [&] {
+                const auto [known, is_new] = textures_.try_emplace(object.color_texture);
+                if (is_new) {
+                    const TexturePicture read = read_texture(object.color_texture, registry_, encoding());
+                    known->second = read.mip_map;
+                    if (read.was_clamped)
+                        diagnostics_.warning(object.texture_place,
+                                             fmt::format("the texture '{}' has intensities above 1, which "
+                                                         "are clamped; a surface reflects no more",
+                                                         object.color_texture));
+                }
+                compiled_.objects[i].surface.color_texture = known->second;
+            });
+        }
+    }
+
+    void require_texture_coordinates(std::size_t i) {
+        const Object& object = scene_.objects[i];
+        // What could not be read has been said already.
+        if (compiled_.objects[i].surface.color_texture == nullptr) return;
+        if (!placed_[i] || !placed_[i]->mesh.u.empty()) return;
+        diagnostics_.error(
+            object.texture_place,
+            fmt::format("object {} has no texture coordinates, by which a texture is placed", object.label),
+            "leave out color_texture, or give the shape texture coordinates");
+    }
+
     void make_environment() {
         compiled_.environment = Environment(decoded(scene_.image.background, encoding()));
         if (scene_.image.environment.empty()) return;
+        if (before_ != nullptr && before_->scene.image.environment == scene_.image.environment) {
+            compiled_.environment = std::move(before_->compiled.environment);
+            return;
+        }
         guarded("environment", scene_.image.environment_place, [&] {
             compiled_.environment = read_environment(scene_.image.environment, registry_, encoding());
         });
@@ -143,6 +237,11 @@ class Compiler {
             const bool has_surface =
                 i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
             const PointNeeds needs = has_surface ? compiled_.objects[i].surface.needs() : PointNeeds{};
+            if (has_surface && keep(i, needs)) {
+                say_once(object, warnings_[i]);
+                count_step();
+                continue;
+            }
             guarded(object, PluginKind::shape, object.shape.name, [&] {
                 placed_[i] = place(*made<Shape>(object.shape),
                                    {.uv = needs.uv,
@@ -151,9 +250,31 @@ class Compiler {
                                     .color_management = encoding()},
                                    object.transform, [this](double part) { tell(part); });
             });
-            if (placed_[i]) say_once(object, placed_[i]->warnings);
+            if (placed_[i]) warnings_[i] = placed_[i]->warnings;
+            if (has_surface) require_texture_coordinates(i);
+            say_once(object, warnings_[i]);
             count_step();
         }
+    }
+
+    const Object* object_before(std::size_t i) const {
+        return before_ != nullptr ? &before_->scene.objects[i] : nullptr;
+    }
+
+    /// Takes an object's triangles from before, if they are the same, with what its models need of them.
+    bool keep(std::size_t i, const PointNeeds& needs) {
+        const Object& object = scene_.objects[i];
+        const Object* const old = object_before(i);
+        if (old == nullptr || old->shape != object.shape || old->transform != object.transform ||
+            old->color != object.color || old->encloses != object.encloses || old->shading != object.shading)
+            return false;
+        SolidObject& solid = before_->compiled.objects[i];
+        if (solid.mesh.u.empty() == needs.uv || solid.mesh.dpdu.empty() == needs.derivatives) return false;
+        compiled_.objects[i].mesh = std::move(solid.mesh);
+        compiled_.objects[i].tree = std::move(solid.tree);
+        warnings_[i] = std::move(before_->warnings[i]);
+        ++kept_;
+        return true;
     }
 
     /// A hundred objects may come from one file.
@@ -167,9 +288,11 @@ class Compiler {
     void check(const SceneDraft& draft) {
         std::vector<SurfaceView> surfaces(placed_.size());
         for (std::size_t i = 0; i < placed_.size(); ++i) {
-            if (!placed_[i]) continue;
-            const Mesh& mesh = placed_[i]->mesh;
-            surfaces[i] = {mesh.position.span(), mesh.vertex_count(), mesh.indices, mesh.closed};
+            const Mesh* const mesh = placed_[i]                     ? &placed_[i]->mesh
+                                     : i < compiled_.objects.size() ? &compiled_.objects[i].mesh
+                                                                    : nullptr;
+            if (mesh == nullptr || mesh->vertex_count() == 0) continue;
+            surfaces[i] = {mesh->position.span(), mesh->vertex_count(), mesh->indices, mesh->open_edges == 0};
         }
         check_constraints(draft, surfaces, diagnostics_, [this] { count_step(); });
     }
@@ -177,10 +300,12 @@ class Compiler {
     void finish(std::size_t i) {
         const Object& object = scene_.objects[i];
         SolidObject& solid = compiled_.objects[i];
-        guarded(object, PluginKind::shading, object.shading.name,
-                [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
-        multiply(solid.mesh.color, solid.surface.color);
-        if (solid.surface.reflection->shows_surroundings())
+        if (placed_[i]) {
+            guarded(object, PluginKind::shading, object.shading.name,
+                    [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
+            multiply(solid.mesh.color, solid.surface.color);
+        }
+        if (solid.surface.reflection->shows_surroundings() && !solid.tree)
             solid.tree.emplace(std::as_const(solid.mesh.position).span(), solid.mesh.vertex_count(),
                                solid.mesh.indices);
         if (object.encloses) {
@@ -206,9 +331,13 @@ class Compiler {
     Diagnostics& diagnostics_;
     const Progress& progress_;
     std::size_t steps_done_ = 0;
+    Before* before_;        // what is the same is taken from there; null: nothing is
+    std::size_t kept_ = 0;  // objects whose triangles were taken
     CompiledScene compiled_;
     std::vector<std::optional<PlacedShape>> placed_;
+    std::vector<std::vector<std::string>> warnings_;  // of the objects' shapes
     std::set<std::string> said_;
+    std::map<std::string, std::shared_ptr<const MipMap>> textures_;  // by file
 };
 
 }  // namespace
@@ -216,6 +345,31 @@ class Compiler {
 std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
                                      int threads, const Progress& progress) {
     return Compiler(draft, registry, diagnostics, progress).take(threads);
+}
+
+struct FrameCompiler::Kept {
+    Registry& registry;
+    std::optional<Before> before{};
+    bool has_kept_triangles = false;
+};
+
+FrameCompiler::FrameCompiler(Registry& registry) : kept_(std::make_unique<Kept>(Kept{registry})) {}
+FrameCompiler::FrameCompiler(FrameCompiler&&) noexcept = default;
+FrameCompiler& FrameCompiler::operator=(FrameCompiler&&) noexcept = default;
+FrameCompiler::~FrameCompiler() = default;
+
+bool FrameCompiler::has_kept_triangles() const noexcept { return kept_->has_kept_triangles; }
+
+const CompiledScene* FrameCompiler::compile(const SceneDraft& draft, Diagnostics& diagnostics, int threads) {
+    // Nothing is left of the one before if this one throws.
+    std::optional<Before> before = std::exchange(kept_->before, std::nullopt);
+    const Progress silent;
+    Compiler compiler(draft, kept_->registry, diagnostics, silent, before ? &*before : nullptr);
+    kept_->has_kept_triangles = compiler.has_kept_triangles();
+    auto compiled = compiler.take(threads);
+    if (!compiled) return nullptr;
+    kept_->before = Before{draft.scene, *std::move(compiled), compiler.take_warnings()};
+    return &kept_->before->compiled;
 }
 
 std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics,

@@ -29,12 +29,13 @@ Camera camera_of(const Observer& observer, int width, int height) {
 }
 
 // Projection: vertices onto the screen, triangles clipped and sorted into tiles.
-void project_scene(const CompiledScene& scene, int width, int height, int tile_size, int samples,
-                   ProjectedScene& projected) {
+void project_scene(const CompiledScene& scene, int width, int height, RowRange rows, int tile_size,
+                   int samples, ProjectedScene& projected) {
     std::vector<const Mesh*> meshes;
     for (const SolidObject& object : scene.objects) meshes.push_back(&object.mesh);
     try {
-        project(meshes, camera_of(scene.observer, width, height), tile_size, samples, projected);
+        project(meshes, camera_of(scene.observer, width, height), tile_size, samples, projected,
+                TileRows{rows.first / tile_size, (rows.end + tile_size - 1) / tile_size});
     } catch (const std::length_error& problem) {
         throw Error(ErrorCategory::failure, problem.what());
     }

@@ -35,14 +35,14 @@ class FragmentTracer {
         shader_.begin({scene.lights, &scene.environment, projected.camera});
     }
 
-    FragmentProbe trace(std::uint32_t object, const FragmentRun& run) {
+    FragmentProbe trace(std::uint32_t object, const FragmentRun& run, std::uint32_t triangle) {
         const SolidObject& solid = scene_.objects[object];
         const ProjectedMesh mesh{projected_, solid.mesh, projected_.first_vertex[object]};
         PointNeeds needs = solid.surface.needs();
         needs.face_normal = needs.vertex_normal = needs.barycentric = true;
-        gather_fragments(mesh, std::span(&run, 1), needs, points_);
+        gather_fragments(mesh, {std::span(&run, 1), std::span(&triangle, 1)}, needs, points_);
         FragmentProbe fragment{.object = object,
-                               .triangle = run.triangle,
+                               .triangle = triangle,
                                .weight = run.weight,
                                .position = points_.position.span()[0],
                                .barycentric = points_.barycentric.span()[0],
@@ -52,11 +52,11 @@ class FragmentTracer {
                 fragment.points.push_back(trace_point(solid));
                 break;
             case ShadingRate::face:
-                gather_faces(mesh, std::span(&run.triangle, 1), needs, points_);
+                gather_faces(mesh, std::span(&triangle, 1), needs, points_);
                 fragment.points.push_back(trace_point(solid));
                 break;
             case ShadingRate::vertex:
-                trace_vertices(mesh, solid, run.triangle, fragment);
+                trace_vertices(mesh, solid, triangle, fragment);
                 return fragment;
         }
         fragment.intensity = fragment.points[0].intensity;
@@ -65,6 +65,7 @@ class FragmentTracer {
 
   private:
     PointTrace trace_point(const SolidObject& solid) {
+        apply_texture(solid.surface, points_);
         return shader_.trace(solid.surface, {&solid.mesh, solid.tree ? &*solid.tree : nullptr}, points_);
     }
 
@@ -94,19 +95,20 @@ PixelProbe probe(const CompiledScene& scene, int x, int y) {
     const int width = scene.image.width, height = scene.image.height;
     if (x < 0 || y < 0 || x >= width || y >= height) throw std::out_of_range("the picture has no such pixel");
     ProjectedScene projected;
-    project_scene(scene, width, height, k_tile_size, scene.image.samples, projected);
+    const int tile_row = y / k_tile_size;
+    const RowRange rows{tile_row * k_tile_size, std::min((tile_row + 1) * k_tile_size, height)};
+    project_scene(scene, width, height, rows, k_tile_size, scene.image.samples, projected);
     TileWorker worker;
     worker.shader.begin(scene, projected);
     VisibleTile& visible = worker.visible;
-    find_visible(projected, y / k_tile_size * projected.tile_columns + x / k_tile_size, worker.visibility,
-                 visible);
+    find_visible(projected, tile_row * projected.tile_columns + x / k_tile_size, worker.visibility, visible);
 
     // The whole tile, by the pipeline itself: the pixel is the picture's by construction.
     PixelProbe result;
-    Film film(width, height, PixelType::byte, scene.image.color_management);
+    Film film(width, height, PixelType::byte, scene.image.color_management, rows);
     shade_tile(scene, visible, worker, film);
-    const std::size_t at =
-        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    const std::size_t at = 3 * (static_cast<std::size_t>(y - rows.first) * static_cast<std::size_t>(width) +
+                                static_cast<std::size_t>(x));
     std::ranges::copy(film.view().bytes.subspan(at, 3), result.bytes.begin());
     const Vec3 towards =
         projected.camera.view_through(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
@@ -125,12 +127,18 @@ PixelProbe probe(const CompiledScene& scene, int x, int y) {
     }
     FragmentTracer tracer(scene, projected);
     for (const FragmentList& list : visible.fragments.lists()) {
+        std::size_t first = 0;
         for (FragmentRun run : list.runs) {
+            const std::size_t of_run = first;
+            first += run.count;
             if (pixel < run.pixel || pixel - run.pixel >= run.count) continue;
-            run.x += static_cast<float>(pixel - run.pixel);
-            run.pixel = pixel;
-            run.count = 1;
-            result.fragments.push_back(tracer.trace(list.object, run));
+            const std::uint32_t offset = pixel - run.pixel;
+            run = {.pixel = pixel,
+                   .count = 1,
+                   .x = run.x + static_cast<float>(offset),
+                   .y = run.y,
+                   .weight = run.weight};
+            result.fragments.push_back(tracer.trace(list.object, run, list.triangles[of_run + offset]));
         }
     }
     return result;

@@ -2,5 +2,7 @@
 export module candela.render;
 
 export import :compiled_scene;
+export import :frames;
 export import :probe;
+export import :rendered_rows;
 export import :renderer;

@@ -44,6 +44,7 @@ struct SeenScene {
         : observer(scene.observer),
           width(film.width()),
           height(film.height()),
+          rows(film.rows()),
           samples(is_geometric(options.term) ? 1 : scene.image.samples),
           tile_size(options.tile_size > 0 ? options.tile_size : tile_size_for(samples)) {
         for (const SolidObject& object : scene.objects)
@@ -59,7 +60,9 @@ struct SeenScene {
     };
 
     Observer observer;
-    int width, height, samples, tile_size;
+    int width, height;
+    RowRange rows;
+    int samples, tile_size;
     std::vector<MeshPlace> meshes;
 
     friend bool operator==(const SeenScene&, const SeenScene&) = default;
@@ -71,7 +74,7 @@ double rough_milliseconds(const CompiledScene& scene, const Film& film) {
     double triangles = 0;
     for (const SolidObject& object : scene.objects)
         triangles += static_cast<double>(object.mesh.triangle_count());
-    const double points = 1.0 * film.width() * film.height() * scene.image.samples;
+    const double points = 1.0 * film.width() * film.rows().count() * scene.image.samples;
     return 5e-6 * points * static_cast<double>(std::max<std::size_t>(scene.lights.size(), 1)) +
            2e-5 * triangles;
 }
@@ -96,8 +99,9 @@ struct Renderer::Kept {
         RenderStatistics statistics;
         const auto begin = Clock::now();
         if (!is_seen)
-            project_scene(scene, to_see.width, to_see.height, to_see.tile_size, to_see.samples, projected);
-        const auto tile_count = static_cast<std::size_t>(projected.tile_count());
+            project_scene(scene, to_see.width, to_see.height, to_see.rows, to_see.tile_size, to_see.samples,
+                          projected);
+        const auto tile_count = static_cast<std::size_t>(projected.seen_tile_count());
         if (what == Keep::visibility) tiles.resize(tile_count);
         statistics.seconds_projecting = seconds_since(begin);
         statistics.triangles = projected.first_triangle.back();
@@ -119,7 +123,9 @@ struct Renderer::Kept {
             workers.with(make, [&](TileWorker& worker) {
                 for (std::size_t tile = first; tile < last; ++tile) {
                     VisibleTile& visible = what == Keep::visibility ? tiles[tile] : worker.visible;
-                    if (!is_seen) find_visible(projected, static_cast<int>(tile), worker.visibility, visible);
+                    if (!is_seen)
+                        find_visible(projected, projected.first_seen_tile() + static_cast<int>(tile),
+                                     worker.visibility, visible);
                     shade_tile(scene, visible, worker, film);
                     if (options.progress) options.progress(++tiles_done, tile_count);
                 }

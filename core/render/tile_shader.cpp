@@ -45,13 +45,8 @@ struct AddLoop {
                 ++run;
                 continue;
             }
-            // Nothing else is visible there, and nothing has been written yet. The small triangles of a fine
-            // mesh are neighbours: their runs form one long run.
-            std::uint32_t length = 0;
-            do {
-                length += run->count;
-                ++run;
-            } while (run != end && run->weight == 1 && run->pixel == first + length);
+            // Nothing else is visible there, and nothing has been written yet.
+            const std::uint32_t length = run->count;
             CANDELA_VECTORIZE
             for (std::uint32_t i = 0; i < length; ++i) {
                 to.x[i] = intensity.x[i];
@@ -59,6 +54,7 @@ struct AddLoop {
                 to.z[i] = intensity.z[i];
             }
             intensity = intensity.from(length);
+            ++run;
         }
     }
 };
@@ -154,6 +150,7 @@ ProjectedMesh TileShader::mesh_of(const FragmentList& fragments) const {
 void TileShader::shade_points(std::uint32_t object, const Vec3Span& intensity) {
     const SolidObject& solid = scene_->objects[object];
     const Interior interior{&solid.mesh, solid.tree ? &*solid.tree : nullptr};
+    apply_texture(solid.surface, points_);
     if (term_ == Term::intensity) {
         brightest_ = std::max(brightest_, surface_shader_.shade(solid.surface, interior, points_, intensity));
     } else {
@@ -170,10 +167,10 @@ void TileShader::shade_fragments(const FragmentList& fragments) {
     const ProjectedMesh mesh = mesh_of(fragments);
     const PointNeeds needs = scene_->objects[fragments.object].surface.needs();
     FragmentBatches batches(fragments);
-    for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
-        gather_fragments(mesh, runs, needs, points_);
+    for (FragmentBatch batch = batches.next(); !batch.runs.empty(); batch = batches.next()) {
+        gather_fragments(mesh, batch, needs, points_);
         shade_points(fragments.object, batch_.span());
-        accumulate(runs, std::as_const(batch_).span());
+        accumulate(batch.runs, std::as_const(batch_).span());
     }
 }
 
@@ -181,14 +178,11 @@ void TileShader::show_geometry(const FragmentList& fragments) {
     const ProjectedMesh mesh = mesh_of(fragments);
     const bool has_uv = term_ == Term::uv;
     FragmentBatches batches(fragments);
-    for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
-        gather_fragments(mesh, runs, {.vertex_normal = false, .color = false, .uv = has_uv}, points_);
-        std::size_t i = 0;
-        for (const FragmentRun& run : runs) {
-            for (const std::size_t end = i + run.count; i < end; ++i)
-                batch_.span().set(i, geometry_at(i, fragments.object, run.triangle));
-        }
-        accumulate(runs, std::as_const(batch_).span());
+    for (FragmentBatch batch = batches.next(); !batch.runs.empty(); batch = batches.next()) {
+        gather_fragments(mesh, batch, {.vertex_normal = false, .color = false, .uv = has_uv}, points_);
+        for (std::size_t i = 0; i < batch.triangles.size(); ++i)
+            batch_.span().set(i, geometry_at(i, fragments.object, batch.triangles[i]));
+        accumulate(batch.runs, std::as_const(batch_).span());
     }
 }
 
@@ -221,7 +215,7 @@ void TileShader::shade_faces(const FragmentList& fragments) {
     const ProjectedMesh mesh = mesh_of(fragments);
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
     sparse_set_.begin(mesh.mesh.triangle_count());
-    for (const FragmentRun& run : fragments.runs) sparse_set_.add(run.triangle);
+    for (const std::uint32_t triangle : fragments.triangles) sparse_set_.add(triangle);
     const std::span<const std::uint32_t> triangles = sparse_set_.indices();
     places_.resize(whole_vectors(triangles.size()));
     for (std::size_t first = 0; first < triangles.size(); first += k_batch_size) {
@@ -230,16 +224,10 @@ void TileShader::shade_faces(const FragmentList& fragments) {
         shade_points(fragments.object, places_.span().from(first));
     }
     FragmentBatches batches(fragments);
-    for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
-        std::size_t first = 0;
-        for (const FragmentRun& run : runs) {
-            const Vec3 intensity = places_.span()[sparse_set_.number_of(run.triangle)];
-            std::fill_n(&batch_.x[first], run.count, intensity.x);
-            std::fill_n(&batch_.y[first], run.count, intensity.y);
-            std::fill_n(&batch_.z[first], run.count, intensity.z);
-            first += run.count;
-        }
-        accumulate(runs, std::as_const(batch_).span());
+    for (FragmentBatch batch = batches.next(); !batch.runs.empty(); batch = batches.next()) {
+        for (std::size_t i = 0; i < batch.triangles.size(); ++i)
+            batch_.span().set(i, places_.span()[sparse_set_.number_of(batch.triangles[i])]);
+        accumulate(batch.runs, std::as_const(batch_).span());
     }
 }
 
@@ -248,11 +236,11 @@ void TileShader::shade_vertices(const FragmentList& fragments) {
     const SurfaceModels& surface = scene_->objects[fragments.object].surface;
     sparse_set_.begin(2 * mesh.mesh.vertex_count());
     std::uint32_t last = k_no_triangle;
-    for (const FragmentRun& run : fragments.runs) {
-        if (run.triangle == last) continue;
-        last = run.triangle;
-        const bool is_back = mesh.is_back(run.triangle);
-        for (std::size_t k = 0; k < 3; ++k) sparse_set_.add(index_of(mesh, run.triangle, k, is_back));
+    for (const std::uint32_t triangle : fragments.triangles) {
+        if (triangle == last) continue;
+        last = triangle;
+        const bool is_back = mesh.is_back(triangle);
+        for (std::size_t k = 0; k < 3; ++k) sparse_set_.add(index_of(mesh, triangle, k, is_back));
     }
     vertices_.clear();
     for (const std::uint32_t index : sparse_set_.indices()) vertices_.push_back({index / 2, index % 2 == 1});
@@ -264,27 +252,24 @@ void TileShader::shade_vertices(const FragmentList& fragments) {
     }
     const ConstVec3Span intensity = std::as_const(places_).span();
     FragmentBatches batches(fragments);
-    for (auto runs = batches.next(); !runs.empty(); runs = batches.next()) {
-        gather_fragments(mesh, runs,
+    for (FragmentBatch batch = batches.next(); !batch.runs.empty(); batch = batches.next()) {
+        gather_fragments(mesh, batch,
                          {.position = false, .face_normal = false, .vertex_normal = false, .color = false},
                          points_);
-        std::size_t i = 0;
         std::uint32_t triangle = k_no_triangle;
         std::array<Vec3, 3> at_corner;
-        for (const FragmentRun& run : runs) {
-            if (run.triangle != triangle) {
-                triangle = run.triangle;
+        for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
+            if (batch.triangles[i] != triangle) {
+                triangle = batch.triangles[i];
                 for (std::size_t k = 0; k < 3; ++k) {
                     at_corner[k] =
                         intensity[sparse_set_.number_of(index_of(mesh, triangle, k, points_.facing[i] < 0))];
                 }
             }
-            for (const std::size_t end = i + run.count; i < end; ++i) {
-                const Vec3 b = points_.barycentric.span()[i];
-                batch_.span().set(i, b.x * at_corner[0] + b.y * at_corner[1] + b.z * at_corner[2]);
-            }
+            const Vec3 b = points_.barycentric.span()[i];
+            batch_.span().set(i, b.x * at_corner[0] + b.y * at_corner[1] + b.z * at_corner[2]);
         }
-        accumulate(runs, std::as_const(batch_).span());
+        accumulate(batch.runs, std::as_const(batch_).span());
     }
 }
 

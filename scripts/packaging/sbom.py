@@ -18,6 +18,7 @@ import sys
 # By source package, without a version in its name: what Debian's copyright file says of the parts that are used.
 LICENCES = {
     "boost": "BSL-1.0",
+    "codemirror-js": "MIT",
     "catch2": "BSL-1.0",
     "eigen3": "MPL-2.0",
     "embree": "Apache-2.0",
@@ -34,11 +35,15 @@ LICENCES = {
     "onetbb": "Apache-2.0",
     "openexr": "BSD-3-Clause",
     "openimageio": "BSD-3-Clause",
+    "pybind11": "BSD-3-Clause",
+    "python": "PSF-2.0",
     "tinygltf": "MIT",
     "tomlplusplus": "MIT",
     "utfcpp": "BSL-1.0",
     "zlib": "Zlib",
 }
+# Bundled into pages, which no compiler records.
+BUNDLED = ("/usr/share/javascript/codemirror/lib/codemirror.js",)
 SHIPPED = ("core/", "sdk/", "plugins/", "apps/")
 
 
@@ -83,8 +88,8 @@ def packages_of(files):
 
 
 def licence_of(source):
-    """None where nobody has looked yet. Releases of Debian differ in the versions that are in names: boost1.81, gcc-14."""
-    return LICENCES.get(re.sub(r"^(boost|gcc|llvm-toolchain)-?[0-9.]+$", r"\1", source))
+    """None where nobody has looked yet. Releases of Debian differ in the versions that are in names: boost1.81, gcc-14, python3.11."""
+    return LICENCES.get(re.sub(r"^(boost|gcc|llvm-toolchain|python)-?[0-9.]+$", r"\1", source))
 
 
 def package(name, version, licence, comment):
@@ -95,7 +100,7 @@ def package(name, version, licence, comment):
 
 def main():
     build, version, output = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
-    uses = {"compiled in": packages_of(compiled_headers(build)), "linked": packages_of(linked_libraries(build))}
+    uses = {"compiled in": packages_of(compiled_headers(build) | {os.path.realpath(path) for path in BUNDLED}), "linked": packages_of(linked_libraries(build))}
     unknown = {source for found in uses.values() for source, _ in found.values() if licence_of(source) is None}
     if unknown:
         sys.exit(f"sbom: no licence is known for {', '.join(sorted(unknown))}; look into its copyright file and add it here")

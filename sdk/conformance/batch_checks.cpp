@@ -6,15 +6,14 @@
 #endif
 
 #include <algorithm>
-#include <atomic>
-#include <barrier>
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <thread>
 #include <vector>
+
+#include "at_once.h"
 
 using candela::Vec3;
 
@@ -170,11 +169,11 @@ TEST_CASE("adding: a reflection model adds to what is there, and leaves the part
 TEST_CASE("repeatable: the same input gives the same bytes, again and from 8 threads at once",
           "[light][reflection][shading]") {
     // Threads at the same work would not notice that they share memory, so each has its own; and small
-    // batches, as a renderer's are, change hands often. Where other programs keep the cores busy, threads may
-    // run one after the other: so many calls must have met another thread's.
+    // batches, as a renderer's are, change hands often.
     constexpr std::size_t k_threads = 8, k_points = 256;
-    constexpr int k_rounds = 60, k_meetings = 40;
-    constexpr auto k_longest = std::chrono::milliseconds(500);
+    constexpr int k_rounds = 60;
+    constexpr auto k_longest = std::chrono::milliseconds(500), k_longest_in_all = 20 * k_longest;
+    const auto end = std::chrono::steady_clock::now() + k_longest_in_all;
     std::vector<Arrays> in;
     for (unsigned seed = 0; seed < k_threads; ++seed) in.push_back(inputs_for(k_points, 20 + seed));
     for (const Values& values : many_values(2)) {
@@ -186,27 +185,9 @@ TEST_CASE("repeatable: the same input gives the same bytes, again and from 8 thr
                 if (!(outputs_of(call, own) == first.back()))
                     FAIL(call.name << " gives another result the second time, with " << values.text);
             }
-            std::vector<int> differs(k_threads);
-            std::vector<std::thread> threads;
-            std::barrier all_are_here(static_cast<std::ptrdiff_t>(k_threads));
-            std::atomic<int> calls = 0, meetings = 0;
-            const auto deadline = std::chrono::steady_clock::now() + k_longest;
-            const auto is_enough = [&](int rounds) {
-                return rounds >= k_rounds &&
-                       (meetings >= k_meetings || std::chrono::steady_clock::now() > deadline);
-            };
-            for (std::size_t t = 0; t < k_threads; ++t) {
-                threads.emplace_back([&, t] {
-                    all_are_here.arrive_and_wait();
-                    for (int round = 0; !is_enough(round) && differs[t] == 0; ++round) {
-                        const int before = calls;
-                        differs[t] = outputs_of(call, in[t]) == first[t] ? 0 : 1;
-                        if (calls++ != before) ++meetings;
-                    }
-                });
-            }
-            for (std::thread& thread : threads) thread.join();
-            if (std::ranges::count(differs, 1) > 0)
+            if (!hold_at_once(k_threads, k_rounds,
+                              std::min(std::chrono::steady_clock::now() + k_longest, end),
+                              [&](std::size_t t) { return outputs_of(call, in[t]) == first[t]; }))
                 FAIL(call.name << " gives another result when 8 threads call it at once, with "
                                << values.text);
         }

@@ -95,3 +95,13 @@ std::vector<Condition> conditions_of(const std::string& property_value) {
 bool hold(const std::vector<Condition>& conditions, const candela::ParamSet& values) {
     return std::ranges::all_of(conditions, [&](const Condition& c) { return holds(c, values); });
 }
+
+std::vector<std::string> names_in(const std::string& property_value) {
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin <= property_value.size();) {
+        const std::size_t comma = std::min(property_value.find(", ", begin), property_value.size());
+        names.push_back(property_value.substr(begin, comma - begin));
+        begin = comma + 2;
+    }
+    return names;
+}

@@ -14,6 +14,9 @@ struct Condition {
     std::vector<std::string> values;
 };
 
+/// The names in a property's value, "lambert, phong".
+std::vector<std::string> names_in(const std::string& property_value);
+
 /// The conditions in a property's value, all of which must hold: none for "true". Throws
 /// std::invalid_argument with a sentence if it is neither.
 std::vector<Condition> conditions_of(const std::string& property_value);

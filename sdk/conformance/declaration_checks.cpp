@@ -6,6 +6,7 @@
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cstdio>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -21,7 +22,7 @@ using candela::PluginKind;
 
 namespace {
 
-enum class Takes { nothing, a_condition, attenuation, an_integer, a_box };
+enum class Takes { nothing, a_condition, attenuation, an_integer, a_box, names };
 
 struct KnownProperty {
     PluginKind kind;
@@ -44,6 +45,9 @@ constexpr auto k_known_properties = std::to_array<KnownProperty>({
     {PluginKind::shape, "euler-characteristic", Takes::an_integer},
     {PluginKind::shape, "bounding-box", Takes::a_box},
     {PluginKind::image, "fallback", Takes::nothing},
+    {PluginKind::target, "exact-light", Takes::names},
+    {PluginKind::target, "exact-reflection", Takes::names},
+    {PluginKind::target, "exact-shading", Takes::names},
 });
 
 /// What is wrong with a property's value; empty if nothing is.
@@ -68,6 +72,14 @@ std::string wrong_with(Takes takes, const std::string& value) {
                                &box[4], &box[5]) == 6
                        ? ""
                        : fmt::format("'{}'; it takes six numbers, low x y z, high x y z", value);
+        case Takes::names: {
+            const std::vector<std::string> names = names_in(value);
+            const bool are_names = !names.empty() && std::ranges::all_of(names, [](const std::string& name) {
+                return !name.empty() &&
+                       name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+            });
+            return are_names ? "" : fmt::format(R"('{}'; it takes names: "lambert, phong")", value);
+        }
         case Takes::a_condition:
             break;
     }
@@ -102,6 +114,37 @@ std::string unknown_property(const std::string& name) {
                                      : fmt::format("known: {}", fmt::join(known, ", ")));
 }
 
+/// What is wrong with the presets: a scene that has their values must be a valid one.
+std::vector<std::string> wrong_presets(const Manifest& m) {
+    std::vector<std::string> problems;
+    const auto schema = std::make_shared<const std::vector<candela::Parameter>>(m.parameters);
+    std::set<std::string> names;
+    for (const candela::Preset& preset : m.presets) {
+        const auto wrong = [&](const std::string& what) {
+            problems.push_back(fmt::format("its preset '{}' {}", preset.name, what));
+        };
+        if (preset.name.empty() || !names.insert(preset.name).second)
+            wrong("has no name, or that of another one");
+        if (preset.values.empty()) wrong("has no values");
+        if (preset.color && m.kind != PluginKind::reflection) wrong("has a colour, and is no material");
+        candela::ParamSet set(schema);
+        for (const auto& [name, value] : preset.values) {
+            const auto& parameter = m.parameters[set.index_of(name)];
+            if (const auto problem = candela::validation_error(parameter, value)) {
+                wrong(fmt::format("has {} for '{}': {}", candela::text_of(value), name, *problem));
+            } else {
+                set.set(set.index_of(name), value);
+            }
+        }
+        for (const candela::Relation& relation : m.relations) {
+            if (relation.only_warns) continue;
+            if (const auto problem = candela::validation_error(relation, set))
+                wrong("is refused: " + *problem);
+        }
+    }
+    return problems;
+}
+
 }  // namespace
 
 TEST_CASE("declarations: its properties are those of its kind, its relations are between its parameters",
@@ -133,6 +176,7 @@ TEST_CASE("declarations: its properties are those of its kind, its relations are
                                          << meant);
         }
     }
+    for (const std::string& problem : wrong_presets(m)) FAIL_CHECK(problem);
     if (!m.formats.empty() && m.kind != PluginKind::image)
         FAIL_CHECK("it lists file formats, and is not an image plugin");
 }

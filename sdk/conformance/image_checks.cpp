@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,10 +17,10 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "at_once.h"
 #include "kernel_program.h"
 #include "subject.h"
 
@@ -316,21 +317,17 @@ TEST_CASE("repeatable: the same picture gives the same file, again and from 4 th
         const std::vector<Picture> pictures{Picture(64, 48), Picture(31, 17), Picture(100, 9),
                                             Picture(5, 80)};
         std::vector<std::vector<std::byte>> first;
-        for (const Picture& picture : pictures) first.push_back(written(picture));
-        std::vector<int> differs(pictures.size());
-        std::vector<std::thread> threads;
-        for (std::size_t t = 0; t < pictures.size(); ++t) {
-            threads.emplace_back([&, t] {
-                for (int round = 0; round < 10 && differs[t] == 0; ++round)
-                    differs[t] = written(pictures[t]) == first[t] ? 0 : 1;
-            });
+        for (const Picture& picture : pictures) {
+            first.push_back(written(picture));
+            if (written(picture) != first.back())
+                FAIL("a ." << format.extension << " of " << picture.size()
+                           << " is another file the second time");
         }
-        for (std::thread& thread : threads) thread.join();
-        for (std::size_t t = 0; t < pictures.size(); ++t) {
-            if (differs[t] != 0)
-                FAIL("a ." << format.extension << " of " << pictures[t].size()
-                           << " is another file the second time, or while other threads write");
-        }
+        constexpr int k_rounds = 10;
+        constexpr auto k_longest = std::chrono::milliseconds(500);
+        if (!hold_at_once(pictures.size(), k_rounds, std::chrono::steady_clock::now() + k_longest,
+                          [&](std::size_t t) { return written(pictures[t]) == first[t]; }))
+            FAIL("a ." << format.extension << " is another file while other threads write");
     }
 }
 

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "agreement.h"
 #include "batch.h"
 #include "kernel_program.h"
 #include "programs.h"
@@ -34,16 +35,6 @@ std::string lower_without_separators(const std::string& name) {
     }
     return result;
 }
-
-/// The compiler may join a product and a sum in one build and not in the other, and a large exponent makes
-/// much of that.
-bool agree(float a, float b, float largest) {
-    return std::abs(a - b) <= 2e-3f * std::max(std::abs(a), std::abs(b)) + 1e-5f * largest + 1e-7f;
-}
-
-/// Where a model has an edge, the last bit decides on which side of it a point is; a wrong formula is wrong
-/// nearly everywhere.
-constexpr double k_may_differ = 0.01;
 
 void compare(const KernelProgram& program, const Call& call, const Values& values) {
     const bool is_light_sample = call.name.starts_with("illuminate (sample ");

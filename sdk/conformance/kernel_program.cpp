@@ -136,7 +136,7 @@ constexpr const char* k_calls_file = "the kit's calls of it";
 
 /// The whole program. Functions get the parameters first, or not at all, and the sample's number last, if
 /// they take it.
-std::string source() {
+std::string source(const std::string& kernel_text) {
     const candela::KernelText& kernel = subject().kernel;
     const std::string parameters = kernel.parameters;
     const bool is_prepared = std::ranges::any_of(
@@ -161,7 +161,7 @@ std::string source() {
         "#define SAMPLED(name, s) [&](auto m_, auto a) {{ \\\n"
         "    if constexpr (requires {{ {}_##name(m_, a, sample); }}) return {}_##name(m_, a, sample); \\\n"
         "    else return CALL(name, a); }}(m, s)\n",
-        kernel_file_name(), kernel.text, k_calls_file, kernel.prefix, kernel.prefix, kernel.prefix,
+        kernel_file_name(), kernel_text, k_calls_file, kernel.prefix, kernel.prefix, kernel.prefix,
         kernel.prefix, kernel.prefix);
     std::string body = body_of(subject_manifest().kind);
     for (std::size_t at; (at = body.find("PARAMETERS")) != std::string::npos;) body.replace(at, 10, filled);
@@ -246,31 +246,38 @@ TemporaryDirectory::~TemporaryDirectory() {
     fs::remove_all(path_, ignored);
 }
 
-KernelProgram::KernelProgram() {
+KernelProgram::KernelProgram() try : KernelProgram(std::string(subject().kernel.text)) {
+} catch (const KernelRefused& problem) {
+    FAIL(problem.what());
+}
+
+KernelProgram::KernelProgram(const std::string& text) {
     const auto compiler = program_called({"clang++-19", "clang++", "g++"});
     if (!compiler) SKIP("there is no C++ compiler here");
     const fs::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
     const fs::path file = directory_.path() / "kernel.cpp", library = directory_.path() / "kernel.so";
-    std::ofstream(file) << source();
+    std::ofstream(file) << source(text);
     // What it needs of the libraries is in this process already.
     std::vector<std::string> arguments{"-std=c++20", "-O1",   "-fPIC",   "-shared",
                                        "-nostdlib",  "-Wall", "-Wextra", "-ffp-contract=off"};
     // A local variable that is not initialised is NaN then; g++ 11 has no such option.
     if (compiler->find("clang") != std::string::npos)
         arguments.emplace_back("-ftrivial-auto-var-init=pattern");
+    // A loop without an end is to be found, not to be taken for one that ends.
+    arguments.emplace_back("-fno-finite-loops");
     arguments.insert(arguments.end(), {"-isystem", include.string(), file.string(), "-o", library.string()});
     const ProgramOutput compiled = output_of(*compiler, arguments);
     if (compiled.exit_code != 0) {
         const std::string errors = lines_with("error", "", compiled.text);
-        FAIL("the kernel's text does not compile as C++ ("
-             << *compiler << "):" << (errors.empty() ? "\n" + compiled.text.substr(0, 400) : errors));
+        throw KernelRefused(fmt::format("the kernel's text does not compile as C++ ({}):{}", *compiler,
+                                        errors.empty() ? "\n" + compiled.text.substr(0, 400) : errors));
     }
     warnings_ = lines_with(": warning: ", kernel_file_name() + ":", compiled.text);
     try {
         library_.load(library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const std::exception& problem) {
-        FAIL("the compiled kernel cannot be loaded: " << problem.what());
+        throw KernelRefused(fmt::format("the compiled kernel cannot be loaded: {}", problem.what()));
     }
 }
 

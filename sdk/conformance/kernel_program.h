@@ -4,6 +4,7 @@
 #include <boost/dll/shared_library.hpp>
 #include <cstddef>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "batch.h"
@@ -27,12 +28,20 @@ class TemporaryDirectory {
     std::filesystem::path path_;
 };
 
+/// What the compiler, or the loader, says of a text that cannot be run.
+class KernelRefused : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 /// The text as C++: `run` does what the plugin's call of that name does, one point after another.
 class KernelProgram {
   public:
     /// Fails the check, with what the compiler says, where the text is no C++; skips it where there is no
     /// compiler.
     KernelProgram();
+    /// The same of another text for the same plugin. Throws KernelRefused instead of failing.
+    explicit KernelProgram(const std::string& text);
 
     /// What the compiler warns of in the kernel's text, a line each, with the warnings that generated
     /// programs are compiled with.

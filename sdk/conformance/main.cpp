@@ -1,20 +1,27 @@
 // candela-conformance PLUGIN.so… [--json] [--check TEXT] [--set NAME=VALUE] [--time-limit SECONDS]
-//                     [--in-process] [--list KIND]
+//                     [--in-process] [--list KIND] [--answer FILE]
 //
 // The conformance kit: every group of checks in a process of its own. Run by `candela plugin test` and by the
 // tests that candela_add_plugin() makes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "answer.h"
 #include "groups.h"
 #include "outcome.h"
 #include "subject.h"
+
+import candela.text;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
@@ -31,6 +38,7 @@ struct Options {
     double time_limit = 45;
     bool in_process = false;
     bool json = false;
+    std::string answer;  // a file
 };
 
 struct Report {
@@ -65,6 +73,20 @@ Report test(const fs::path& library, const Options& options) {
         if (is_handshake && !is_acceptable(report.outcomes.back().verdict)) blocked = "it cannot be loaded";
     }
     return report;
+}
+
+Report judge_answer(const fs::path& library, const Options& options) {
+    std::ifstream file(options.answer, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    if (!file) throw std::runtime_error(fmt::format("'{}' cannot be read", options.answer));
+    const auto run = [&](Findings& findings) {
+        set_subject(library, options.given);
+        set_answer(text);
+        run_group(k_answer_group, findings);
+    };
+    return {.library = library,
+            .id = library.stem().string(),
+            .outcomes = {run_in_child(k_answer_group, options.time_limit, run)}};
 }
 
 bool conforms(const Report& report) {
@@ -105,6 +127,34 @@ nlohmann::ordered_json json_of(const Report& report) {
             {"checks", std::move(outcomes)}};
 }
 
+/// "did you mean 'energy-bounded'?  ", by the words that checks' names begin with.
+std::string suggested_check(const std::string& name, const std::string& kind) {
+    std::vector<std::string> words;
+    for (const std::string& group : groups_for(kind)) {
+        words.push_back(group.substr(0, group.find_first_of(":,")));
+        const std::string first = words.back().substr(0, words.back().find_first_of(" -"));
+        if (first != words.back()) words.push_back(first);
+    }
+    const std::string meant = candela::suggestion(name, words);
+    return meant.empty() ? meant : meant + "  ";
+}
+
+/// Nothing of a plugin that no check was run on is known.
+std::string problem_with_filter(const Options& options) {
+    if (options.only.empty()) return {};
+    for (const std::string& file : options.files) {
+        if (!fs::is_regular_file(file)) continue;  // that is said when it is its turn
+        const std::string kind = kind_of(file);
+        if (std::ranges::any_of(groups_for(kind), [&](const std::string& group) {
+                return group.find(options.only) != std::string::npos;
+            }))
+            continue;
+        return fmt::format("no check of '{}' has '{}' in its name; {}--list {} shows them", file,
+                           options.only, suggested_check(options.only, kind), kind);
+    }
+    return {};
+}
+
 int usage(const std::string& message) {
     std::cerr << "candela-conformance: error: " << message << '\n';
     return static_cast<int>(ExitCode::usage);
@@ -119,6 +169,8 @@ int run(int argc, char** argv) {
         "only the checks whose name contains TEXT")(
         "set", po::value<std::vector<std::string>>(&settings)->value_name("NAME=VALUE")->composing(),
         "a parameter's value for all checks, such as a file that the plugin needs (repeatable)")(
+        "answer", po::value<std::string>(&options.answer)->value_name("FILE"),
+        "instead, judge another kernel text for the plugin, as candela exercise grade does")(
         "in-process", "all checks in this process, without a time limit: for a debugger")(
         "time-limit", po::value<double>(&options.time_limit)->value_name("SECONDS")->default_value(45, "45"),
         "for each check")("list", po::value<std::string>()->value_name("KIND"),
@@ -138,11 +190,23 @@ int run(int argc, char** argv) {
         return 0;
     }
     if (values.contains("list")) {
-        for (const std::string& group : groups_for(values["list"].as<std::string>()))
-            std::cout << group << '\n';
+        const std::string kind = values["list"].as<std::string>();
+        if (!candela::plugin_kind_named(kind)) {
+            std::vector<std::string> kinds;
+            for (const candela::PluginKind k : candela::k_plugin_kinds)
+                kinds.emplace_back(candela::name_of(k));
+            const std::string meant = candela::suggestion(kind, kinds);
+            return usage(fmt::format("'{}' is no kind of plugin; {}(kinds: {})", kind,
+                                     meant.empty() ? "" : meant + ' ', fmt::join(kinds, ", ")));
+        }
+        for (const std::string& group : groups_for(kind)) std::cout << group << '\n';
         return 0;
     }
     if (options.files.empty()) return usage("name one plugin or more, such as build/reflection-cel.so");
+    constexpr double k_longest_limit = 86'400;
+    if (!(options.time_limit > 0 && options.time_limit <= k_longest_limit))
+        return usage(fmt::format("--time-limit is {}; it can be more than 0, to {} seconds",
+                                 options.time_limit, k_longest_limit));
     options.json = values.contains("json");
     options.in_process = values.contains("in-process");
     if (options.in_process && options.files.size() > 1)
@@ -154,6 +218,7 @@ int run(int argc, char** argv) {
         options.given[setting.substr(0, equals)] = setting.substr(equals + 1);
     }
 
+    if (const std::string problem = problem_with_filter(options); !problem.empty()) return usage(problem);
     bool all_conform = true;
     nlohmann::ordered_json reports = nlohmann::ordered_json::array();
     for (const std::string& file : options.files) {
@@ -161,7 +226,8 @@ int run(int argc, char** argv) {
             std::cerr << fmt::format("candela-conformance: error: there is no file '{}'\n", file);
             return static_cast<int>(ExitCode::failure);
         }
-        const Report report = test(fs::absolute(file), options);
+        const Report report = options.answer.empty() ? test(fs::absolute(file), options)
+                                                     : judge_answer(fs::absolute(file), options);
         all_conform = all_conform && conforms(report);
         if (options.json) {
             reports.push_back(json_of(report));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "at_once.h"
 #include "subject.h"
 
 import candela.mesh;
@@ -56,6 +58,14 @@ Topology topology_of(const Mesh& mesh) {
     result.open_edges = static_cast<std::size_t>(
         std::ranges::count_if(edges, [](const auto& edge) { return edge.second != 0; }));
     return result;
+}
+
+bool is_same(const Mesh& a, const Mesh& b) {
+    const auto same = [](const candela::Vec3Arrays& x, const candela::Vec3Arrays& y) {
+        return x.x == y.x && x.y == y.y && x.z == y.z;
+    };
+    return a.indices == b.indices && same(a.position, b.position) && a.u == b.u && a.v == b.v &&
+           same(a.dpdu, b.dpdu) && same(a.dpdv, b.dpdv) && same(a.color, b.color);
 }
 
 void skip_if_it_needs_a_file() {
@@ -195,4 +205,22 @@ TEST_CASE("density: with more segments its volume converges", "[shape]") {
                                                               << volumes[2] << ", " << volumes[3]
                                                               << ": that does not converge");
     }
+}
+
+TEST_CASE("repeatable: the same values give the same mesh, again and from 4 threads at once", "[shape]") {
+    skip_if_it_needs_a_file();
+    constexpr std::size_t k_threads = 4;
+    std::vector<Values> values = many_values(static_cast<int>(k_threads));
+    values.erase(values.begin(), values.end() - k_threads);  // different meshes, as far as there are any
+    std::vector<Mesh> alone;
+    for (const Values& one : values) {
+        alone.push_back(mesh_of(one));
+        if (!is_same(mesh_of(one), alone.back()))
+            FAIL("its mesh is another one the second time, with " << one.text);
+    }
+    constexpr int k_rounds = 5;
+    constexpr auto k_longest = std::chrono::milliseconds(500);
+    if (!hold_at_once(k_threads, k_rounds, std::chrono::steady_clock::now() + k_longest,
+                      [&](std::size_t t) { return is_same(mesh_of(values[t]), alone[t]); }))
+        FAIL("its mesh is another one while other threads make theirs");
 }

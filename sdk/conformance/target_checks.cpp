@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions.h"
 #include "kernel_program.h"
 #include "subject.h"
 
@@ -25,6 +27,7 @@ import candela.scene;
 
 namespace fs = std::filesystem;
 using candela::ExportedFile;
+using candela::PluginKind;
 using candela::Target;
 
 namespace {
@@ -33,13 +36,17 @@ constexpr const char* k_head =
     "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
     "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
 
+std::vector<fs::path> search_path() {
+    return candela::plugin_search_path(std::vector{subject_library().parent_path()});
+}
+
 /// A scene, checked and exported for a target.
 class Exported {
   public:
     /// Empty text: the default scene.
     explicit Exported(const Target& target, const std::string& text = {},
                       const std::string& title = "A scene")
-        : registry_(candela::plugin_search_path(std::vector{subject_library().parent_path()})) {
+        : registry_(search_path()) {
         candela::SceneRequest request;
         request.settings = {{"--width", "image.width", "64"}, {"--height", "image.height", "48"}};
         if (!text.empty()) {
@@ -65,7 +72,7 @@ class Exported {
 };
 
 std::vector<ExportedFile> files_of(const Target& target, const Exported& exported) {
-    return candela::files_of(target, subject_manifest().name, exported.scene());
+    return candela::program_of(target, subject_manifest().name, exported.scene()).files;
 }
 
 bool are_equal(const std::vector<ExportedFile>& a, const std::vector<ExportedFile>& b) {
@@ -84,6 +91,23 @@ void write_or_refuse(const Target& target, const Exported& exported, const std::
     } catch (const candela::Error& refusal) {
         WARN("it refuses " << what << ": " << refusal.what());
     }
+}
+
+/// The models that it declares to express exactly.
+std::vector<std::string> exact_models(PluginKind kind) {
+    const std::string names = declared(fmt::format("exact-{}", candela::name_of(kind)));
+    return names.empty() ? std::vector<std::string>() : names_in(names);
+}
+
+/// A light with the parameters that it must have, as TOML.
+std::string light_text(const candela::PluginFile& light) {
+    std::string text = fmt::format("[[light]]\ntype = \"{}\"\n", light.manifest.name);
+    for (const candela::Parameter& p : light.manifest.parameters) {
+        if (p.default_value) continue;
+        if (p.type == candela::ParamType::point) text += fmt::format("{} = [0, 3, 2]\n", p.name);
+        if (p.type == candela::ParamType::direction) text += fmt::format("{} = [0, -3, -2]\n", p.name);
+    }
+    return text;
 }
 
 /// A disk that is full from the beginning.
@@ -134,6 +158,39 @@ TEST_CASE("odd scenes: without lights, without objects, with hostile names, it w
     write_or_refuse(*target,
                     Exported(*target, k_head + light + name + object + name, "../*/\"</script>\n@TITLE@\\"),
                     "hostile names");
+}
+
+TEST_CASE("exact models: of those that it declares to express exactly, it approximates nothing", "[target]") {
+    constexpr PluginKind k_kinds[] = {PluginKind::light, PluginKind::reflection, PluginKind::shading};
+    const auto target = make<Target>(default_values());
+    candela::Registry registry(search_path());
+    std::map<PluginKind, std::string> usual = {
+        {PluginKind::light, "point"}, {PluginKind::reflection, "phong"}, {PluginKind::shading, "phong"}};
+    for (const PluginKind kind : k_kinds) {
+        if (const auto names = exact_models(kind); !names.empty()) usual[kind] = names.front();
+    }
+    for (const PluginKind kind : k_kinds) {
+        for (const std::string& name : exact_models(kind)) {
+            std::map<PluginKind, std::string> models = usual;
+            models[kind] = name;
+            const auto is_missing = [&](const auto& model) {
+                return registry.find(model.first, model.second) == nullptr;
+            };
+            if (std::ranges::any_of(models, is_missing)) {
+                WARN("not everything is here that a scene with " << name << " needs");
+                continue;
+            }
+            const Exported exported(
+                *target, fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+                                     "{}[[object]]\ntype = \"cube\"\nshading = \"{}\"\nreflection = \"{}\"\n",
+                                     light_text(*registry.find(PluginKind::light, models[PluginKind::light])),
+                                     models[PluginKind::shading], models[PluginKind::reflection]));
+            const auto program = candela::program_of(*target, subject_manifest().name, exported.scene());
+            for (const std::string& sentence : program.approximations)
+                FAIL_CHECK("it declares " << candela::name_of(kind) << "/" << name
+                                          << " to be exact, and approximates: " << sentence);
+        }
+    }
 }
 
 TEST_CASE("full disk: what the host throws while files are written comes out of it", "[target]") {

@@ -9,6 +9,7 @@
 #include "candela/embed.h"
 #include "candela/target/kernels.h"
 #include "candela/target/text_template.h"
+#include "candela/target/textures.h"
 
 CANDELA_EMBED(candela_target_trigonometry, CANDELA_TARGET_TEMPLATES "/trigonometry.glsl");
 CANDELA_EMBED(candela_target_lit, CANDELA_TARGET_TEMPLATES "/lit.glsl");
@@ -16,6 +17,9 @@ CANDELA_EMBED(candela_target_vertex, CANDELA_TARGET_TEMPLATES "/vertex.glsl");
 CANDELA_EMBED(candela_target_fragment, CANDELA_TARGET_TEMPLATES "/fragment.glsl");
 CANDELA_EMBED(candela_target_triangle_vertex, CANDELA_TARGET_TEMPLATES "/triangle_vertex.glsl");
 CANDELA_EMBED(candela_target_triangle_fragment, CANDELA_TARGET_TEMPLATES "/triangle_fragment.glsl");
+CANDELA_EMBED(candela_target_texture, CANDELA_TARGET_TEMPLATES "/texture.glsl");
+CANDELA_EMBED(candela_target_texture_vertex, CANDELA_TARGET_TEMPLATES "/texture_vertex.glsl");
+CANDELA_EMBED(candela_target_texture_fragment, CANDELA_TARGET_TEMPLATES "/texture_fragment.glsl");
 CANDELA_EMBED(candela_target_screen, CANDELA_TARGET_TEMPLATES "/screen.glsl");
 CANDELA_EMBED(candela_target_accumulate, CANDELA_TARGET_TEMPLATES "/accumulate.glsl");
 CANDELA_EMBED(candela_target_encode, CANDELA_TARGET_TEMPLATES "/encode.glsl");
@@ -190,12 +194,24 @@ std::string shading_text(const ExportedShading& model) {
                             model.needs.triangle ? "p, seen_triangle" : "p"));
 }
 
-/// The shaders of one stage; programs in whose scenes no model sees its triangle have no word of it.
-std::string stage_text(bool needs_triangle, const char* text, const char* declarations, const char* place,
-                       const char* statement) {
-    if (!needs_triangle) return filled(text, {{place, ""}});
-    return declarations +
-           filled(text, {{place, fmt::format("#ifdef NEEDS_TRIANGLE\n    {}\n#endif\n", statement)}});
+/// Something that the shaders of a stage have only in programs of scenes that need it.
+struct Feature {
+    bool is_there = false;
+    const char* declarations = "";
+    const char* place = "";  // of `statement`, in the stage's text
+    const char* condition = "";
+    const char* statement = "";
+};
+
+std::string stage_text(const char* text, const std::vector<Feature>& features) {
+    std::string declarations;
+    Values statements;
+    for (const Feature& f : features) {
+        if (f.is_there) declarations += f.declarations;
+        statements.emplace_back(
+            f.place, f.is_there ? fmt::format("#ifdef {}\n    {}\n#endif\n", f.condition, f.statement) : "");
+    }
+    return declarations + filled(text, statements);
 }
 
 }  // namespace
@@ -207,11 +223,21 @@ GlslParts glsl_of(const ExportedScene& scene) {
     parts.lights = lights_text(scene);
     for (const auto& model : scene.reflections) parts.reflections.push_back(reflection_text(model));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
-    const bool needs_triangle = sees_triangles(scene);
-    parts.vertex = lit + stage_text(needs_triangle, candela_target_vertex, candela_target_triangle_vertex,
-                                    "PASS_TRIANGLE", "pass_triangle();");
-    parts.fragment = lit + stage_text(needs_triangle, candela_target_fragment,
-                                      candela_target_triangle_fragment, "READ_TRIANGLE", "read_triangle();");
+    const bool needs_triangle = sees_triangles(scene), is_textured = !scene.textures.empty();
+    constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED";
+    parts.vertex =
+        lit + stage_text(candela_target_vertex, {{needs_triangle, candela_target_triangle_vertex,
+                                                  "PASS_TRIANGLE", k_triangle, "pass_triangle();"},
+                                                 {is_textured, candela_target_texture_vertex, "PASS_TEXTURE",
+                                                  k_texture, "pass_texture();"},
+                                                 {is_textured, "", "TEXTURE_COLOR", k_texture,
+                                                  "color *= color_texture_at(color_texture, uv, 0.0);"}});
+    parts.fragment = lit + stage_text(candela_target_fragment,
+                                      {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE",
+                                        k_triangle, "read_triangle();"},
+                                       {is_textured, candela_target_texture_fragment, "TEXTURE_COLOR",
+                                        k_texture, "color *= texture_seen(at_place, at_uv);"}});
+    if (is_textured) parts.texture = candela_target_texture + std::string(texture_kernel()) + "\n";
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;
     parts.encode = candela_target_encode;
@@ -226,6 +252,11 @@ GlslParts glsl_of(const ExportedScene& scene) {
     parts.prelude += needed_parts(glsl_tables(), users);
     parts.prelude += needed_parts(kernel_prelude(), users) + "\n";
     return parts;
+}
+
+std::string whole_glsl_prelude() {
+    return without_comments(std::string(k_preamble) + candela_target_trigonometry +
+                            std::string(glsl_tables()) + std::string(kernel_prelude()) + "\n");
 }
 
 bool sees_triangles(const ExportedScene& scene) {

@@ -5,15 +5,14 @@ Whole processes from file to PNG, in turns; the ratio is Candela's time over f3d
 all rounds is printed, with processor time beside it. f3d needs a display: xvfb-run brings one where there is none."""
 import argparse
 import os
-import resource
 import shutil
 import statistics
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import large_mesh
+from stopwatch import seconds
 
 SCENE = """version = 1
 room = {{ width = 10, height = 10, depth = 10 }}
@@ -36,11 +35,8 @@ file = "large.ply"
 """
 
 
-def seconds(words, directory: Path):
-    before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
-    subprocess.run(words, cwd=directory, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    after, elapsed = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic() - begin
-    return elapsed, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+def seconds_of(words, directory: Path):
+    return seconds(lambda: subprocess.run(words, cwd=directory, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
 
 
 def main() -> None:
@@ -63,8 +59,8 @@ def main() -> None:
     candela = [str(options.build.resolve() / "bin/candela"), "render", "large.toml", "-o", "candela.png"]
     f3d = ["f3d", "large.ply", "--output", "f3d.png", f"--resolution={width},{height}"]
     for words in (candela, f3d):  # the file comes from memory from now on
-        seconds(words, out)
-    rounds = [(seconds(candela, out), seconds(f3d, out)) for _ in range(options.rounds)]
+        seconds_of(words, out)
+    rounds = [(seconds_of(candela, out), seconds_of(f3d, out)) for _ in range(options.rounds)]
     for name, part in (("elapsed", 0), ("processor", 1)):
         ratios = sorted(ours[part] / theirs[part] for ours, theirs in rounds)
         print(f"{name:9}  Candela {statistics.median(ours[part] for ours, _ in rounds):6.2f} s   "

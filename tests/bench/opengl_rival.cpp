@@ -3,11 +3,15 @@
 //   opengl_rival SCENE.dump WIDTH HEIGHT [--png FILE | --raw FILE | --frames N]
 //
 // One program for all objects, the number of lights a constant of the shader, uniforms in buffers, vertices
-// in buffers and vertex arrays, sRGB encoded by the framebuffer, the picture read back each frame. --frames
-// prints the milliseconds of each.
-#include <epoxy/gl.h>
-// The order matters: epoxy before all that knows OpenGL.
-#include <epoxy/egl.h>
+// interleaved in buffers, sRGB encoded by the framebuffer, the picture read back each frame. --frames prints
+// the milliseconds of each. Nothing is linked but EGL, libOpenGL and libpng, so that starting costs no more
+// than it has to, and Mesa's cache of compiled shaders is warm after the first run.
+#define EGL_EGLEXT_PROTOTYPES
+#define GL_GLEXT_PROTOTYPES
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/gl.h>
+#include <GL/glext.h>
 #include <png.h>
 
 #include <algorithm>
@@ -71,7 +75,7 @@ void main() {
 )";
 
 void make_context() {
-    const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+    const EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
     if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE || eglBindAPI(EGL_OPENGL_API) == EGL_FALSE)
         throw std::runtime_error("EGL does not start");
     const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION,
@@ -191,12 +195,19 @@ class Rival {
         d.is_closed = o.head.closed != 0;
         glGenVertexArrays(1, &d.array);
         glBindVertexArray(d.array);
-        buffer(GL_ARRAY_BUFFER, o.position.data(), o.position.size() * sizeof(float), GL_STATIC_DRAW);
+        std::vector<float> vertices;
+        vertices.reserve(2 * o.position.size());
+        for (std::size_t i = 0; i < o.position.size(); i += 3) {
+            vertices.insert(vertices.end(), &o.position[i], &o.position[i] + 3);
+            vertices.insert(vertices.end(), &o.normal[i], &o.normal[i] + 3);
+        }
+        buffer(GL_ARRAY_BUFFER, vertices.data(), vertices.size() * sizeof(float), GL_STATIC_DRAW);
+        constexpr GLsizei k_stride = 6 * sizeof(float);
         glEnableVertexAttribArray(0);
-        glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-        buffer(GL_ARRAY_BUFFER, o.normal.data(), o.normal.size() * sizeof(float), GL_STATIC_DRAW);
+        glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, k_stride, nullptr);
         glEnableVertexAttribArray(1);
-        glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+        glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, k_stride,
+                              reinterpret_cast<const void*>(3 * sizeof(float)));
         buffer(GL_ELEMENT_ARRAY_BUFFER, o.indices.data(), o.indices.size() * sizeof(std::uint32_t),
                GL_STATIC_DRAW);
         const float* const a = o.head.diffuse;

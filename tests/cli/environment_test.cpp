@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
 
 namespace fs = std::filesystem;
 
@@ -20,15 +21,6 @@ CommandResult render(const std::string& image, const fs::path& directory,
                    "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"sphere\"\n");
     return run_candela({"render", "scene.toml", "-o", "out.ppm"},
                        {.input = "", .environment = environment, .directory = directory});
-}
-
-void expect(const CommandResult& result, int exit_code, const std::vector<std::string>& parts) {
-    INFO(result.err);
-    CHECK(result.exit_code == exit_code);
-    for (const std::string& part : parts) {
-        INFO(part);
-        CHECK(result.err.find(part) != std::string::npos);
-    }
 }
 
 /// Four pixels: red to the left of the picture's middle, blue to the right.

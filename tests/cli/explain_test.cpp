@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -246,4 +247,33 @@ TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, 
         run_candela({"explain", "--pixel=1,1", "--keep", (kept / "nowhere").string()});
     CHECK(nowhere.exit_code == 1);
     CHECK(nowhere.err.find("is no folder") != std::string::npos);
+}
+
+TEST_CASE(
+    "pixels on standard input are explained line by line, as each of them alone; what is none is said") {
+    CommandSetup setup;
+    setup.input = "256,300\n9,9\nnothing\n512,0\n250,290\n";
+    const CommandResult all = run_candela({"explain", "--pixel", "-", "--json", "--quiet"}, setup);
+    CHECK(all.exit_code == 2);
+    std::istringstream lines(all.out);
+    const auto next = [&] {
+        std::string line;
+        REQUIRE(std::getline(lines, line));
+        return json::parse(line);
+    };
+    const auto alone = [](const char* pixel) {
+        return json::parse(run_candela({"explain", "--pixel", pixel, "--json", "--quiet"}).out);
+    };
+    CHECK(next() == alone("256,300"));
+    CHECK(next() == alone("9,9"));
+    CHECK(next().at("error").get<std::string>().find("'nothing'") != std::string::npos);
+    CHECK(next().at("error").get<std::string>().find("0,0 to 511,511") != std::string::npos);
+    CHECK(next() == alone("250,290"));
+    CHECK(lines.peek() == std::istringstream::traits_type::eof());
+
+    setup.input = "nothing\n256,300\n";
+    const CommandResult for_a_person = run_candela({"explain", "--pixel", "-", "--quiet"}, setup);
+    CHECK(for_a_person.exit_code == 2);
+    CHECK(for_a_person.err.find("'nothing'") != std::string::npos);
+    CHECK(for_a_person.out == run_candela({"explain", "--pixel", "256,300", "--quiet"}).out);
 }

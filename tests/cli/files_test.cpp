@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "support/command.h"
+#include "support/expect.h"
 
 namespace fs = std::filesystem;
 
@@ -25,15 +26,6 @@ CommandResult check(const std::vector<std::string>& files, const fs::path& direc
     std::vector<std::string> words{"check"};
     words.insert(words.end(), files.begin(), files.end());
     return run_candela(words, {.input = "", .environment = {}, .directory = directory});
-}
-
-void expect(const CommandResult& result, int exit_code, const std::vector<std::string>& parts) {
-    INFO(result.err);
-    CHECK(result.exit_code == exit_code);
-    for (const std::string& part : parts) {
-        INFO(part);
-        CHECK(result.err.find(part) != std::string::npos);
-    }
 }
 
 }  // namespace
@@ -116,6 +108,7 @@ TEST_CASE("R11: each way of not being readable has its own message and exit code
            {"scnee.toml: error: there is no such file", "did you mean 'scene.toml'?"});
     expect(check({"folder/scene.toml"}, d), 1,
            {"there is no such file", "there is no folder 'folder' either"});
+    expect(check({""}, d), 2, {"the name of a scene is empty"});
     fs::create_directory(d / "folder");
     expect(check({"folder"}, d), 1, {"folder: error: this is a directory; a scene is a file"});
     write_file(d / "empty.toml", "");

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "support/command.h"
+#include "support/expect.h"
 
 namespace fs = std::filesystem;
 
@@ -29,15 +31,6 @@ CommandResult check(const std::string& text, const std::vector<std::string>& mor
     std::vector<std::string> words{"check", "a.toml"};
     words.insert(words.end(), more.begin(), more.end());
     return run_candela(words, {.input = "", .environment = {}, .directory = directory});
-}
-
-void expect(const CommandResult& result, int exit_code, const std::vector<std::string>& parts) {
-    INFO(result.err.substr(0, 2000));
-    CHECK(result.exit_code == exit_code);
-    for (const std::string& part : parts) {
-        INFO(part);
-        CHECK(result.err.find(part) != std::string::npos);
-    }
 }
 
 /// One of 4 GB of address space; not for sanitizers, which take terabytes of it.
@@ -159,15 +152,40 @@ TEST_CASE("a file that does not know its size is read no farther than a scene ma
 TEST_CASE("a picture, and a shape, that do not fit into memory are errors that say how much they need") {
     if (k_has_shadow_memory) SKIP("sanitizers need more address space");
     const fs::path directory = scratch_directory();
-    const std::string output = " -o " + (directory / "a.ppm").string();
+    // A format that is not written by rows.
+    const std::string output = " -o " + (directory / "a.pfm").string();
     expect(in_four_gigabytes("render --width 65536 --height 65536" + output), 1,
-           {"a picture of 65536 x 65536 pixels needs 12.9 GB of memory; ", " are available"});
+           {"a picture of 65536 x 65536 pixels needs 51.5 GB of memory; ", " are available"});
     const fs::path scene =
         write_file(directory / "scene.toml",
                    k_start + "[[object]]\ntype = \"sphere\"\nsegments = 8192\nposition = [2, 0, 0]\n");
     expect(in_four_gigabytes("render " + scene.string() + output), 1,
            {"scene.toml:9:1: error: object number 0: a shape of 67", " triangles needs ", " GB of memory; "});
-    CHECK_FALSE(fs::exists(directory / "a.ppm"));
+    CHECK_FALSE(fs::exists(directory / "a.pfm"));
+}
+
+TEST_CASE(
+    "wherever a library runs out of memory, while it is loaded or later, that is a message, and no abort") {
+    if (k_has_shadow_memory) SKIP("sanitizers need more address space");
+    const fs::path directory = scratch_directory();
+    const auto rendered = [&](rlim_t megabytes, const char* picture) {
+        CommandSetup setup;
+        setup.prepare = [megabytes] {
+            const rlimit room{megabytes << 20, megabytes << 20};
+            ::setrlimit(RLIMIT_AS, &room);
+        };
+        return run_candela({"render", "--threads", "1", "-o", (directory / picture).string()}, setup);
+    };
+    CHECK(rendered(150, "a.png").exit_code == 0);
+    // OpenImageIO and its 255 libraries take some 400 MB; between that and what is enough it aborts.
+    for (const rlim_t megabytes : {rlim_t{100}, rlim_t{392}, rlim_t{400}, rlim_t{412}, rlim_t{426}}) {
+        const CommandResult result = rendered(megabytes, "a.exr");
+        INFO(megabytes << " MB\n" << result.err);
+        if (result.exit_code == 0) continue;
+        CHECK(result.exit_code == 1);
+        CHECK(result.err.find("there is not enough memory to load it; ulimit -v") != std::string::npos);
+        CHECK(result.err.find("build it again") == std::string::npos);
+    }
 }
 
 TEST_CASE("manifests that are none are refused, and the other plugins still work") {

@@ -1,5 +1,5 @@
 // Kernel text with notes, compiled and run: all forms of statement, against values worked out by hand.
-#include "kernel_trace.h"
+#include "explanation/kernel_trace.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/command.h"
@@ -68,6 +69,37 @@ Table plotted(std::vector<std::string> words) {
     REQUIRE(result.exit_code == 0);
     return Table(result.out);
 }
+
+/// What lights send: "over,at,<light>...".
+struct LightTable {
+    explicit LightTable(std::vector<std::string> words) {
+        words.insert(words.begin(), "plot");
+        const CommandResult result = run_candela(words);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        std::istringstream lines(result.out);
+        std::string line;
+        std::getline(lines, line);
+        REQUIRE(header_of(line)[0] == "over");
+        while (std::getline(lines, line)) {
+            const std::size_t comma = line.find(',');
+            std::istringstream cells(line.substr(comma + 1));
+            std::vector<double> numbers;
+            for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(std::stod(cell));
+            rows.emplace_back(line.substr(0, comma), numbers);
+        }
+    }
+
+    double at(const std::string& over, double place, std::size_t light) const {
+        for (const auto& [name, numbers] : rows)
+            if (name == over && std::abs(numbers[0] - place) < 1e-6 * place + 1e-9)
+                return numbers.at(light + 1);
+        FAIL("no row for " << over << " " << place);
+        return 0;
+    }
+
+    std::vector<std::pair<std::string, std::vector<double>>> rows;
+};
 
 /// cos, and nothing from behind.
 double cosine(double degrees) { return std::max(0.0, std::cos(degrees * k_degree)); }
@@ -156,6 +188,53 @@ print(min(radii), max(radii)))",
     CHECK(most == Approx(0.25).epsilon(1e-3));
 }
 
+TEST_CASE("plot: a spot light fades between its cones, and with the square of the distance") {
+    const std::string smooth = "spot:inner_angle=20,outer_angle=40,intensity=3";
+    const std::string linear = "spot:inner_angle=20,outer_angle=40,falloff=linear,attenuation=none";
+    const LightTable table({"light/" + smooth, "light/" + linear, "light/point:intensity=3"});
+    for (const double angle : {0.0, 10.0, 19.5, 22.0, 30.0, 38.5, 40.5, 90.0}) {
+        // SPEC §3: smoothstep of the cosine between the cones, or linear in it.
+        const double t = std::clamp((std::cos(angle * k_degree) - std::cos(40 * k_degree)) /
+                                        (std::cos(20 * k_degree) - std::cos(40 * k_degree)),
+                                    0.0, 1.0);
+        CHECK(table.at("angle", angle, 0) == Approx(3 * t * t * (3 - 2 * t)).epsilon(1e-4).margin(1e-6));
+        CHECK(table.at("angle", angle, 1) == Approx(t).epsilon(1e-4).margin(1e-6));
+        CHECK(table.at("angle", angle, 2) == Approx(3).epsilon(1e-5));
+    }
+    for (const double distance : {0.1, 0.2511886, 1.0, 3.162278, 10.0}) {
+        CHECK(table.at("distance", distance, 0) ==
+              Approx(3 / (distance * distance)).epsilon(1e-4));  // CA DD7
+        CHECK(table.at("distance", distance, 1) == Approx(1).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("plot: RE's attenuation has no pole, and a value for all lights yields to a light's own") {
+    const LightTable table({"light/point:attenuation=offset-linear,attenuation_offset=0.01", "light/point",
+                            "--set=intensity=0.8"});
+    for (const double distance : {0.1, 1.0, 10.0}) {
+        CHECK(table.at("distance", distance, 0) ==
+              Approx(0.8 / (distance + 0.01)).epsilon(1e-4));  // RE: 1/(r+k)
+        CHECK(table.at("distance", distance, 1) == Approx(0.8 / (distance * distance)).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("plot: the diagrams of a light have their curve where its equation has it") {
+    const fs::path file = scratch_directory() / "spot.svg";
+    REQUIRE(
+        run_candela({"plot", "light/spot:inner_angle=0,outer_angle=60,falloff=linear", "-o", file.string()})
+            .exit_code == 0);
+    const std::string svg = read_file(file);
+    CHECK(holds(svg, "role=\"img\""));
+    CHECK(holds(
+        svg,
+        "<title id=\"title\">What lights send: spot:inner_angle=0,outer_angle=60,falloff=linear</title>"));
+    // At 0 degrees the top left corner of its frame; at 60 degrees, two thirds to the right, the bottom.
+    const std::size_t curve = svg.find("points=\"");
+    REQUIRE(curve != std::string::npos);
+    CHECK(svg.compare(curve + 8, 12, "60.00,40.00 ") == 0);
+    CHECK(holds(svg, " 306.67,340.00 "));
+}
+
 TEST_CASE("plot: what it cannot draw is said, with what there is, and no file is made") {
     struct Wrong {
         std::vector<std::string> words;
@@ -163,7 +242,12 @@ TEST_CASE("plot: what it cannot draw is said, with what there is, and no file is
     };
     for (const Wrong& wrong : {
              Wrong{{}, "needs a model"},
-             Wrong{{"light/point"}, "no reflection model"},
+             Wrong{{"shading/flat"}, "neither a reflection model nor a light"},
+             Wrong{{"light/point", "phong"}, "either reflection models or lights"},
+             Wrong{{"light/point", "--log"}, "--log is about reflection models"},
+             Wrong{{"light/ambient"}, "comes from everywhere"},
+             Wrong{{"light/spot:outer_angl=3"}, "did you mean 'outer_angle'"},
+             Wrong{{"light/spot:inner_angle=30,outer_angle=20"}, "inner_angle"},
              Wrong{{"phong", "lambert", "--set", "shinines=3"}, "did you mean 'shininess'"},
              Wrong{{"phong:shininess"}, "is no value"},
              Wrong{{"phong:shinines=3"}, "did you mean 'shininess'"},

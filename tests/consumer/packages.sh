@@ -27,7 +27,9 @@ quiet "$(dirname "$cmake")/cpack" --config "$build/CPackConfig.cmake" -B "$scrat
 runtime=("$scratch"/packages/candela_*.deb)
 formats=("$scratch"/packages/candela-openimageio_*.deb)
 development=("$scratch"/packages/candela-dev_*.deb)
-for package in "${runtime[0]}" "${formats[0]}" "${development[0]}"; do
+python=()
+[ ! -e "$build/lib/python3/dist-packages/candela/__init__.py" ] || python=("$scratch"/packages/python3-candela_*.deb)
+for package in "${runtime[0]}" "${formats[0]}" "${development[0]}" "${python[@]}"; do
     [ -f "$package" ] || fail "not all packages were made: there is no $package"
     [ "$(dpkg-deb -f "$package" Version)" = "$(dpkg-deb -f "${runtime[0]}" Version)" ] || fail "versions differ"
 done
@@ -100,6 +102,20 @@ code=0
 code=0
 "$candela" plugin new light x "$scratch/x" 2>"$scratch/log" || code=$?
 { [ "$code" -eq 1 ] && grep -q 'package candela-dev' "$scratch/log"; } || fail "nothing says that templates are in candela-dev"
+
+if [ ${#python[@]} -gt 0 ]; then
+    say "the module of Python, with the installed packages alone"
+    quiet package_manager -i "${python[@]}"
+    cat >"$scratch/picture.py" <<'END'
+import sys
+import candela
+assert candela.__file__.startswith(sys.argv[1]), candela.__file__
+candela.Scene.load().render().save(sys.argv[2])
+END
+    PYTHONPATH=$root/usr/lib/python3/dist-packages quiet /usr/bin/python3 -B "$scratch/picture.py" "$root" "$scratch/python.png"
+    quiet "$candela" diff --tolerance 0 "$scratch/python.png" "$scratch/built.png"
+    quiet package_manager --purge python3-candela
+fi
 
 say "a plugin from nothing, with the installed packages alone"
 quiet package_manager -i "${development[@]}"

@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(is_answered == (route.resource != view::Resource::none), "what is answered is a resource");
     fuzz::require(route.status >= 200 && route.status < 500, "a status that HTTP has");
     if (!is_answered) return 0;
-    const bool is_save = route.resource == view::Resource::save;
+    const bool is_save = view::changes_something(route.resource);
     fuzz::require(request.method == (is_save ? "POST" : "GET"), "only POST changes something");
     fuzz::require(!is_save || !request.origin.empty(), "who changes something says where it comes from");
     fuzz::require(request.target.substr(1).starts_with(k_token) && request.target[k_token.size() + 1] == '/',

@@ -1,4 +1,6 @@
 // Any bytes as a scene file.
+#include <set>
+
 #include "fuzz/fuzz.h"
 #include "support/plugins.h"
 
@@ -7,8 +9,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     request.files = {fuzz::written("scene.toml", fuzz::text_of(data, size))};
     request.use_defaults = true;
     candela::Diagnostics diagnostics;
-    const auto scene = candela::read_scene(request, test_registry(), diagnostics);
-    fuzz::check_diagnostics(diagnostics, scene.has_value());
-    if (scene) fuzz::check_finite(*scene);
+    auto frames = candela::SceneFrames::read(request, test_registry(), diagnostics);
+    if (!frames) {
+        fuzz::check_diagnostics(diagnostics, false);
+        return 0;
+    }
+    // The first frame says what it is; so do some in between, and the last.
+    for (const int frame : std::set{0, frames->count() / 2, frames->count() - 1}) {
+        candela::Diagnostics found = diagnostics;
+        const candela::SceneDraft draft = frames->draft(frame, found);
+        fuzz::check_diagnostics(found, draft.is_complete);
+        if (draft.is_complete) fuzz::check_finite(draft.scene);
+    }
     return 0;
 }

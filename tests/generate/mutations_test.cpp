@@ -3,9 +3,13 @@
 
 #include <array>
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "support/command.h"
@@ -116,6 +120,60 @@ constexpr std::array k_mutations = {
 };
 static_assert(k_mutations.size() == 15);
 
+/// A floor that recedes, a ball, and a wall that is larger than its picture, with a picture of soft waves and
+/// grain.
+constexpr const char* k_textured_scene = R"(version = 1
+observer = {position = [0, 1.2, 4], look_at = [0, 0, 0], fov = 45}
+image = {width = 240, height = 180}
+room = {width = 100, height = 100, depth = 100}
+shading = {model = "phong"}
+reflection = {model = "lambert"}
+light = [
+    {type = "ambient", intensity = 0.5},
+    {type = "directional", direction = [-0.3, -1, -0.6], intensity = 0.6},
+]
+object = [
+    {name = "floor", type = "mesh", file = "floor.obj", color_texture = "picture.ppm"},
+    {name = "ball", type = "sphere", radius = 0.8, position = [0, 0.3, 0], color_texture = "picture.ppm"},
+    {name = "wall", type = "mesh", file = "floor.obj", color_texture = "picture.ppm", color_texture_wrap = "clamp", rotation = [90, 0, 0], scale = [0.2, 0.2, 0.2], position = [0, -0.3, -2.5]},
+]
+)";
+constexpr const char* k_floor =
+    "v -9 -1 3\nv 9 -1 3\nv 9 -1 -30\nv -9 -1 -30\nvt -2.2 -0.7\nvt 2.7 -0.7\nvt 2.7 6.1\nvt -2.2 6.1\n"
+    "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+
+/// 8 bits a channel, of that many pixels a side.
+std::string waves_ppm(int size) {
+    std::string file = fmt::format("P6\n{0} {0}\n255\n", size);
+    std::uint32_t grain = 1;
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            constexpr double k_turn = 2 * std::numbers::pi;
+            const double wave = std::sin(k_turn * x / size) * std::cos(k_turn * y / size + 0.5);
+            for (int c = 0; c < 3; ++c) {
+                grain = grain * 1664525u + 1013904223u;
+                file += static_cast<char>(130 + 12 * c + 40 * wave + static_cast<int>(grain >> 29));
+            }
+        }
+    }
+    return file;
+}
+
+// How textures are looked up is one text in all three programs.
+constexpr std::array k_texture_mutations = {
+    std::pair{"texels are half a texel beside their place", Edit{"float(width) - 0.5f", "float(width)"}},
+    std::pair{"a level too coarse", Edit{"min(level, last)", "min(level + 1.0f, last)"}},
+    std::pair{"a level too fine", Edit{"min(level, last)", "max(min(level, last) - 1.0f, 0.0f)"}},
+    std::pair{"the shorter side of a footprint decides",
+              Edit{"max(dot(a, a), dot(b, b))", "min(dot(a, a), dot(b, b))"}},
+    std::pair{"levels are not blended", Edit{"wanted - floor(wanted))", "0.0f)"}},
+    std::pair{"nothing repeats", Edit{"repeats ? x - floor(x) : x", "repeats ? x : x"}},
+    std::pair{"nothing is clamped",
+              Edit{"repeats ? x - floor(x) : x", "x - floor(x) + 0.0f * float(repeats)"}},
+    std::pair{"pictures are upside down", Edit{"(1.0f - color_texture_wrapped(uv.y, t.repeats))",
+                                               "color_texture_wrapped(uv.y, t.repeats)"}},
+};
+
 /// All places; none is an error of this test's, as the fault would not be there.
 std::string edited(std::string text, const Edit& edit) {
     INFO("no longer in the program: " << edit.from);
@@ -139,9 +197,13 @@ void precompile_headers(const fs::path& program, const std::string& source, cons
                                   read_file(cmake), headers, optimization));
 }
 
-void expect_all_caught(const std::string& target, const std::string& file, Edit Mutation::* edit) {
-    const fs::path directory = scratch_directory(), program = directory / "program";
-    const std::string scene = write_file(directory / "scene.toml", k_scene).string();
+/// A fault by its name.
+using Fault = std::pair<const char*, Edit>;
+
+/// `scene`: a file. The program's text is in `file`.
+void expect_caught(const std::string& target, const std::string& scene, const std::string& file,
+                   const std::vector<Fault>& faults) {
+    const fs::path program = fs::path(scene).parent_path() / "program";
     REQUIRE(run_candela({"generate", scene, "--target", target, "-o", program.string()}).exit_code == 0);
     const std::string sound = read_file(program / file);
     // What OpenGL draws does not depend on how fast the program is that tells it to.
@@ -152,12 +214,27 @@ void expect_all_caught(const std::string& target, const std::string& file, Edit 
     const CommandResult unchanged = verified();
     INFO(unchanged.out << unchanged.err);
     REQUIRE(unchanged.exit_code == 0);
-    for (const Mutation& mutation : k_mutations) {
-        write_file(program / file, edited(sound, mutation.*edit));
+    for (const auto& [name, edit] : faults) {
+        write_file(program / file, edited(sound, edit));
         const CommandResult result = verified();
-        INFO(mutation.name << '\n' << result.out << result.err);
+        INFO(name << '\n' << result.out << result.err);
         CHECK(result.exit_code == 4);
     }
+}
+
+void expect_all_caught(const std::string& target, const std::string& file, Edit Mutation::* edit) {
+    const std::string scene = write_file(scratch_directory() / "scene.toml", k_scene).string();
+    std::vector<Fault> faults;
+    for (const Mutation& mutation : k_mutations) faults.emplace_back(mutation.name, mutation.*edit);
+    expect_caught(target, scene, file, faults);
+}
+
+void expect_all_caught_of_textures(const std::string& target, const std::string& file) {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "floor.obj", k_floor);
+    write_file(folder / "picture.ppm", waves_ppm(128));
+    const std::string scene = write_file(folder / "scene.toml", k_textured_scene).string();
+    expect_caught(target, scene, file, {k_texture_mutations.begin(), k_texture_mutations.end()});
 }
 
 }  // namespace
@@ -170,8 +247,20 @@ TEST_CASE("verify: fifteen faults of an OpenGL program are caught") {
 TEST_CASE("verify: fifteen faults of a page are caught") {
     expect_all_caught("webgl", "scene.html", &Mutation::webgl);
 }
+
+TEST_CASE("verify: eight faults of the textures of an OpenGL program are caught") {
+    expect_all_caught_of_textures("opengl", "scene.cpp");
+}
+
+TEST_CASE("verify: eight faults of the textures of a page are caught") {
+    expect_all_caught_of_textures("webgl", "scene.html");
+}
 #else
 TEST_CASE("verify: fifteen faults of a C++ program are caught") {
     expect_all_caught("cpp", "scene.cpp", &Mutation::cpp);
+}
+
+TEST_CASE("verify: eight faults of the textures of a C++ program are caught") {
+    expect_all_caught_of_textures("cpp", "scene.cpp");
 }
 #endif

@@ -1,6 +1,7 @@
 """Scenes that together bring every pair of a shape, a shading model, a reflection model, a light, a projection, a colour
 management and a number of samples onto a picture. Made from what is installed, so that a new model is in one of them."""
 
+import copy
 import itertools
 import json
 import random
@@ -54,6 +55,8 @@ class Catalogue:
     def __init__(self, candela):
         plugins = json.loads(subprocess.run([candela, "list", "--json"], check=True, capture_output=True).stdout)
         self.parameters = {(p["kind"], p["name"]): p["parameters"] for p in plugins}
+        self.samples = [1, 4]
+        self.properties = {(p["kind"], p["name"]): p["properties"] for p in plugins}
 
     def names(self, kind):
         return sorted(name for k, name in self.parameters if k == kind)
@@ -65,6 +68,14 @@ class Catalogue:
         """Its required parameters, and colours of its own, as TOML."""
         return "".join(f"{p['name']} = {value}\n" for p in self.parameters[kind, name] if (value := setting(p, chance)))
 
+    def exact_of(self, target):
+        """The same without the models that a target only approximates, and without anti-aliasing, which is its own."""
+        exact = {kind.removeprefix("exact-"): names.split(", ") for kind, names in self.properties["target", target].items()}
+        chosen = copy.copy(self)
+        chosen.parameters = {(kind, name): p for (kind, name), p in self.parameters.items() if name in exact.get(kind, [name])}
+        chosen.samples = [1]
+        return chosen
+
     def factors(self):
         # What is clear shows its surroundings, which generated programs do not have.
         reflections = [name for name in self.names("reflection") if name != "dielectric"]
@@ -75,7 +86,7 @@ class Catalogue:
             "light": self.names("light"),
             "projection": ["perspective", "orthographic"],
             "color_management": ["srgb", "none"],
-            "samples": [1, 4],
+            "samples": self.samples,
         }
 
 
@@ -124,7 +135,7 @@ def scenes(catalogue, count=SCENES):
     for number in range(count):
         # The frames first, so that each of their pairs is there however few objects there are.
         frame = {"projection": factors["projection"][number % 2], "color_management": factors["color_management"][number // 2 % 2],
-                 "samples": factors["samples"][number // 4 % 2]}
+                 "samples": factors["samples"][number // 4 % len(factors["samples"])]}
         lights = [factors["light"][(number * 2 + k) % len(factors["light"])] for k in range(3)]
         lights = sorted(set(lights))
         objects = []

@@ -1,4 +1,7 @@
 // The conformance kit names the fault of each exhibit.
+#include <sched.h>
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
@@ -7,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/command.h"
@@ -112,6 +116,7 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"reflection-exports-another-table", "kernel as C++", "failed", "the kernel's text gives"},
         {"reflection-speaks-no-cpp", "kernel as C++", "failed", "does not compile as C++"},
         {"reflection-speaks-no-glsl", "kernel as GLSL", "failed", "does not compile as GLSL 330 core"},
+        {"target-approximates-what-is-exact", "exact models", "failed", "becomes reflection/phong"},
         {"image-swaps-channels", "round trip", "failed", "comes back"},
         {"image-says-it-is-written", "failing writes", "failed", "reports nothing"},
         {"image-leaves-a-file", "files of its own", "failed", "picture.tmp"},
@@ -141,6 +146,9 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"reflection-declares-in-vain", "declarations", "failed",
          "is about 'kq', and it has no such parameter"},
         {"reflection-declares-in-vain", "declarations", "failed", "it has no parameter 'shape'"},
+        {"reflection-declares-in-vain", "declarations", "failed",
+         "its preset 'plaster' has [1.5, 0.5, 0.5] for 'kd'"},
+        {"reflection-declares-in-vain", "declarations", "failed", "has no name, or that of another one"},
         {"reflection-shares-its-scratch", "repeatable", "failed", "when 8 threads call it at once"},
         {"reflection-knows-where-up-is", "frame", "failed", "depends on the world's axes"},
         {"reflection-leaks", "instances", "failed", "KiB of memory behind"},
@@ -160,7 +168,9 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"reflection-hasty-at-the-end", "bounds", "failed",
          "reflect_punctual writes after a batch of 1 points"},
         {"light-never-fades", "fall-off", "failed", "it sends 1 times as much"},
+        {"shape-shares-its-scratch", "repeatable", "failed", "another one while other threads make theirs"},
         {"shape-half-derivatives", "derivatives", "failed", "edges dp/du and dp/dv disagree"},
+        {"image-shares-its-scratch", "repeatable", "failed", "another file while other threads write"},
         {"image-miscounts-long-runs", "round trip", "failed", "come back as others"},
         {"image-layers-out-of-order", "layers", "failed", "comes back as"},
         {"image-reads-what-is-cut-off", "truncated", "failed", "is read as if it were whole"},
@@ -192,6 +202,27 @@ TEST_CASE("a sound plugin that needs a file conforms if it is given one, and is 
               .find("it has no parameter 'fil'") != std::string::npos);
 }
 
+TEST_CASE("what the kit cannot do is a usage error, and not a plugin that conforms") {
+    const std::string library = exhibit("reflection-is-negative").string();
+    const std::vector<std::pair<std::vector<std::string>, const char*>> mistakes = {
+        {{library, "--check", "finnite"}, "has 'finnite' in its name; did you mean 'finite'?"},
+        {{library, "--check", "samples:"}, "--list reflection shows them"},
+        {{library, "--time-limit", "0"}, "--time-limit is 0; it can be more than 0"},
+        {{library, "--time-limit", "-1"}, "--time-limit is -1"},
+        {{library, "--time-limit", "nan"}, "--time-limit is nan"},
+        {{"--list", "reflexion"}, "'reflexion' is no kind of plugin; did you mean 'reflection'?"},
+    };
+    for (const auto& [options, message] : mistakes) {
+        std::vector<std::string> words{CANDELA_TEST_KIT};
+        words.insert(words.end(), options.begin(), options.end());
+        const CommandResult result = run_program(words);
+        INFO(message << "\n" << result.err << result.out);
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+        CHECK(result.err.find(message) != std::string::npos);
+    }
+}
+
 TEST_CASE("a property may be declared for some values only, and is verified there") {
     const fs::path directory = scratch_directory();
     const auto energy = [&](const char* brightness) {
@@ -202,6 +233,28 @@ TEST_CASE("a property may be declared for some values only, and is verified ther
     };
     CHECK(energy("0.5") == "passed");
     CHECK(energy("1.2") == "failed");
+}
+
+TEST_CASE("on one processor, threads that share memory are found, and no time is spent on waiting for them") {
+    CommandSetup setup;
+    setup.prepare = [] {
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(::sched_getcpu(), &one);
+        ::sched_setaffinity(0, sizeof one, &one);
+        const rlimit seconds{5, 5};  // of the processor
+        ::setrlimit(RLIMIT_CPU, &seconds);
+    };
+    const auto repeated = [&](const fs::path& library) {
+        return run_program({CANDELA_TEST_KIT, library.string(), "--check", "repeatable"}, setup);
+    };
+    const CommandResult shared = repeated(exhibit("reflection-shares-its-scratch"));
+    INFO(shared.out << shared.err);
+    CHECK(shared.out.find("when 8 threads call it at once") != std::string::npos);
+    // Of the shipped plugins, this one has the most calls to make.
+    const CommandResult sound = repeated(fs::path(CANDELA_TEST_PLUGINS) / "light-distributed.so");
+    INFO(sound.out << sound.err);
+    CHECK(sound.exit_code == 0);
 }
 
 TEST_CASE("in one process, for a debugger, the verdicts are the same") {

@@ -71,7 +71,7 @@ class Access(PageTest):
         generated = Generated("focus", scenes.ORTHOGRAPHIC)
         self.browser.open(generated.address)
         expected = self.browser.run("""
-            const all = [...document.querySelectorAll("canvas, input, select, button, summary")].filter((e) => e.checkVisibility());
+            const all = [...document.querySelectorAll("canvas, input, select, button, summary, .formula")].filter((e) => e.checkVisibility());
             all.forEach((e, i) => (e.dataset.order = i));
             return all.length;""")
         seen = []

@@ -1,6 +1,7 @@
 """A browser with a generated page."""
 import base64
 import json
+import os
 import pathlib
 import re
 
@@ -8,29 +9,48 @@ from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
+from firefox import Firefox
 from pictures import Picture
 
 # Wide enough for the layout of desktops, and no larger: each pixel on the screen is drawn by the processor.
 WINDOW = (840, 400)
 DRAWS_BY_ITSELF = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 
+WITHOUT_WEBGL = ("--disable-3d-apis",)
 
-class Browser:
+
+class Chromium(webdriver.Chrome):
     def __init__(self, *options):
         chrome = webdriver.ChromeOptions()
         for option in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", *options):
             chrome.add_argument(option)
         chrome.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=chrome)
+        super().__init__(service=Service("/usr/bin/chromedriver"), options=chrome)
+
+    def resize(self, width, height, is_phone=False):
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": is_phone}
+        self.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+
+    def run_before_pages(self, source):
+        """Before the scripts of every page that is loaded from now on; what it returns ends that."""
+        script = self.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": source})
+        return lambda: self.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+
+
+class Browser:
+    """Chromium, started with these options, or Firefox: `name`, or what CANDELA_TEST_BROWSER is."""
+
+    def __init__(self, *options, name=None):
+        self.name = name or os.environ.get("CANDELA_TEST_BROWSER", "chromium")
+        self.driver = Chromium(*options) if self.name == "chromium" else Firefox(has_webgl=not set(WITHOUT_WEBGL) & set(options))
         self.driver.set_script_timeout(120)
         self.resize(*WINDOW)
 
     def close(self):
         self.driver.quit()
 
-    def resize(self, width, height, is_phone=False):
-        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": is_phone}
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    def resize(self, width, height, **phone):
+        self.driver.resize(width, height, **phone)
 
     def load(self, address):
         """A page of its own, not another fragment of the one that is open."""
@@ -75,6 +95,13 @@ class Browser:
             }, (error) => done("!" + error.message));""", width, height)
         assert not encoded.startswith("!"), encoded
         return Picture.of_rgba(width, height, base64.b64decode(encoded))
+
+    def wait_for(self, condition, *arguments):
+        """Until a JavaScript expression is true."""
+        self.driver.execute_async_script("""
+            const [condition, values, done] = arguments, holds = new Function("values", `return (${condition})`);
+            const look = () => (holds(values) ? done() : setTimeout(look, 20));
+            look();""", condition, list(arguments))
 
     def rest(self, seconds=2):
         """For what the page does by and by: the picture on the screen, the clipboard, a new fragment."""

@@ -129,6 +129,39 @@ class Controls(PageTest):
         self.try_input(generated, own, path, selector, 0.2)
         self.assertEqual(self.value_shown(path), [0.7, 0.2, 0.7])
 
+    def test_a_preset_sets_the_figures_of_its_source(self):
+        generated = Generated("presets", scenes.PERSPECTIVE)
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        own = self.picture(generated)
+        balls = "return [...document.querySelectorAll('#objects details')][1].querySelector('.preset select')"
+        choose = lambda name: self.browser.run(f"""
+            const select = (() => {{ {balls} }})();
+            select.value = [...select.options].find((option) => option.textContent === arguments[0]).value;
+            select.dispatchEvent(new Event("change"));""", name)
+        chosen = lambda: self.browser.run(f"const select = (() => {{ {balls} }})(); return select.selectedOptions[0].textContent")
+        self.assertEqual(chosen(), "as below")
+        # OpenGL's gold, as Kilgard's teapots.c has it.
+        choose("gold")
+        gold = ("--set", "object.1.color=[255,255,255]", "--set", "object.1.material.ka=[0.24725,0.1995,0.0745]",
+                "--set", "object.1.material.kd=[0.75164,0.60648,0.22648]",
+                "--set", "object.1.material.ks=[0.628281,0.555802,0.366065]", "--set", "object.1.material.shininess=51.2")
+        self.assert_alike(self.picture(generated), generated.render(*gold), "gold", before=own)
+        self.assertEqual(self.value_shown("object.1.material.blinn-phong.shininess"), 51.2)
+        self.assertEqual(chosen(), "gold")
+        # One value differs: it is no gold any more.
+        self.browser.enter('[data-path="object.1.material.blinn-phong.shininess"] input', "3")
+        self.assertEqual(chosen(), "as below")
+        # A metal's reflectance (Real-Time Rendering, table 9.2), under GGX.
+        self.browser.click("reset-all")
+        self.browser.enter("[data-path=reflection] select", "ggx")
+        self.browser.unfold_all()
+        ggx = self.picture(generated)
+        choose("copper")
+        copper = ("--reflection", "ggx", "--set", "object.1.color=[250,209,194]", "--set", "object.1.material.kd=0",
+                  "--set", "object.1.material.ks=[0.955,0.638,0.538]", "--set", "object.1.material.ior=100")
+        self.assert_alike(self.picture(generated), generated.render(*copper), "copper", before=ggx)
+
     def test_wrong_input(self):
         generated = Generated("wrong", scenes.PERSPECTIVE)
         self.browser.open(generated.address)

@@ -5,6 +5,7 @@ import time
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.remote.command import Command
 
 import scenes
 from generated import MOST_DIFFERENT, TWO_STEPS, Generated, PageTest, options_for
@@ -54,20 +55,21 @@ class Looking(PageTest):
         self.browser.click("reset-view")
         self.assert_back()
 
-    def touch(self, kind, *points):
+    def touch(self, *fingers):
+        """Each goes straight from a place to another, seen from the picture's middle."""
         at = self.browser.run("const r = arguments[0].getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]", self.canvas)
-        places = [{"x": at[0] + x, "y": at[1] + y, "id": i} for i, (x, y) in enumerate(points)]
-        self.browser.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
+        there = lambda place: {"x": round(at[0] + place[0]), "y": round(at[1] + place[1])}
+        self.browser.driver.execute(Command.W3C_ACTIONS, {"actions": [
+            {"type": "pointer", "id": f"finger {i}", "parameters": {"pointerType": "touch"}, "actions": [
+                {"type": "pointerMove", "duration": 0, **there(begin)}, {"type": "pointerDown", "button": 0},
+                {"type": "pointerMove", "duration": 50, **there(end)}, {"type": "pointerUp", "button": 0}]}
+            for i, (begin, end) in enumerate(fingers)]})
 
     def test_fingers(self):
-        self.touch("touchStart", (0, 0))
-        self.touch("touchMove", (60, 20))
-        self.touch("touchEnd")
+        self.touch(((0, 0), (60, 20)))
         self.assert_moved("one finger")
         self.browser.click("reset-view")
-        self.touch("touchStart", (-40, 0), (40, 0))
-        self.touch("touchMove", (-90, 0), (90, 0))
-        self.touch("touchEnd")
+        self.touch(((-40, 0), (-90, 0)), ((40, 0), (90, 0)))
         self.assert_moved("pinch")
         nearer, own = self.observer(), self.generated.scene["observer"]["position"]
         self.assertLess(abs(nearer[2]), abs(own[2]))
@@ -89,10 +91,9 @@ class Looking(PageTest):
     def test_slow_frames_are_coarser(self):
         """With a clock of our own, by which a draft takes a second: it has fewer pixels while the picture is turned, and all when
         it rests; and by which it takes no time, all the while."""
-        clock = self.browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": """
+        self.addCleanup(self.browser.driver.run_before_pages("""
             window.clock = { time: 0, step: 1000, readings: 0 };
-            performance.now = () => { clock.readings += 1; return (clock.time += clock.step); };"""})
-        self.addCleanup(self.browser.driver.execute_cdp_cmd, "Page.removeScriptToEvaluateOnNewDocument", clock)
+            performance.now = () => { clock.readings += 1; return (clock.time += clock.step); };"""))
         self.browser.open(self.generated.address)
         self.turn()
         whole = self.browser.run("return parseInt(document.querySelector('canvas').style.width)")
@@ -126,6 +127,7 @@ class Looking(PageTest):
 
     def test_canvas_shows_it(self):
         """What is on the screen is the picture, once it has come to rest."""
+        self.browser.click("show-lights")  # which lie over it
         deadline = time.monotonic() + 60
         while True:
             self.browser.rest()

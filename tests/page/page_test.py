@@ -5,14 +5,21 @@ Run by ctest, which says where things are; by hand: CANDELA=build/release/bin/ca
 import unittest
 
 from access import Access
+from accessible import Accessible, AccessibleExercise, AccessibleView
 from controls import Controls
+from exercising import Exercising
+from formulas import Formulas, Keeping
+from lights import Lights
 from links import Links
 from looking import Looking
+from panes import Panes
 from picturing import Picturing
 from robustness import Robustness
+from typesetting import Typesetting
 from viewing import Viewing
 
-__all__ = ["Access", "Controls", "Links", "Looking", "Picturing", "Robustness", "Viewing"]
+__all__ = ["Access", "Accessible", "AccessibleExercise", "AccessibleView", "Controls", "Exercising", "Formulas", "Keeping", "Lights", "Links", "Looking", "Panes", "Picturing", "Robustness",
+           "Typesetting", "Viewing"]
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,6 @@
 """Names, data, shaders and devices that mean no good."""
 import scenes
-from browser import WINDOW, Browser, with_scene
+from browser import WINDOW, WITHOUT_WEBGL, Browser, with_scene
 from generated import SCRATCH, Generated, PageTest
 
 
@@ -53,12 +53,19 @@ class Robustness(PageTest):
             scene["reflection_models"]["toon"]["glsl"] += "\nfloat oops = nonsense;"
         generated = Generated("chosen", scenes.PERSPECTIVE)
         self.browser.open(with_scene(generated.page, SCRATCH / "chosen.html", spoil))
+        box = self.browser.one("#problem-box")
+
+        def wait_until_shown(is_shown):
+            for _ in range(40):  # frames of a busy machine
+                self.browser.rest(0.5)
+                if box.is_displayed() == is_shown:
+                    return
         self.browser.enter("[data-path=reflection] select", "toon")
-        self.browser.rest(0.8)
+        wait_until_shown(True)
         self.assertIn("Toon", self.browser.one("#problem-text").text)
         self.browser.enter("[data-path=reflection] select", "phong")
-        self.browser.rest(0.8)
-        self.assertFalse(self.browser.one("#problem-box").is_displayed())
+        wait_until_shown(False)
+        self.assertFalse(box.is_displayed())
         self.assert_alike(self.picture(generated), generated.render("--reflection", "phong"), "afterwards")
 
     def test_a_thousand_lights(self):
@@ -88,7 +95,7 @@ class Robustness(PageTest):
 
     def test_without_webgl(self):
         generated = Generated("without", scenes.PERSPECTIVE)
-        browser = Browser("--disable-3d-apis")
+        browser = Browser(*WITHOUT_WEBGL)
         self.addCleanup(browser.close)
         browser.load(generated.address)
         self.assertIn("WebGL 2", browser.problem())

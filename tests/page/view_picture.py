@@ -1,7 +1,7 @@
 """Pictures of `candela view`, for the documentation: the renderer's own picture beside the page's, and an error in the file; a pixel
-that is explained.
+that is explained; panes with different models, and the scene from outside.
 
-    /usr/bin/python3 tests/page/view_picture.py CANDELA SCENE PICTURE.png EXPLANATION.png
+    /usr/bin/python3 tests/page/view_picture.py CANDELA SCENE PICTURE.png EXPLANATION.png PANES.png
 """
 import pathlib
 import shutil
@@ -13,7 +13,7 @@ import time
 
 from browser import DRAWS_BY_ITSELF, Browser
 
-command, scene, picture, explanation = sys.argv[1:]
+command, scene, picture, explanation, panes = sys.argv[1:]
 with tempfile.TemporaryDirectory() as folder:
     file = pathlib.Path(shutil.copy(scene, folder))
     server = subprocess.Popen([command, "view", "--no-open", "--quiet", file.name], cwd=folder, stdout=subprocess.PIPE, text=True)
@@ -25,7 +25,8 @@ with tempfile.TemporaryDirectory() as folder:
         browser.enter("#explanation-x", "270")
         browser.enter("#explanation-y", "265")
         browser.one("#explanation-form button").click()
-        time.sleep(3)
+        while not browser.all("#explanation-result .bytes"):
+            time.sleep(0.5)
         # The lamp, of the lights.
         browser.run("""
             const lights = [...document.querySelectorAll("#explanation-result select")].at(-1);
@@ -33,6 +34,13 @@ with tempfile.TemporaryDirectory() as folder:
             lights.dispatchEvent(new Event("change"));""")
         browser.driver.save_screenshot(explanation)
         browser.one("#explanation-close").click()
+        browser.enter("#panes-layout", "two")
+        browser.enter('[data-path="pane.1.reflection"] select', "ggx")
+        for name in ("room", "observer"):
+            browser.click(f"show-{name}")
+        time.sleep(60)
+        browser.driver.save_screenshot(panes)
+        browser.click("reset-all")
         browser.enter("#reference-mode", "wipe")
         time.sleep(20)  # until both pictures are at rest
         text = file.read_text()

@@ -1,4 +1,5 @@
 """The page that `candela view` serves, in a browser, while its scene's files are saved."""
+import base64
 import json
 import math
 import os
@@ -18,6 +19,21 @@ from generated import COMMAND, ENVIRONMENT, MOST_DIFFERENT, SCRATCH, SMALL_WINDO
 from pictures import Picture
 
 LONGEST = 20  # seconds, on a busy machine
+
+
+# The picture twice along each side.
+TEXTURED_SQUARE = """mtllib square.mtl
+v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0
+vt 0 0\nvt 2 0\nvt 2 2\nvt 0 2
+usemtl tiles
+f 1/1 2/2 3/3 4/4
+"""
+
+
+def tiles_ppm(red, step):
+    """Eight by eight pixels."""
+    colors = [(red, (step * x) % 256, (step * y) % 256) for y in range(8) for x in range(8)]
+    return b"P6\n8 8\n255\n" + b"".join(map(bytes, colors))
 
 
 def save(file, text):
@@ -61,11 +77,7 @@ class Viewing(unittest.TestCase):
         self.assertEqual(list(self.folder.joinpath("tmp").iterdir()), [])
 
     def wait_for(self, condition, *arguments):
-        """Until a JavaScript expression is true."""
-        self.browser.driver.execute_async_script("""
-            const [condition, values, done] = arguments, holds = new Function("values", `return (${condition})`);
-            const look = () => (holds(values) ? done() : setTimeout(look, 20));
-            look();""", condition, list(arguments))
+        self.browser.wait_for(condition, *arguments)
 
     def wait_until_shown(self, generation):
         self.wait_for("document.readyState === 'complete' && window.candela && location.search === `?live=${values[0]}`", generation)
@@ -133,6 +145,22 @@ class Viewing(unittest.TestCase):
         save(self.file, good)
         self.wait_until_shown(1)
         self.assert_shows()
+
+    def test_a_model_is_shown_with_its_texture_which_is_followed_too(self):
+        self.file = self.folder / "square.obj"
+        self.file.write_text(TEXTURED_SQUARE)
+        (self.folder / "square.mtl").write_text("newmtl tiles\nKd 1 1 1\nmap_Kd tiles.ppm\n")
+        tiles = self.folder / "tiles.ppm"
+        tiles.write_bytes(tiles_ppm(200, 60))
+        self.view()
+        self.wait_until_shown(1)
+        self.assert_shows()
+        first = self.browser.picture(64, 48).pixels
+        tiles.write_bytes(tiles_ppm(30, 120))
+        self.wait_until_shown(2)
+        self.assert_shows()
+        self.assertNotEqual(self.browser.picture(64, 48).pixels, first)
+        self.assertEqual(self.browser.errors(), [])
 
     def test_the_view_and_what_was_changed_in_the_page_stay(self):
         self.view()
@@ -251,7 +279,11 @@ class Viewing(unittest.TestCase):
         aim = greens[len(greens) // 2]
         size = self.browser.run("const box = arguments[0].getBoundingClientRect(); return [box.width, box.height];", canvas)
         offset = [(aim[0] + 0.5) / reference.width * size[0] - size[0] / 2, (aim[1] + 0.5) / reference.height * size[1] - size[1] / 2]
-        click = lambda: ActionChains(self.browser.driver).move_to_element_with_offset(canvas, *map(round, offset)).click().perform()
+
+        def click():
+            self.browser.run("arguments[0].scrollIntoView()", canvas)
+            ActionChains(self.browser.driver).move_to_element_with_offset(canvas, *map(round, offset)).click().perform()
+
         click()
         bytes_shown = self.explained()
         x, y = (int(self.browser.run(f"return document.getElementById('explanation-{axis}').value")) for axis in "xy")
@@ -347,6 +379,50 @@ class Viewing(unittest.TestCase):
         self.assertEqual(self.browser.errors(), [])
         self.assert_shows()
 
+    def test_an_explanations_formulas_have_the_numbers_of_its_point(self):
+        self.file.write_text(scenes.PERSPECTIVE.replace("blinn-phong", "phong"))
+        text = subprocess.check_output([COMMAND, "explain", self.file, "--pixel", "54,60", "--json", "--quiet"], env=ENVIRONMENT)
+        explained = json.loads(text)
+        point = explained["fragments"][0]["points"][0]
+        light = next(light for light in point["lights"] if light["light"] == "'sun'")
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.enter("#explanation-x", "54")
+        self.browser.enter("#explanation-y", "60")
+        self.browser.one("#explanation-form button").click()
+        self.explained()
+        lights = self.browser.run('return [...document.querySelectorAll("#explanation-result label")].find((e) => e.textContent === "Light").htmlFor')
+        option = self.browser.run("return [...document.getElementById(arguments[0]).options].find((o) => o.textContent === 'sun').value", lights)
+        self.browser.enter(f"#{lights}", option)
+        # Each line of a formula: the formula, with numbers, its value.
+        lines = self.browser.run("""
+            return [...document.querySelectorAll("#explanation-result .formula-steps")].map((line) =>
+                [...line.querySelectorAll("math")].map((math) => math.textContent));""")
+        numbers = lambda said: [float(x.replace("−", "-")) for x in re.findall(r"[0-9.]+(?:e[-+]?\d+)?", said)]
+        named = lambda name: next(line for line in lines if line[0].startswith(name + "="))
+        dot = lambda a, b: sum(x * y for x, y in zip(a, b))
+
+        def assert_near(said, expected):
+            self.assertEqual(len(said), len(expected), said)
+            for a, b in zip(said, expected):
+                self.assertAlmostEqual(a, b, delta=6e-4 * abs(b) + 1e-6)
+
+        # Phong (1975): ks I_L max(R.V, 0)^shininess.
+        _, with_numbers, value = named("Is")
+        magnitude = abs(dot(light["R"], point["V"]))
+        assert_near(numbers(with_numbers), [0.35, *light["specular"], magnitude, 0, 20])
+        assert_near(numbers(value), light["I_s"] if len(set(light["I_s"])) > 1 else light["I_s"][:1])
+        _, with_numbers, value = named("Id")
+        assert_near(numbers(with_numbers), [0.6, *point["C_o"], *light["diffuse"], light["N.L"], 0])
+        assert_near(numbers(value), light["I_d"])
+        # The sum, and the bytes with the curve of IEC 61966-2-1.
+        _, with_numbers, value = named("I")
+        assert_near(numbers(value), point["I"])
+        curves = self.browser.run("""
+            return [...document.querySelectorAll("#explanation-result .formula:not(:has(.formula-steps)) math:last-child")].map((math) => math.textContent)""")
+        self.assertEqual([int(curve.split("→")[1]) for curve in curves], explained["bytes"])
+        self.assertEqual(self.browser.errors(), [])
+
     def save_changes(self):
         self.browser.one("#save-scene").click()
         self.wait_for("!document.getElementById('save-scene').disabled")
@@ -373,6 +449,27 @@ class Viewing(unittest.TestCase):
         self.browser.one("#save-scene").click()
         self.wait_for("document.getElementById('save-scene').textContent === 'All is as the scene says'")
         self.assertEqual(self.file.read_text(), after)
+
+    def test_a_light_is_dragged_and_saved_and_the_file_has_changed_only_there(self):
+        before = "# A comment.\n" + self.file.read_text()
+        self.file.write_text(before)
+        self.view()
+        self.wait_until_shown(1)
+        lamp = next(m for m in self.browser.all(".marker.position") if m.get_attribute("aria-label").startswith("lamp,"))
+        ActionChains(self.browser.driver).drag_and_drop_by_offset(lamp, 12, 9).perform()
+        self.save_changes()
+        self.wait_until_shown(2)
+        after = self.file.read_text()
+        old, new = before.splitlines(), after.splitlines()
+        [changed] = [i for i, (a, b) in enumerate(zip(old, new, strict=True)) if a != b]
+        self.assertEqual(old[changed], "position = [-1.5, 2.4, 2.0]")
+        moved = json.loads(new[changed].removeprefix("position = "))
+        self.assertNotEqual(moved, [-1.5, 2.4, 2.0])
+        # In the plane through the lamp that faces the observer.
+        forward = [a - b for a, b in zip((0.0, -0.1, 0.0), (0.4, 1.1, 3.6))]
+        away = sum(f * (a - b) for f, a, b in zip(forward, moved, (-1.5, 2.4, 2.0))) / math.hypot(*forward)
+        self.assertLess(abs(away), 0.1 * math.dist(moved, (-1.5, 2.4, 2.0)))
+        self.assert_shows()
 
     def test_a_light_that_was_switched_off_is_off_in_the_file(self):
         self.view()
@@ -421,6 +518,49 @@ class Viewing(unittest.TestCase):
         differing, of = map(int, re.match(r"(\d+) of (\d+) pixels differ", text).groups())
         self.assertGreater(differing, 0.05 * of, text)
 
+    def test_without_webgl_the_renderers_own_picture_is_shown_and_follows(self):
+        self.browser = Browser("--disable-3d-apis")
+        self.addCleanup(self.browser.close)
+        self.browser.resize(*SMALL_WINDOW)
+        self.view()
+        self.wait_until_shown(1)
+        self.assertTrue(self.browser.one("#without-graphics").is_displayed())
+        reference = self.folder / "reference.ppm"
+
+        def assert_is_rendered(*options):
+            candela("render", self.file, "-o", reference, *options)
+            expected = Picture.of_ppm(reference)
+            # On the screen sooner or later, and exactly.
+            self.browser.driver.execute_async_script("""
+                const [expected, done] = arguments, canvas = document.getElementById("picture-canvas");
+                const look = () => {
+                    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+                    let text = "";
+                    data.forEach((byte, i) => { if (i % 4 < 3) text += String.fromCharCode(byte); });
+                    btoa(text) === expected ? done() : setTimeout(look, 50);
+                };
+                look();""", base64.b64encode(expected.pixels).decode())
+            self.assertEqual(self.browser.picture(expected.width, expected.height).pixels, expected.pixels)
+
+        assert_is_rendered()
+        self.browser.unfold_all()
+        self.browser.enter('[data-path="object.0.color"] input', "#20c040")
+        self.browser.one("#picture-canvas").send_keys("+")
+        position = self.browser.run("""
+            return [...document.querySelectorAll('[data-path="observer.position"] input[type=number]')].map((i) => Number(i.value));""")
+        assert_is_rendered("--set", "object.0.color=[32,192,64]", *options_for("observer.position", position))
+        # Lights can be moved there as well, a pixel is explained, and a saved scene comes by itself.
+        self.assertTrue(self.browser.all(".marker"))
+        self.browser.enter("#explanation-x", "3")
+        self.browser.enter("#explanation-y", "2")
+        self.browser.one("#explanation-y").send_keys(Keys.ENTER)
+        self.assertEqual(self.explained(), [30, 40, 60])
+        self.browser.click("reset-all")
+        self.changed(self.scene_color(), "color = [200, 20, 30]")
+        self.wait_until_shown(2)
+        assert_is_rendered()
+        self.assertFalse([e for e in self.browser.errors() if "WebGL" not in e])
+
     def test_all_browsers_see_the_same(self):
         self.view()
         self.wait_until_shown(1)
@@ -443,3 +583,4 @@ class Viewing(unittest.TestCase):
         self.wait_until_shown(1)
         self.server.send_signal(signal.SIGTERM)
         self.wait_for("document.getElementById('notice').textContent.includes('candela view has ended')")
+        self.assertEqual(self.server.wait(LONGEST), 0)  # before end() asks again

@@ -80,6 +80,8 @@ TEST_CASE("objects that overlap are a warning if the scene says so, and an error
     CHECK(says(warned, "warning: object number 1 overlaps object number 0"));
     CHECK(checked(two + "[constraints]\noverlap = \"error\"\n").text == checked(two).text);
     CHECK(says(checked(two + "[constraints]\noverlap = \"wrn\"\n"), "did you mean 'warn'?"));
+    const Result allowed = checked(two + "[constraints]\noverlap = \"allow\"\n");
+    CHECK(allowed.text.find("overlaps") == std::string::npos);
 }
 
 TEST_CASE("long bodies side by side, of which all bounding boxes overlap, do not overlap") {

@@ -46,18 +46,23 @@ Point point(const candela::SurfacePoints& points, std::size_t i) {
             points.barycentric.span()[i]};
 }
 
-/// Runs of `lengths` pixels, of the two triangles in turns.
-std::vector<FragmentRun> runs_of(const std::vector<std::uint32_t>& lengths) {
+/// Stretches of `lengths` pixels, of the two triangles in turns, each a run of its own.
+struct Stretches {
     std::vector<FragmentRun> runs;
-    float x = 3.5f;
-    std::uint32_t triangle = 0;
-    for (const std::uint32_t length : lengths) {
-        runs.push_back({.triangle = triangle, .pixel = 0, .count = length, .x = x, .y = 100.5f, .weight = 1});
-        x += 0.25f;
-        triangle = 1 - triangle;
+    std::vector<std::uint32_t> triangles;
+
+    explicit Stretches(const std::vector<std::uint32_t>& lengths) {
+        float x = 3.5f;
+        std::uint32_t triangle = 0;
+        for (const std::uint32_t length : lengths) {
+            runs.push_back({.pixel = 0, .count = length, .x = x, .y = 100.5f, .weight = 1});
+            triangles.insert(triangles.end(), length, triangle);
+            x += 0.25f;
+            triangle = 1 - triangle;
+        }
     }
-    return runs;
-}
+    candela::FragmentBatch batch() const { return {runs, triangles}; }
+};
 
 void require_filled(const candela::SurfacePoints& points, std::size_t count) {
     REQUIRE(points.count == count);
@@ -79,17 +84,18 @@ TEST_CASE("a batch of fragments is filled up to whole vectors with its last one,
         {3, 40},  {40, 3},      {7, 7, 7},    {20, 1, 20}, {1, 20, 1}, {15, 15, 15, 15},
         {10, 11}, {1, 1, 1, 1}, {200, 1, 55}, {5, 250, 1}};
     for (const std::vector<std::uint32_t>& lengths : all) {
-        const std::vector<FragmentRun> runs = runs_of(lengths);
+        const Stretches stretches(lengths);
         std::vector<Point> one_by_one;
-        for (FragmentRun run : runs) {
+        for (FragmentRun run : stretches.runs) {
             const std::uint32_t length = run.count;
             run.count = 1;
             for (std::uint32_t i = 0; i < length; ++i, run.x += 1) {
-                candela::gather_fragments(seen.projected, {&run, 1}, {}, points);
+                const std::uint32_t& triangle = stretches.triangles[one_by_one.size()];
+                candela::gather_fragments(seen.projected, {{&run, 1}, {&triangle, 1}}, {}, points);
                 one_by_one.push_back(point(points, 0));
             }
         }
-        candela::gather_fragments(seen.projected, runs, {}, points);
+        candela::gather_fragments(seen.projected, stretches.batch(), {}, points);
         require_filled(points, one_by_one.size());
         for (std::size_t i = 0; i < one_by_one.size(); ++i) CHECK(point(points, i) == one_by_one[i]);
     }
@@ -120,11 +126,11 @@ TEST_CASE(
             REQUIRE(points.corner_normal[k].span()[i] == vertex.normal);
         }
     };
-    candela::gather_fragments(seen.projected, runs_of({3}), {.uv = true}, points);
+    candela::gather_fragments(seen.projected, Stretches({3}).batch(), {.uv = true}, points);
     CHECK(points.corner_position[0].empty());
 
     const std::vector<std::uint32_t> lengths = {3, 40, 7, 1};
-    candela::gather_fragments(seen.projected, runs_of(lengths), {.triangle = true}, points);
+    candela::gather_fragments(seen.projected, Stretches(lengths).batch(), {.triangle = true}, points);
     std::size_t first = 0;
     for (std::size_t run = 0; run < lengths.size(); ++run) {
         for (std::size_t i = 0; i < lengths[run]; ++i) require_corners(first + i, run % 2);

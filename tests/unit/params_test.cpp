@@ -73,6 +73,9 @@ candela::Manifest sample_manifest() {
          .default_value = std::vector<float>{0.1f, 2}}};
     m.relations = {{candela::RelationType::less, "size", "count", true, "why"}};
     m.properties = {{"closed", "true"}, {"euler", "2"}};
+    m.presets = {
+        {.name = "large", .source = "nobody", .values = {{"size", 0.5}}, .color = {}},
+        {.name = "red", .source = "", .values = {{"size", 0.25}}, .color = candela::Vec3{255, 0, 0}}};
     m.formats = {{"foo", "Foo", candela::PixelType::real}};
     m.has_kernel = true;
     m.kernel_prefix = "lamp";

@@ -208,6 +208,41 @@ TEST_CASE("closed meshes are culled from behind, open ones are seen from both si
     CHECK(sees({0, 2, 1}, false));
 }
 
+TEST_CASE("of thousands of small meshes, each pixel sees the triangle that lies there, or none from behind") {
+    // Squares of two triangles and one without an area, so that ranges of the scene end within a mesh.
+    constexpr int k_columns = 60, k_rows = 40;
+    std::vector<Mesh> meshes;
+    for (int i = 0; i < k_columns * k_rows; ++i) {
+        const auto left = static_cast<float>(4 * (i % k_columns) - 2 * k_columns);
+        const auto top = static_cast<float>(2 * k_rows - 4 * (i / k_columns));
+        const bool is_reversed = i % 3 == 1, is_closed = i % 2 == 1;
+        meshes.push_back(
+            mesh_of({{left, top, 0}, {left, top - 4, 0}, {left + 4, top - 4, 0}, {left + 4, top, 0}},
+                    is_reversed ? std::vector<std::uint32_t>{0, 2, 1, 1, 1, 2, 0, 3, 2}
+                                : std::vector<std::uint32_t>{0, 1, 2, 1, 1, 2, 0, 2, 3},
+                    is_closed));
+    }
+    std::vector<const Mesh*> all;
+    for (const Mesh& mesh : meshes) all.push_back(&mesh);
+    const Camera camera = pixel_camera(4 * k_columns, 4 * k_rows);
+    const auto ids = visible(all, camera);
+    for (int y = 0; y < camera.height; ++y) {
+        for (int x = 0; x < camera.width; ++x) {
+            const int i = y / 4 * k_columns + x / 4;
+            const bool is_hidden = i % 3 == 1 && i % 2 == 1;
+            const auto left = static_cast<std::uint32_t>(3 * i), right = left + 2;
+            const std::uint32_t seen = ids[static_cast<std::size_t>(y * camera.width + x)];
+            if (is_hidden) {
+                REQUIRE(seen == candela::k_no_triangle);
+            } else if (x % 4 == y % 4) {  // on the diagonal
+                REQUIRE((seen == left || seen == right));
+            } else {
+                REQUIRE(seen == (x % 4 < y % 4 ? left : right));
+            }
+        }
+    }
+}
+
 TEST_CASE("of equally near triangles, the first is seen") {
     const Mesh first = mesh_of({{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}, {0, 1, 2});
     const Mesh second = mesh_of({{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}, {0, 1, 2});

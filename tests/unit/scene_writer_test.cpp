@@ -186,6 +186,7 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.image.background.z += 1; },
         [](Scene& s) { s.image.color_management = candela::ColorEncoding::none; },
         [](Scene& s) { s.constraints.overlap = candela::Severity::warning; },
+        [](Scene& s) { s.constraints.overlap.reset(); },
         [](Scene& s) { s.lights.pop_back(); },
         [](Scene& s) { s.lights[1].label = "'moon light'"; },
         [](Scene& s) { s.lights[1].model.parameters.set("intensity", 3.0); },
@@ -197,6 +198,8 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.objects[1].transform.scale.x += 1; },
         [](Scene& s) { s.objects[1].color.x += 1; },
         [](Scene& s) { s.objects[1].encloses = true; },
+        [](Scene& s) { s.objects[1].color_texture = std::string(CANDELA_TEST_SOURCE) + "/LICENSE"; },
+        [](Scene& s) { s.objects[1].color_texture_wrap = candela::TextureWrap::clamp; },
         [](Scene& s) { s.objects[1].shading.name = "flat"; },
         [](Scene& s) { s.objects[1].reflection.parameters.set("kd", Vec3{0.1f, 0.2f, 0.3f}); },
     };

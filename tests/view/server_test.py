@@ -7,99 +7,17 @@ import os
 import pathlib
 import random
 import re
-import shutil
 import signal
 import socket
 import subprocess
-import tempfile
 import time
 import unittest
 
-COMMAND = os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"]
-SCRATCH = pathlib.Path(os.environ.get("CANDELA_TEST_SCRATCH") or tempfile.mkdtemp(prefix="candela-view-")).absolute()
-ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), CANDELA_PLUGIN_PATH="")
-LONGEST = 20  # seconds, on a busy machine
+from served import COMMAND, ENVIRONMENT, LONGEST, View, children_of, status_of
+
 JUNK = int(os.environ.get("CANDELA_TEST_REQUESTS", "2000"))
-
-SCENE = """version = 1
-observer = {{position = [0, 1, 4], look_at = [0, 0, 0]}}
-image = {{width = 64, height = 48}}
-shading = {{model = "phong"}}
-reflection = {{model = "lambert"}}
-light = [{{type = "directional", direction = [-1, -1, -1]}}]
-object = [{{type = "cube", color = [{red}, 90, 40]}}]
-"""
-
-
-class View:
-    def __init__(self, test):
-        self.folder = SCRATCH / test.id().rsplit(".", 1)[-1]
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.temporary = self.folder / "tmp"
-        self.temporary.mkdir(parents=True)
-        self.file = self.folder / "scene.toml"
-        self.save(100)
-        self.log = open(self.folder / "log.txt", "w+")
-        self.process = subprocess.Popen([COMMAND, "view", "--no-open", str(self.file)], env=dict(ENVIRONMENT, TMPDIR=str(self.temporary)),
-                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=self.log, text=True)
-        self.address = self.process.stdout.readline().strip()
-        self.port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/", self.address).groups()
-        self.port = int(self.port)
-
-    def save(self, red):
-        draft = self.folder / "draft"
-        draft.write_text(SCENE.format(red=red))
-        os.replace(draft, self.file)
-
-    def end(self, number=signal.SIGINT):
-        self.process.send_signal(number)
-        code = self.process.wait(LONGEST)
-        self.process.stdout.close()
-        self.log.close()
-        return code
-
-    def connect(self):
-        return socket.create_connection(("127.0.0.1", self.port), timeout=LONGEST)
-
-    def answer(self, data):
-        """All that comes back; what is sent after the server has closed is lost, as it should be."""
-        with self.connect() as connection:
-            try:
-                connection.sendall(data)
-                parts = []
-                while part := connection.recv(65536):
-                    parts.append(part)
-            except (ConnectionResetError, BrokenPipeError):
-                return b""
-            return b"".join(parts)
-
-    def get(self, path, method="GET", host=None, **fields):
-        host = f"127.0.0.1:{self.port}" if host is None else host
-        lines = [f"{method} {path} HTTP/1.1", f"Host: {host}", *(f"{name}: {value}" for name, value in fields.items())]
-        return self.answer("\r\n".join([*lines, "", ""]).encode())
-
-    def status(self, path, **options):
-        return int(self.get(path, **options).split(b" ", 2)[1])
-
-    def events(self):
-        """A connection that has asked for events and has read their head."""
-        connection = self.connect()
-        connection.sendall(f"GET /{self.token}/events HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n\r\n".encode())
-        return connection
-
-    def generation(self):
-        location = re.search(rb"Location: \S*\?live=(\d+)", self.get(f"/{self.token}/"))
-        return int(location[1])
-
-    def page(self):
-        return self.get(f"/{self.token}/?live={self.generation()}")
-
-    def wait_for_color(self, red):
-        end = time.monotonic() + LONGEST
-        wanted = f'"color":[{red}.0,90.0,40.0]'.encode()
-        while wanted not in self.page():
-            assert time.monotonic() < end, f"the page does not show the color {red}: {self.page()[-400:]}"
-            time.sleep(0.02)
+# Sanitizers keep what is freed, and note where each thread has been.
+MAY_GROW = 4096 if os.environ.get("CANDELA_TEST_SANITIZED", "") == "" else 256 * 1024  # kB
 
 
 def until(connection, text):
@@ -113,7 +31,7 @@ def until(connection, text):
 
 class ServerTest(unittest.TestCase):
     def setUp(self):
-        self.view = View(self)
+        self.view = View(self._testMethodName)
         self.addCleanup(self.check_end)
 
     def check_end(self):
@@ -121,21 +39,26 @@ class ServerTest(unittest.TestCase):
             self.assertEqual(self.view.end(), 0)
         self.assertEqual(list(self.view.temporary.iterdir()), [])
 
-    def test_it_listens_on_this_machine_alone(self):
-        sockets = []
-        for descriptor in pathlib.Path(f"/proc/{self.view.process.pid}/fd").iterdir():
-            try:
-                sockets += re.findall(r"socket:\[(\d+)\]", os.readlink(descriptor))
-            except FileNotFoundError:
-                pass  # closed since
-        own = set(sockets)
-        listening = []
-        for table in ("tcp", "tcp6"):
-            for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
-                fields = line.split()
-                if fields[3] == "0A" and fields[9] in own:
-                    listening.append(fields[1])
-        self.assertEqual(listening, [f"0100007F:{self.view.port:04X}"])
+    def test_it_listens_on_this_machine_alone_and_asks_nobody(self):
+        self.explained("pixel=1%2C2")
+        with self.view.events() as connection:
+            until(connection, b"event: problems")
+            own = set()
+            for process in (self.view.process.pid, *children_of(self.view.process.pid)):
+                for descriptor in pathlib.Path(f"/proc/{process}/fd").iterdir():
+                    try:
+                        own.update(re.findall(r"socket:\[(\d+)\]", os.readlink(descriptor)))
+                    except FileNotFoundError:
+                        pass  # closed since
+            listening, connected = [], []
+            for table in ("tcp", "tcp6", "udp", "udp6"):
+                for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
+                    fields = line.split()
+                    if fields[9] in own:
+                        (listening if fields[3] == "0A" else connected).append(fields[1])
+        address = f"0100007F:{self.view.port:04X}"
+        self.assertEqual(listening, [address])
+        self.assertEqual(set(connected), {address})
 
     def test_only_who_knows_the_token_is_answered(self):
         token = self.view.token
@@ -199,6 +122,44 @@ class ServerTest(unittest.TestCase):
         self.assertEqual(self.view.status(f"/{'0' * 32}/save?{query}", method="POST", Origin=own), 404)
         self.assertEqual(self.view.file.read_text(), before)
 
+    def keep(self, query, body=b"KERNEL", **fields):
+        fields = {"Origin": f"http://127.0.0.1:{self.view.port}", **fields}
+        answer = self.view.get(f"/{self.view.token}/keep?{query}", method="POST", body=body, **{k: v for k, v in fields.items() if v})
+        return int(answer.split(b" ", 2)[1]), answer
+
+    def folders(self):
+        return sorted(each.name for each in self.view.folder.iterdir() if each.is_dir())
+
+    def test_a_formula_is_kept_in_a_new_folder_and_nowhere_else(self):
+        status, answer = self.keep("model=reflection%2Fphong&name=cel", b"// mine\nKERNEL vec3 phong_reflect_ambient(PhongMaterial m, Surface s);\n")
+        self.assertEqual(status, 200, answer)
+        self.assertEqual(self.folders(), ["cel", "tmp"])
+        self.assertEqual(self.view.folder.joinpath("cel/cel.kernel").read_text(), "// mine\nKERNEL vec3 cel_reflect_ambient(CelMaterial m, Surface s);\n")
+        before = {each: each.read_bytes() for each in self.view.folder.joinpath("cel").iterdir()}
+        self.view.folder.joinpath("link").symlink_to("/nonexistent")
+        for name, reason in (("cel", b"already there"), ("link", b"already there"), ("tmp", b"already there"), ("..%2Fx", b"cannot be a plugin's name"),
+                             ("%2Ftmp%2Fx", b"cannot be a plugin's name"), ("", b"cannot be a plugin's name"), ("-x", b"cannot be a plugin's name"), ("A", b"cannot be a plugin's name")):
+            status, answer = self.keep(f"model=phong&name={name}")
+            self.assertEqual(status, 422, name)
+            self.assertIn(reason, answer, name)
+        for model in ("phnog", "light%2Fpoint", "--help", "..%2F..%2Fx"):
+            self.assertEqual(self.keep(f"model={model}&name=other")[0], 422, model)
+        self.assertEqual(self.folders(), ["cel", "tmp"])
+        self.assertEqual(before, {each: each.read_bytes() for each in self.view.folder.joinpath("cel").iterdir()})
+
+    def test_only_this_page_keeps_and_no_more_than_a_formula(self):
+        query = "model=phong&name=cel"
+        for origin in ("", "null", "http://evil.example", f"https://127.0.0.1:{self.view.port}"):
+            self.assertEqual(self.keep(query, Origin=origin)[0], 403, origin)
+        self.assertEqual(self.view.status(f"/{self.view.token}/keep?{query}"), 405)
+        self.assertEqual(self.view.status(f"/{'0' * 32}/keep?{query}", method="POST"), 404)
+        for wrong in ("", "model=phong", "name=cel", f"{query}&name=x", f"{query}&set=a%3D1", f"{query}&kernel=%2Fetc%2Fpasswd", f"{query}&pixel=1%2C1"):
+            self.assertEqual(self.keep(wrong)[0], 400, wrong)
+        self.assertEqual(self.view.get(f"/{self.view.token}/keep?{query}", method="POST", body=b"x" * 70000, Origin=f"http://127.0.0.1:{self.view.port}"), b"")
+        # Nothing else has a body.
+        self.assertEqual(self.view.status(f"/{self.view.token}/", body=b"x"), 400)
+        self.assertEqual(self.folders(), ["tmp"])
+
     def test_the_page_is_not_for_frames_caches_and_other_sites(self):
         head = self.view.page().split(b"\r\n\r\n")[0]
         for field in (b"X-Frame-Options: DENY", b"Cache-Control: no-store", b"Referrer-Policy: no-referrer", b"X-Content-Type-Options: nosniff",
@@ -206,7 +167,7 @@ class ServerTest(unittest.TestCase):
             self.assertIn(field, head)
 
     def test_junk_is_survived(self):
-        chance = random.Random(17)
+        chance, before = random.Random(17), status_of(self.view.process.pid)[0]
         good = f"GET /{self.view.token}/ HTTP/1.1\r\nHost: 127.0.0.1:{self.view.port}\r\n\r\n".encode()
         for _ in range(JUNK):
             data = bytearray(good if chance.random() < 0.7 else chance.randbytes(chance.randrange(1, 300)))
@@ -219,6 +180,13 @@ class ServerTest(unittest.TestCase):
                 except OSError:
                     continue
         self.assertEqual(self.view.status(f"/{self.view.token}/"), 302)
+        self.assertLess(status_of(self.view.process.pid)[0] - before, MAY_GROW)
+        # What is refused is logged, but not so that it fills a disk.
+        for _ in range(30):
+            self.assertEqual(self.view.status("/nothing"), 404)
+        log = (self.view.folder / "log.txt").read_text()
+        self.assertIn("404", log)
+        self.assertLess(len(log.splitlines()), 60)
 
     def test_the_renderers_picture_is_had_with_changes(self):
         path = f"/{self.view.token}/reference.png"
@@ -265,12 +233,42 @@ class ServerTest(unittest.TestCase):
             self.assertEqual(bytes(explanation["bytes"]), picture.read_bytes()[-3 * 64 * 48:][at:at + 3])
             self.assertEqual(explanation["pixel"], [32, 24])
 
+    def pixel_of_picture(self):
+        picture = self.view.folder / "expected.ppm"
+        subprocess.run([COMMAND, "render", "--quiet", self.view.file, "-o", picture], env=ENVIRONMENT, check=True)
+        at = 3 * (24 * 64 + 32)
+        return list(picture.read_bytes()[-3 * 64 * 48:][at:at + 3])
+
+    def test_what_is_shown_is_explained_after_each_save_and_while_the_file_is_broken(self):
+        bytes_said = lambda: json.loads(self.explained("pixel=32%2C24"))["bytes"]
+        for red in (10, 250):
+            self.view.save(red)
+            self.view.wait_for_color(red)
+            self.assertEqual(bytes_said(), self.pixel_of_picture())
+        expected = self.pixel_of_picture()
+        with self.view.events() as connection:
+            self.view.save("oops")
+            until(connection, b"oops")
+        self.assertEqual(bytes_said(), expected)
+        self.view.save(30)
+        self.view.wait_for_color(30)
+        self.assertEqual(bytes_said(), self.pixel_of_picture())
+
+    def test_what_explains_is_replaced_if_it_is_killed(self):
+        self.view.wait_for_color(100)
+        self.explained("pixel=1%2C2")
+        for child in children_of(self.view.process.pid):
+            os.kill(int(child), signal.SIGKILL)
+        self.assertEqual(json.loads(self.explained("pixel=1%2C2"))["pixel"], [1, 2])
+
     def test_what_is_no_pixel_is_not_explained(self):
         for query in ("", "pixel=1,2&pixel=3,4", "pixel", "set=image.width%3D9"):
             self.assertEqual(self.view.status(f"/{self.view.token}/explanation.json?{query}"), 400, query)
-        for query in ("pixel=64%2C0", "pixel=-1%2C0", "pixel=x", "pixel=", "pixel=1%2C2&set=object.0.colour%3D3", "pixel=--help"):
+        for query in ("pixel=64%2C0", "pixel=-1%2C0", "pixel=x", "pixel=", "pixel=1%2C2&set=object.0.colour%3D3", "pixel=--help",
+                      "pixel=1%2C2%0A3%2C4", "pixel=%0A"):
             self.assertEqual(self.view.status(f"/{self.view.token}/explanation.json?{query}"), 422, query)
         self.assertIn(b"0,0 to 63,47", self.explained("pixel=64%2C0"))
+        self.assertEqual(json.loads(self.explained("pixel=5%2C6"))["pixel"], [5, 6])
         self.assertEqual(self.view.status(f"/{self.view.token}/reference.png?pixel=1%2C2"), 400)
         self.assertEqual(self.view.status(f"/{self.view.token}/explanation.json?pixel=1%2C2", method="POST"), 405)
 
@@ -333,12 +331,23 @@ class Ending(unittest.TestCase):
     def test_it_ends_well_at_any_moment(self):
         chance = random.Random(3)
         for i in range(12):
-            view = View(self)
+            view = View(self._testMethodName)
             number = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)[i % 3]
             if i % 2:
                 view.save(i)
             time.sleep(chance.random() * 0.08)
             self.assertEqual(view.end(number), 0)
+            self.assertEqual(list(view.temporary.iterdir()), [])
+
+    def test_asked_to_end_again_while_it_ends_it_leaves_nothing_behind_either(self):
+        chance = random.Random(5)
+        for i in range(24):
+            view = View(self._testMethodName)
+            view.save(i)
+            time.sleep(chance.random() * 0.02)
+            view.process.send_signal(signal.SIGTERM)
+            time.sleep(chance.random() * 0.02)
+            self.assertIn(view.end(), (0, -signal.SIGINT))
             self.assertEqual(list(view.temporary.iterdir()), [])
 
     def test_a_port_that_is_taken_is_an_error(self):

@@ -56,6 +56,15 @@ Json list_schema(const Parameter& p) {
     return {{"description", p.meaning}, {"type", "array"}, {"items", value_json(p)}, {"uniqueItems", true}};
 }
 
+/// A list of pairs of a time and a value, whose type is that of the parameter which it is for.
+Json timed_schema(const Parameter& p) {
+    const Json pair{{"type", "array"},
+                    {"items", {{{"type", "number"}}, Json::object()}},
+                    {"minItems", 2},
+                    {"maxItems", 2}};
+    return {{"description", p.meaning}, {"type", "array"}, {"items", pair}, {"minItems", 1}};
+}
+
 Json required_in(std::span<const Parameter> parameters) {
     Json names = Json::array();
     for (const Parameter& p : parameters) {
@@ -153,9 +162,11 @@ class SchemaWriter {
         Json properties = Json::object();
         std::vector<std::string> own;
         for (const Parameter& p : table.parameters) {
-            properties[p.name] = parameter_schema(p);
+            const bool is_timed = std::ranges::find(table.timed, p.name) != table.timed.end();
+            properties[p.name] = is_timed ? timed_schema(p) : parameter_schema(p);
             own.push_back(p.name);
         }
+        for (const TableSchema& inner : table.tables) properties[inner.name] = schema_of(inner);
         for (const PluginKey& key : table.plugins) {
             properties[key.key] = name_schema(parameter_in(table, key.key).meaning, key.kind);
             if (key.parameters_in.value_or("").empty()) continue;

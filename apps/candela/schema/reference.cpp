@@ -139,6 +139,7 @@ class ReferenceWriter {
             line("| `{}` | a table | | | parameters of the object's [{} model](#{}-models) |",
                  *plugin_key.parameters_in, name_of(plugin_key.kind), name_of(plugin_key.kind));
         }
+        for (const TableSchema& inner : schema.tables) table(inner);
     }
 
     void begin_keys() { line("| key | value | unit | default | meaning |\n|---|---|---|---|---|"); }
@@ -155,6 +156,7 @@ class ReferenceWriter {
     std::string value_text(const TableSchema& schema, const Parameter& p) const {
         if (std::ranges::find(schema.lists, p.name) != schema.lists.end())
             return "a list, each " + constraint_text(p);
+        if (std::ranges::find(schema.timed, p.name) != schema.timed.end()) return "a list of `[time, value]`";
         for (const PluginKey& plugin_key : schema.plugins) {
             if (plugin_key.key != p.name) continue;
             std::vector<std::string> links;

@@ -4,6 +4,7 @@ module;
 #include "candela/api.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -36,6 +37,10 @@ class CANDELA_API OutputFile {
 
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
+    /// Whether write_at() can be used, and then nothing else: it is a regular file.
+    bool is_random_access() const noexcept { return !target_.empty(); }
+    /// Writes somewhere in the file, also beyond its end.
+    void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
     /// Moves the complete file to its destination. Call it once, after the last write().
     void finish();
 

@@ -59,15 +59,18 @@ std::string rest_of(process::ipstream& stream) { return {std::istreambuf_iterato
 
 }  // namespace
 
+std::mutex& starting() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 std::optional<std::filesystem::path> program_called(const std::string& name) {
     const auto path = process::search_path(name);
     return path.empty() ? std::nullopt : std::optional(path);
 }
 
 ProgramOutput run_program(const std::vector<std::string>& words) {
-    // A program that another thread starts at that moment would keep the pipes open.
-    static std::mutex starting;
-    std::unique_lock lock(starting);
+    std::unique_lock lock(starting());
     process::ipstream out, err;
     process::child child =
         started(words, process::std_in<process::null, process::std_out> out, process::std_err > err);

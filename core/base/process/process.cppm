@@ -3,12 +3,23 @@ module;
 
 #include "candela/api.h"
 
+#include <chrono>
 #include <filesystem>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 export module candela.process;
+
+namespace candela {
+
+/// To be locked while pipes are made and a program is started: one that another thread starts at that moment
+/// would keep them open, and who reads from them would wait for its end.
+std::mutex& starting();
+
+}  // namespace candela
 
 export namespace candela {
 
@@ -27,5 +38,27 @@ CANDELA_API ProgramOutput run_program(const std::vector<std::string>& words);
 
 /// The same with this process's own streams. Returns the exit code.
 CANDELA_API int show_program(const std::vector<std::string>& words);
+
+/// A program that answers each line that it is told with a line, and ends when nothing more comes. One thread
+/// at a time.
+class CANDELA_API AnsweringProgram {
+  public:
+    /// Starts it; throws like run_program().
+    explicit AnsweringProgram(const std::vector<std::string>& words);
+    AnsweringProgram(const AnsweringProgram&) = delete;
+    AnsweringProgram& operator=(const AnsweringProgram&) = delete;
+    /// Ends it, and waits for its end.
+    ~AnsweringProgram();
+
+    /// What it answers to `line`, both without a line break. Nothing if it ends instead, or does not answer
+    /// for so long; it is of no more use then.
+    std::optional<std::string> answer(std::string line, std::chrono::milliseconds patience);
+    /// What it has printed as errors so far.
+    std::string errors() const;
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
 
 }  // namespace candela

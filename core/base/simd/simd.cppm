@@ -1,10 +1,12 @@
 // Which instruction set the batch loops run with. Every loop is compiled for each; see
-// candela/multiversion.h.
+// candela/multiversion.h. And what several stages do with it.
 module;
 
 #include "candela/api.h"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 export module candela.simd;
@@ -30,5 +32,9 @@ CANDELA_API bool use_instruction_set(InstructionSet set) noexcept;
 /// "baseline", "avx2" or "avx512".
 CANDELA_API std::string_view name_of(InstructionSet set) noexcept;
 CANDELA_API std::optional<InstructionSet> instruction_set_named(std::string_view name) noexcept;
+
+/// Whether all of these are the same number; so it is where there are none. Any thread.
+CANDELA_API bool are_all_equal(std::span<const std::int32_t> numbers) noexcept;
+CANDELA_API bool are_all_equal(std::span<const std::uint32_t> numbers) noexcept;
 
 }  // namespace candela

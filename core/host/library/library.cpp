@@ -2,6 +2,7 @@ module;
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/dll/runtime_symbol_info.hpp>
 #include <boost/dll/shared_library.hpp>
@@ -60,7 +61,19 @@ std::string missing_dependency(const std::string& message) {
     return at == std::string::npos ? std::string() : message.substr(0, at);
 }
 
+/// The dynamic linker has several words for it, or those of the system.
+bool is_for_want_of_memory(std::string_view message) {
+    static constexpr std::array<std::string_view, 5> k_signs{
+        "failed to map", "cannot map", "annot allocate", "Resource temporarily unavailable", "out of memory"};
+    return std::ranges::any_of(
+        k_signs, [&](std::string_view sign) { return message.find(sign) != std::string_view::npos; });
+}
+
+constexpr std::string_view k_no_address_space =
+    "there is not enough memory to load it; ulimit -v limits the address space";
+
 boost::dll::shared_library open_library(const fs::path& library) {
+    if (lacks_address_space(library)) refuse(library, std::string(k_no_address_space));
     try {
         return boost::dll::shared_library(
             library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
@@ -70,6 +83,8 @@ boost::dll::shared_library open_library(const fs::path& library) {
             refuse(library, fmt::format("it needs {}, which is not installed here; install it, or put it "
                                         "where the plugin's RPATH looks for it",
                                         missing));
+        if (is_address_space_scarce() && is_for_want_of_memory(message))
+            refuse(library, fmt::format("{} ({})", k_no_address_space, message));
         refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it", message));
     }
 }
@@ -92,6 +107,7 @@ std::string differences(const Manifest& written, const Manifest& actual) {
     compare("parameters", written.parameters == actual.parameters);
     compare("relations", written.relations == actual.relations);
     compare("properties", written.properties == actual.properties);
+    compare("presets", written.presets == actual.presets);
     compare("formats", written.formats == actual.formats);
     compare("kernel", written.has_kernel == actual.has_kernel &&
                           written.kernel_prefix == actual.kernel_prefix &&

@@ -22,6 +22,15 @@ CANDELA_API const PluginDescriptor& load_plugin(const std::filesystem::path& lib
 /// loader maps a truncated file without a word, and the process ends with SIGBUS where its pages are missing.
 CANDELA_API std::string library_damage(const std::filesystem::path& library);
 
+/// Whether address space is limited (ulimit -v) and little of it is left, so that a large library may find no
+/// room. Any thread.
+CANDELA_API bool is_address_space_scarce();
+
+/// Whether address space is scarce, and too little is left to load a library and to work with it. A library
+/// of somebody else's that runs out of memory while it is loaded, or soon after, may end the process without
+/// a word; so a child process tries it first. Any thread.
+CANDELA_API bool lacks_address_space(const std::filesystem::path& library);
+
 /// Rethrows a plugin's exception as an Error that names the plugin; call it in a catch block.
 [[noreturn]] CANDELA_API void rethrow_as_plugin_error(PluginKind kind, std::string_view name);
 

@@ -78,6 +78,17 @@ Json json_of(const Parameter& p) {
     return json;
 }
 
+Json json_of(const Preset& p, const std::vector<Parameter>& parameters) {
+    Json json{{"name", p.name}, {"source", p.source}, {"values", Json::object()}};
+    for (const auto& [name, value] : p.values) {
+        const auto of = std::ranges::find(parameters, name, &Parameter::name);
+        const bool is_color = of != parameters.end() && of->type == ParamType::color;
+        json["values"][name] = is_color ? color_json(std::get<Vec3>(value)) : json_of(value);
+    }
+    if (p.color) json["color"] = color_json(*p.color);
+    return json;
+}
+
 Json json_of(const Manifest& m) {
     Json json;
     json["candela_manifest"] = k_manifest_version;
@@ -103,6 +114,7 @@ Json json_of(const Manifest& m) {
     }
     json["properties"] = Json::object();
     for (const auto& [name, value] : m.properties) json["properties"][name] = value;
+    for (const Preset& p : m.presets) json["presets"].push_back(json_of(p, m.parameters));
     if (!m.formats.empty()) {
         json["formats"] = Json::array();
         for (const ManifestFormat& f : m.formats) {
@@ -205,6 +217,23 @@ Parameter parameter_from(const Json& json) {
     return p;
 }
 
+Preset preset_from(const Json& json, const std::vector<Parameter>& parameters) {
+    Preset p{.name = json.at("name").get<std::string>(),
+             .source = json.at("source").get<std::string>(),
+             .values = {},
+             .color = {}};
+    require_name(p.name, "preset's name");
+    for (const auto& [name, value] : json.at("values").items()) {
+        const auto of = std::ranges::find(parameters, name, &Parameter::name);
+        if (of == parameters.end())
+            refuse(fmt::format("preset '{}' has a value for '{}', and there is no such parameter",
+                               shortened(p.name), shortened(name)));
+        p.values.emplace_back(name, value_from(value, of->type));
+    }
+    if (json.contains("color")) p.color = std::get<Vec3>(value_from(json["color"], ParamType::color));
+    return p;
+}
+
 Manifest manifest_from(const Json& json) {
     if (whole_number(json.at("candela_manifest")) != k_manifest_version) {
         refuse("it is of another manifest version");
@@ -236,6 +265,9 @@ Manifest manifest_from(const Json& json) {
     }
     for (const auto& [name, value] : json.at("properties").items()) {
         m.properties.emplace_back(name, value.get<std::string>());
+    }
+    if (json.contains("presets")) {
+        for (const Json& p : json["presets"]) m.presets.push_back(preset_from(p, m.parameters));
     }
     if (json.contains("formats")) {
         for (const Json& f : json["formats"]) {
@@ -290,6 +322,7 @@ Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
     for (const ParamSpec& spec : d.parameters) m.parameters.push_back(parameter_of(spec));
     for (const RelationSpec& spec : d.relations) m.relations.push_back(relation_of(spec));
     for (const Property& p : d.properties) m.properties.emplace_back(p.name, p.value);
+    for (const PresetSpec& p : d.presets) m.presets.push_back(preset_of(p, d.parameters));
     for (const FileFormat& f : d.formats)
         m.formats.push_back({f.extension, f.title, f.pixels, f.reads, f.layers});
     m.has_kernel = d.kernel.text != nullptr && d.kernel.prefix != nullptr;
@@ -300,12 +333,41 @@ Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
     return m;
 }
 
-std::string to_json(const Manifest& manifest) { return json_of(manifest).dump(2) + "\n"; }
+namespace {
+
+/// With each array of numbers on one line, as a person would write it.
+std::string with_short_arrays(std::string_view json) {
+    std::string result;
+    bool is_in_text = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        result += c;
+        if (is_in_text && c == '\\') {
+            result += json[++i];  // whatever it is, it does not end the text
+            continue;
+        }
+        if (c == '"') is_in_text = !is_in_text;
+        if (c != '[' || is_in_text) continue;
+        const std::size_t end = json.find_first_not_of("0123456789+-.eE, \n", i + 1);
+        if (end == std::string_view::npos || json[end] != ']') continue;
+        for (std::size_t k = i + 1; k < end; ++k) {
+            if (json[k] == ' ' || json[k] == '\n') continue;
+            result += json[k];
+            if (json[k] == ',') result += ' ';
+        }
+        i = end - 1;
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string to_json(const Manifest& manifest) { return with_short_arrays(json_of(manifest).dump(2)) + "\n"; }
 
 std::string to_json(std::span<const Manifest> manifests) {
     Json all = Json::array();
     for (const Manifest& manifest : manifests) all.push_back(json_of(manifest));
-    return all.dump(2) + "\n";
+    return with_short_arrays(all.dump(2)) + "\n";
 }
 
 Manifest manifest_from_json(std::string_view text) {

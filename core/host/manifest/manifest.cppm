@@ -41,6 +41,7 @@ struct CANDELA_API Manifest {
     std::vector<Parameter> parameters;
     std::vector<Relation> relations;
     std::vector<std::pair<std::string, std::string>> properties;
+    std::vector<Preset> presets;
     std::vector<ManifestFormat> formats;
     bool has_kernel = false;    // its mathematics can be exported; the text is in the library
     std::string kernel_prefix;  // see KernelText

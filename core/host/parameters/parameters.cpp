@@ -20,6 +20,7 @@ module;
 module candela.parameters;
 
 import candela.color;
+import candela.diagnostics;
 import candela.math;
 
 namespace candela {
@@ -42,8 +43,8 @@ double shortest(float x) {
     return std::isfinite(x) ? std::stod(fmt::format("{}", x)) : static_cast<double>(x);
 }
 
-Value default_of(const ParamSpec& spec) {
-    const ParamValue& value = spec.default_value;
+/// A value as a person writes it.
+Value value_of(const ParamSpec& spec, const ParamValue& value) {
     switch (spec.type) {
         case ParamType::real:
             return shortest(value.number[0]);
@@ -133,7 +134,7 @@ Parameter parameter_of(const ParamSpec& spec) {
     result.type = spec.type;
     result.unit = spec.unit;
     result.meaning = spec.meaning;
-    if (!spec.required) result.default_value = default_of(spec);
+    if (!spec.required) result.default_value = value_of(spec, spec.default_value);
     result.minimum = spec.minimum;
     result.maximum = spec.maximum;
     result.minimum_excluded = spec.minimum_excluded;
@@ -144,6 +145,21 @@ Parameter parameter_of(const ParamSpec& spec) {
 
 Relation relation_of(const RelationSpec& spec) {
     return {spec.type, spec.left, spec.right, spec.only_warns, spec.meaning};
+}
+
+Preset preset_of(const PresetSpec& spec, std::span<const ParamSpec> parameters) {
+    Preset result{.name = spec.name, .source = spec.source, .values = {}, .color = {}};
+    for (const PresetValue& preset : spec.values) {
+        const auto named = [&](const ParamSpec& p) { return std::string_view(p.name) == preset.parameter; };
+        const auto found = std::ranges::find_if(parameters, named);
+        if (found == parameters.end())
+            throw Error(ErrorCategory::failure,
+                        fmt::format("preset '{}' has a value for '{}', and there is no such parameter",
+                                    spec.name, preset.parameter));
+        result.values.emplace_back(preset.parameter, value_of(*found, preset.value));
+    }
+    if (spec.has_color) result.color = Vec3{spec.color[0], spec.color[1], spec.color[2]};
+    return result;
 }
 
 std::string text_of(const Value& value) {

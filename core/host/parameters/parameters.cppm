@@ -7,6 +7,7 @@ module;
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -52,7 +53,19 @@ struct Relation {
     friend bool operator==(const Relation&, const Relation&) = default;
 };
 
+/// A `PresetSpec` that owns its memory.
+struct Preset {
+    std::string name;
+    std::string source;
+    std::vector<std::pair<std::string, Value>> values;  // by parameter
+    std::optional<Vec3> color;                          // of the object, 0-255
+
+    friend bool operator==(const Preset&, const Preset&) = default;
+};
+
 CANDELA_API Parameter parameter_of(const ParamSpec& spec);
+/// Throws Error (failure) if it has a value for none of the parameters.
+CANDELA_API Preset preset_of(const PresetSpec& spec, std::span<const ParamSpec> parameters);
 CANDELA_API Relation relation_of(const RelationSpec& spec);
 
 CANDELA_API std::optional<ParamType> param_type_named(std::string_view name) noexcept;

@@ -12,6 +12,7 @@ module;
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -23,11 +24,13 @@ import candela.diagnostics;
 import candela.light;
 import candela.mesh;
 import candela.parameters;
+import candela.punctual;
 import candela.raster;
 import candela.reflection;
 import candela.shading;
 import candela.shape;
 import candela.text;
+import candela.texture;
 
 namespace candela {
 
@@ -37,10 +40,8 @@ constexpr const char* k_no_kernel =
     "has no kernel, the text that its mathematics is generated from; a program can only be generated with "
     "models that have one";
 
-/// Labels are for messages: 'lamp', in quotes, or number 2.
 std::string name_in(const std::string& label) {
-    const bool is_quoted = label.size() > 2 && label.front() == '\'' && label.back() == '\'';
-    const std::string name = is_quoted ? label.substr(1, label.size() - 2) : label;
+    const std::string_view name = name_of_label(label).value_or(label);
     // Targets write labels into comments and pages: a line break would end them.
     std::string shown;
     for (const char c : name) {
@@ -260,10 +261,14 @@ struct SceneExport::Storage final : ExportedGeometry {
     std::vector<PlacedTable> placed_tables;
     std::vector<ExportedModel> light_models;
     std::vector<ExportedLight> lights;
+    std::deque<std::vector<PunctualLight>> punctual;  // which the lights point into
     std::vector<ExportedShading> shadings;
     std::vector<ExportedReflection> reflections;
     std::vector<ExportedObject> exported_objects;
     std::vector<Object> objects;
+    std::deque<std::shared_ptr<const MipMap>> mip_maps;  // which the textures point into
+    std::deque<std::vector<ExportedTextureLevel>> levels;
+    std::vector<ExportedTexture> textures;
     ExportedScene scene;
 
     // Of the mesh that was asked for last:
@@ -301,7 +306,9 @@ class Exporter {
         result.shadings = to_.shadings;
         result.reflections = to_.reflections;
         result.objects = to_.exported_objects;
-        result.needs_uv = std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.uv; }) ||
+        result.textures = to_.textures;
+        result.needs_uv = !to_.textures.empty() ||
+                          std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.uv; }) ||
                           std::ranges::any_of(to_.reflections, &ExportedReflection::needs_uv);
         result.needs_derivatives =
             std::ranges::any_of(to_.reflections, &ExportedReflection::needs_tangent) ||
@@ -328,6 +335,7 @@ class Exporter {
                            .background = image.background,
                            .environment = to_.environment.c_str(),
                            .color_management = image.color_management};
+        to_.scene.room = {scene_.room.width, scene_.room.height, scene_.room.depth};
         const Observer& observer = scene_.observer;
         to_.scene.observer = {.position = observer.position,
                               .look_at = observer.look_at,
@@ -375,6 +383,19 @@ class Exporter {
                               .model = put(to_.light_models, ExportedModel{&loaded}),
                               .values = to_.kept(loaded, light.model.parameters,
                                                  [&]() -> const Light* { return made_light.get(); })});
+        add_data(*made_light, to_.lights.back());
+    }
+
+    /// What a light says of itself.
+    void add_data(const Light& from, ExportedLight& to) {
+        std::vector<PunctualLight> samples(static_cast<std::size_t>(from.sample_count()));
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            if (!from.describe(static_cast<int>(i), samples[i])) return;
+        Rgb ambient{};
+        if (from.has_ambient() && !from.describe_ambient(ambient)) return;
+        to.ambient = ambient;
+        to.punctual = to_.punctual.emplace_back(std::move(samples));
+        to.is_data = true;
     }
 
     void add_shading(const std::string& name, const ParamSet& values) {
@@ -478,6 +499,29 @@ class Exporter {
         return kind == PluginKind::shading ? object.shading.parameters : object.reflection.parameters;
     }
 
+    /// The number of an object's texture; objects share them.
+    std::size_t texture_of(const Object& object) {
+        if (object.color_texture.empty()) return ExportedObject::k_no_texture;
+        if (!request_.abilities.textures)
+            throw Error(ErrorCategory::failure,
+                        fmt::format("object {} has a texture, which this target cannot express; leave out "
+                                    "color_texture",
+                                    object.label));
+        for (std::size_t i = 0; i < to_.textures.size(); ++i)
+            if (to_.textures[i].file == object.color_texture) return i;
+        const auto& mip_map = to_.mip_maps.emplace_back(
+            read_texture(object.color_texture, registry_, scene_.image.color_management).mip_map);
+        auto& levels = to_.levels.emplace_back();
+        for (const MipMap::Level& level : mip_map->levels()) {
+            const auto texels =
+                static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+            levels.push_back(
+                {level.width, level.height, mip_map->texels().subspan(4 * level.first, 4 * texels)});
+        }
+        to_.textures.push_back({kept(object.color_texture), levels});
+        return to_.textures.size() - 1;
+    }
+
     void add(std::size_t index) {
         const Object& object = scene_.objects[index];
         auto& own = to_.objects.emplace_back();
@@ -489,7 +533,9 @@ class Exporter {
             .shape = {&plugin(PluginKind::shape, object.shape.name)},
             .shape_values = to_.kept(plugin(PluginKind::shape, object.shape.name), object.shape.parameters,
                                      [&]() -> const Shape* { return own.tessellator.get(); }),
-            .transform = object.transform};
+            .transform = object.transform,
+            .color_texture = texture_of(object),
+            .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat};
         for (std::size_t i = 0; i < to_.shadings.size(); ++i) {
             const std::string name = to_.shadings[i].plugin->name;
             const bool is_own = name == object.shading.name;

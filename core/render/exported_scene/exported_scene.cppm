@@ -57,10 +57,16 @@ struct ExportedFile {
     std::string content;
 };
 
-/// What a target makes of a scene. Throws Error that names the target for what write() throws, for a file's
-/// name that leads elsewhere, and for one that is written twice. `name`: the target's.
-CANDELA_API std::vector<ExportedFile> files_of(const Target& target, const std::string& name,
-                                               const ExportedScene& scene);
+/// What a target makes of a scene.
+struct ExportedProgram {
+    std::vector<ExportedFile> files;
+    std::vector<std::string> approximations;  // what it does not express exactly: FileSink::approximate()
+};
+
+/// Throws Error that names the target for what write() throws, for a file's name that leads elsewhere, and
+/// for one that is written twice. `name`: the target's.
+CANDELA_API ExportedProgram program_of(const Target& target, const std::string& name,
+                                       const ExportedScene& scene);
 
 /// Runs programs as this process's user.
 class CANDELA_API SystemPrograms final : public ProgramRunner {

@@ -31,20 +31,24 @@ class Collected final : public FileSink {
         if (!stays_in_its_folder(name))
             throw std::invalid_argument(
                 fmt::format("'{}' is no name of a file in the program's folder", name));
-        if (std::ranges::find(files_, name, &ExportedFile::name) != files_.end())
+        std::vector<ExportedFile>& files = program_.files;
+        if (std::ranges::find(files, name, &ExportedFile::name) != files.end())
             throw std::invalid_argument(fmt::format("the file '{}' is written twice", name));
-        files_.push_back({name, {reinterpret_cast<const char*>(content.data()), content.size()}});
+        files.push_back({name, {reinterpret_cast<const char*>(content.data()), content.size()}});
     }
-    std::vector<ExportedFile> taken() { return std::move(files_); }
+    void approximate(const char* sentence) override {
+        std::vector<std::string>& said = program_.approximations;
+        if (std::ranges::find(said, sentence) == said.end()) said.emplace_back(sentence);
+    }
+    ExportedProgram taken() { return std::move(program_); }
 
   private:
-    std::vector<ExportedFile> files_;
+    ExportedProgram program_;
 };
 
 }  // namespace
 
-std::vector<ExportedFile> files_of(const Target& target, const std::string& name,
-                                   const ExportedScene& scene) {
+ExportedProgram program_of(const Target& target, const std::string& name, const ExportedScene& scene) {
     Collected files;
     try {
         target.write(scene, files);

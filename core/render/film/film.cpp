@@ -85,10 +85,13 @@ void encode(const StoredRows& rows, ColorEncoding encoding) {
 }  // namespace
 
 Film::Film(int width, int height, PixelType pixels, ColorEncoding encoding)
-    : width_(width), height_(height), pixels_(pixels), encoding_(encoding) {
-    const std::size_t channels = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    : Film(width, height, pixels, encoding, {0, height}) {}
+
+Film::Film(int width, int height, PixelType pixels, ColorEncoding encoding, RowRange rows)
+    : width_(width), height_(height), rows_(rows), pixels_(pixels), encoding_(encoding) {
+    const std::size_t channels = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(rows.count());
     require_memory(channels * (pixels == PixelType::byte ? sizeof(std::uint8_t) : sizeof(float)),
-                   fmt::format("a picture of {} x {} pixels", width, height));
+                   fmt::format("a picture of {} x {} pixels", width, rows.count()));
     if (pixels == PixelType::byte) {
         bytes_.resize(channels);
     } else {
@@ -97,10 +100,15 @@ Film::Film(int width, int height, PixelType pixels, ColorEncoding encoding)
 }
 
 std::size_t Film::index_of(int x, int y) const noexcept {
-    return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+    return 3 * (static_cast<std::size_t>(y - rows_.first) * static_cast<std::size_t>(width_) +
+                static_cast<std::size_t>(x));
 }
 
 void Film::fill(int x, int y, int width, int height, Rgb intensity) {
+    const int first = std::max(y, rows_.first);
+    height = std::min(y + height, rows_.end) - first;
+    y = first;
+    if (height <= 0) return;
     const float channels[3] = {intensity.r, intensity.g, intensity.b};
     std::uint8_t encoded[3];
     const StoredRows one{{&channels[0], &channels[1], &channels[2]}, &encoded[0], 1, 1, 1, 3};
@@ -120,7 +128,12 @@ void Film::fill(int x, int y, int width, int height, Rgb intensity) {
 }
 
 void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, int stride) {
-    const std::size_t pitch = index_of(0, 1);
+    const int first = std::max(y, rows_.first);
+    intensity = intensity.from(static_cast<std::size_t>(first - y) * static_cast<std::size_t>(stride));
+    height = std::min(y + height, rows_.end) - first;
+    y = first;
+    if (height <= 0) return;
+    const std::size_t pitch = 3 * static_cast<std::size_t>(width_);
     const StoredRows rows{intensity,
                           pixels_ == PixelType::byte ? &bytes_[index_of(x, y)] : nullptr,
                           static_cast<std::size_t>(width),
@@ -158,7 +171,7 @@ void Film::paste(int x, int y, const Film& other) {
 
 PictureView Film::view() const noexcept {
     return {.width = width_,
-            .height = height_,
+            .height = rows_.count(),
             .pixels = pixels_,
             .encoding = encoding_,
             .bytes = bytes_,

@@ -17,9 +17,19 @@ import candela.files;
 import candela.image;
 import candela.math;
 import candela.params;
+import candela.picture_rows;
 import candela.registry;
 
 export namespace candela {
+
+/// Rows of a picture, from `first` up to, not including, `end`.
+struct RowRange {
+    int first = 0;
+    int end = 0;
+
+    inline int count() const noexcept { return end - first; }
+    friend bool operator==(const RowRange&, const RowRange&) = default;
+};
 
 /// The picture being made, with pixels as its file format wants them: 8-bit, clamped and encoded, or 32-bit
 /// float, as computed.
@@ -27,21 +37,26 @@ class CANDELA_API Film {
   public:
     /// Throws Error if there is not enough memory.
     Film(int width, int height, PixelType pixels, ColorEncoding encoding);
+    /// Of a picture of that size, only these rows.
+    Film(int width, int height, PixelType pixels, ColorEncoding encoding, RowRange rows);
 
     int width() const noexcept { return width_; }
+    /// Of the whole picture.
     int height() const noexcept { return height_; }
+    RowRange rows() const noexcept { return rows_; }
 
-    /// Stores a rectangle of intensities, with rows `stride` apart. Different threads may store different
-    /// pixels at the same time.
+    /// Stores a rectangle of intensities, with rows `stride` apart; rows that the film has not are left out.
+    /// Different threads may store different pixels at the same time.
     void store(int x, int y, int width, int height, ConstVec3Span intensity, int stride);
 
-    /// Stores one intensity in a rectangle.
+    /// Stores one intensity in a rectangle likewise.
     void fill(int x, int y, int width, int height, Rgb intensity);
 
-    /// Copies another film's pixels as they are, its upper left corner to (x, y). `other` lies within this
-    /// film and has pixels of the same type.
+    /// Copies another film's pixels as they are, its upper left corner to (x, y). Both are whole pictures,
+    /// with pixels of the same type, and `other` lies within this one.
     void paste(int x, int y, const Film& other);
 
+    /// All rows of the film.
     PictureView view() const noexcept;
 
   private:
@@ -49,6 +64,7 @@ class CANDELA_API Film {
 
     int width_;
     int height_;
+    RowRange rows_;
     PixelType pixels_;
     ColorEncoding encoding_;
     AlignedVector<std::uint8_t> bytes_;
@@ -72,6 +88,15 @@ CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry&
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
                                const std::filesystem::path& path, Registry& registry,
                                Existing existing = Existing::replaced);
+
+/// Whether write_rows() has no need of the whole picture in memory.
+CANDELA_API bool can_write_rows(const PictureFormat& format, Registry& registry);
+
+/// Writes the bytes that write_picture() would, of a picture that need not be in memory. `whole`: the picture
+/// without its pixels. Throws Error.
+CANDELA_API void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat& format,
+                            const std::filesystem::path& path, Registry& registry,
+                            Existing existing = Existing::replaced);
 
 /// Writes a picture in layers likewise, in a format that has them.
 CANDELA_API void write_layers(int width, int height, std::span<const PictureChannel> channels,

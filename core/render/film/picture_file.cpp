@@ -4,6 +4,7 @@ module;
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -17,6 +18,7 @@ import candela.diagnostics;
 import candela.files;
 import candela.formats;
 import candela.library;
+import candela.memory;
 import candela.text;
 
 namespace candela {
@@ -35,14 +37,71 @@ class FileSink final : public ByteSink {
     OutputFile& file_;
 };
 
+/// The same for a regular file.
+class RegularFileSink final : public RandomAccessSink {
+  public:
+    explicit RegularFileSink(OutputFile& file) : file_(file) {}
+    void write(std::span<const std::byte> bytes) override { write_at(end_, bytes); }
+    void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override {
+        file_.write_at(offset, bytes);
+        end_ = std::max(end_, offset + bytes.size());
+    }
+
+  private:
+    OutputFile& file_;
+    std::uint64_t end_ = 0;
+};
+
+/// All rows of a picture, in memory.
+class GatheredRows {
+  public:
+    GatheredRows(const PictureView& whole, PictureRows& rows) : view_(whole) {
+        const std::size_t row = 3 * static_cast<std::size_t>(whole.width);
+        const bool is_byte = whole.pixels == PixelType::byte;
+        const std::size_t size = row * static_cast<std::size_t>(whole.height);
+        require_memory(size * (is_byte ? 1 : sizeof(float)),
+                       fmt::format("a picture of {} x {} pixels", whole.width, whole.height));
+        if (is_byte) {
+            bytes_.reserve(size);
+        } else {
+            reals_.reserve(size);
+        }
+        constexpr int k_at_once = 64;
+        for (int y = 0; y < whole.height; y += k_at_once) {
+            const PictureView some = rows.next(k_at_once);
+            bytes_.insert(bytes_.end(), some.bytes.begin(), some.bytes.end());
+            reals_.insert(reals_.end(), some.reals.begin(), some.reals.end());
+        }
+        view_.bytes = bytes_;
+        view_.reals = reals_;
+    }
+    GatheredRows(const GatheredRows&) = delete;
+    GatheredRows& operator=(const GatheredRows&) = delete;
+    ~GatheredRows() = default;
+
+    const PictureView& view() const { return view_; }
+
+  private:
+    PictureView view_;
+    std::vector<std::uint8_t> bytes_;
+    std::vector<float> reals_;
+};
+
+std::unique_ptr<ImageFormat> writer_of(const PictureFormat& format, Registry& registry,
+                                       ColorEncoding encoding) {
+    return registry.create<ImageFormat>(format.plugin, registry.parameters(PluginKind::image, format.plugin),
+                                        encoding);
+}
+
 /// A file of what `call` makes the format's plugin write.
 template <class Call>
 void write(const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing,
            ColorEncoding encoding, const Call& call) {
-    const auto writer = registry.create<ImageFormat>(
-        format.plugin, registry.parameters(PluginKind::image, format.plugin), encoding);
+    const auto writer = writer_of(format, registry, encoding);
     OutputFile file(path, existing);
-    FileSink sink(file);
+    FileSink stream(file);
+    RegularFileSink regular(file);
+    ByteSink& sink = file.is_random_access() ? static_cast<ByteSink&>(regular) : stream;
     try {
         call(*writer, sink);
     } catch (...) {
@@ -82,6 +141,24 @@ void write_picture(const Film& film, const PictureFormat& format, const fs::path
           [&](const ImageFormat& writer, ByteSink& sink) {
               writer.write(film.view(), format.extension.c_str(), sink);
           });
+}
+
+bool can_write_rows(const PictureFormat& format, Registry& registry) {
+    const auto writer = writer_of(format, registry, ColorEncoding::srgb);
+    const auto* const rows = dynamic_cast<const RowFormat*>(writer.get());
+    return rows != nullptr && rows->writes_rows(format.extension.c_str());
+}
+
+void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat& format,
+                const fs::path& path, Registry& registry, Existing existing) {
+    const char* const extension = format.extension.c_str();
+    write(format, path, registry, existing, whole.encoding, [&](const ImageFormat& writer, ByteSink& sink) {
+        const auto* const by_rows = dynamic_cast<const RowFormat*>(&writer);
+        if (by_rows != nullptr && by_rows->writes_rows(extension))
+            return by_rows->write_rows(whole, rows, extension, sink);
+        const GatheredRows gathered(whole, rows);
+        writer.write(gathered.view(), extension, sink);
+    });
 }
 
 void write_layers(int width, int height, std::span<const PictureChannel> channels,

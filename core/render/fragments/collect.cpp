@@ -15,24 +15,37 @@ void FragmentList::begin(std::uint32_t of_object) {
     object = of_object;
     room_ = k_batch_size;
     runs.clear();
+    triangles.clear();
 }
 
-FragmentRun FragmentList::add_what_has_room(FragmentRun run) {
-    FragmentRun first = run;
-    first.count = room_;
-    runs.push_back(first);
-    run.pixel += room_;
-    run.x += static_cast<float>(room_);
-    run.count -= room_;
-    room_ = k_batch_size;
-    return run;
+void FragmentList::add(FragmentRun run, const std::uint32_t* seen, std::uint32_t first_triangle) {
+    const std::size_t before = triangles.size();
+    triangles.resize(before + run.count);
+    std::uint32_t* const to = triangles.data() + before;
+    for (std::uint32_t i = 0; i < run.count; ++i) to[i] = seen[i] - first_triangle;
+    while (run.count > room_) {
+        FragmentRun first = run;
+        first.count = room_;
+        runs.push_back(first);
+        run.pixel += room_;
+        run.x += static_cast<float>(room_);
+        run.count -= room_;
+        room_ = k_batch_size;
+    }
+    room_ -= run.count;
+    if (room_ == 0) room_ = k_batch_size;
+    runs.push_back(run);
 }
 
-bool FragmentList::prolong() {
-    if (room_ == k_batch_size) return false;
-    ++runs.back().count;
+void FragmentList::prolong(std::uint32_t seen, std::uint32_t first_triangle) {
+    FragmentRun& last = runs.back();
+    if (room_ == k_batch_size) {  // a batch ends with it
+        const auto count = static_cast<float>(last.count);
+        return add({last.pixel + last.count, 1, last.x + count, last.y, last.weight}, &seen, first_triangle);
+    }
+    triangles.push_back(seen - first_triangle);
+    ++last.count;
     if (--room_ == 0) room_ = k_batch_size;
-    return true;
 }
 
 FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t triangle) {
@@ -66,46 +79,49 @@ void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& v
 
 namespace {
 
-/// The end of the run from `begin` on a row that sees the same triangle.
-int end_of_run(const std::uint32_t* seen, int begin, int width) {
+/// The end of the stretch from `begin` on a row that sees triangles from `first` on, `count` of them. Of the
+/// first, it is known.
+int end_of_run(const std::uint32_t* seen, int begin, int width, std::uint32_t first, std::uint32_t count) {
     constexpr int k_block = 16;
-    const std::uint32_t triangle = seen[begin];
+    const auto is_other = [&](std::uint32_t triangle) { return triangle - first >= count; };
     int end = begin + 1;
-    if (end < width && seen[end] != triangle) return end;
     for (; end + k_block <= width; end += k_block) {
-        std::uint32_t differing = 0;
-        for (int i = 0; i < k_block; ++i) differing |= seen[end + i] ^ triangle;
-        if (differing != 0) break;
+        std::uint32_t others = 0;
+        for (int i = 0; i < k_block; ++i) others |= is_other(seen[end + i]) ? 1u : 0u;
+        if (others != 0) break;
     }
-    while (end < width && seen[end] == triangle) ++end;
+    while (end < width && !is_other(seen[end])) ++end;
     return end;
 }
 
 }  // namespace
 
-/// One sample per pixel: runs of pixels that see the same triangle.
+/// One sample per pixel: runs of pixels that see the same object.
 void TileFragments::collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility) {
     for (int row = 0; row < visibility.height; ++row) {
         const auto row_begin = static_cast<std::uint32_t>(row * visibility.stride);
         const std::uint32_t* const seen = visibility.triangle.data() + row_begin;
         const float y = static_cast<float>(visibility.y0 + row) + 0.5f;
         for (int begin = 0; begin < visibility.width;) {
-            const std::uint32_t triangle = seen[begin];
-            const int end = end_of_run(seen, begin, visibility.width);
-            const std::uint32_t first = row_begin + static_cast<std::uint32_t>(begin);
-            const auto count = static_cast<std::uint32_t>(end - begin);
-            if (triangle == k_no_triangle) {
-                background_.push_back({first, count, 1.0f});
-            } else {
-                pixels_seen_ += count;
-                FragmentList& list = list_of(scene, triangle);
-                list.add({.triangle = triangle - scene.first_triangle[list.object],
-                          .pixel = first,
-                          .count = count,
-                          .x = static_cast<float>(visibility.x0 + begin) + 0.5f,
-                          .y = y,
-                          .weight = 1});
+            const std::uint32_t first_pixel = row_begin + static_cast<std::uint32_t>(begin);
+            if (seen[begin] == k_no_triangle) {
+                const int end = end_of_run(seen, begin, visibility.width, k_no_triangle, 1);
+                background_.push_back({first_pixel, static_cast<std::uint32_t>(end - begin), 1.0f});
+                begin = end;
+                continue;
             }
+            FragmentList& list = list_of(scene, seen[begin]);
+            const std::uint32_t first = scene.first_triangle[list.object];
+            const int end = end_of_run(seen, begin, visibility.width, first,
+                                       scene.first_triangle[list.object + 1] - first);
+            const auto count = static_cast<std::uint32_t>(end - begin);
+            pixels_seen_ += count;
+            list.add({.pixel = first_pixel,
+                      .count = count,
+                      .x = static_cast<float>(visibility.x0 + begin) + 0.5f,
+                      .y = y,
+                      .weight = 1},
+                     seen + begin, first);
             begin = end;
         }
     }
@@ -164,13 +180,13 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
             background_.push_back({pixel, 1, weight});
         }
     };
-    const auto add_fragment = [&](FragmentRun fragment, int column) {
-        FragmentList& list = list_of(scene, fragment.triangle);
-        fragment.triangle -= scene.first_triangle[list.object];
+    const auto add_fragment = [&](std::uint32_t triangle, const FragmentRun& fragment, int column) {
+        FragmentList& list = list_of(scene, triangle);
+        const std::uint32_t first = scene.first_triangle[list.object];
         const bool continues_run = fragment.weight == 1 && continues(list.runs, fragment.pixel, column) &&
-                                   list.runs.back().triangle == fragment.triangle &&
                                    list.runs.back().weight == 1;
-        if (!continues_run || !list.prolong()) list.add(fragment);
+        if (continues_run) return list.prolong(triangle, first);
+        list.add(fragment, &triangle, first);
     };
     for (int row = 0; row < visibility.height; ++row) {
         const auto top = static_cast<float>(visibility.y0 + row);
@@ -190,12 +206,8 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
                 const float sixteenths = 16 * static_cast<float>(s.count);
                 const float x = seen.is_one() ? 0.5f : static_cast<float>(s.x) / sixteenths;
                 const float y = seen.is_one() ? 0.5f : static_cast<float>(s.y) / sixteenths;
-                add_fragment({.triangle = s.triangle,
-                              .pixel = pixel,
-                              .count = 1,
-                              .x = left + x,
-                              .y = top + y,
-                              .weight = weight},
+                add_fragment(s.triangle,
+                             {.pixel = pixel, .count = 1, .x = left + x, .y = top + y, .weight = weight},
                              column);
             }
             if (background < 1) ++pixels_seen_;

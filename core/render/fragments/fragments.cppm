@@ -11,6 +11,7 @@ module;
 
 export module candela.fragments;
 
+import candela.arrays;
 import candela.math;
 import candela.mesh;
 import candela.raster;
@@ -34,7 +35,8 @@ struct CANDELA_API SurfacePoints {
     Vec3Arrays barycentric;
     AlignedVector<float> facing;  // 1, or -1 where an open surface is seen from behind
     bool any_from_behind = false;
-    AlignedVector<float> u, v;  // filled if requested and the mesh has them, otherwise zero
+    AlignedVector<float> u, v;                    // filled if requested and the mesh has them, otherwise zero
+    AlignedVector<float> dudx, dvdx, dudy, dvdy;  // by a pixel to the right and downwards; zero if not known
     Vec3Arrays dpdu, dpdv;
     Vec3Arrays color;                           // the mesh's; filled if has_color
     bool has_color = false;                     // the mesh has colours, and they were requested
@@ -50,6 +52,7 @@ struct PointNeeds {
     bool barycentric = true;
     bool color = true;  // of a mesh that has colours
     bool uv = false;
+    bool footprint = false;  // how uv change from pixel to pixel; with uv, of fragments
     bool derivatives = false;
     bool triangle = false;  // of fragments, faces and places; a vertex has none
 
@@ -57,10 +60,9 @@ struct PointNeeds {
     constexpr bool more() const { return color || uv || derivatives || triangle; }
 };
 
-/// Adjacent pixels of a row to which one triangle contributes equal shares.
+/// Adjacent pixels of a row to which triangles of one object contribute equal shares.
 struct FragmentRun {
-    std::uint32_t triangle;  // of the object's mesh
-    std::uint32_t pixel;     // the first: row * stride + column of the tile
+    std::uint32_t pixel;  // the first: row * stride + column of the tile
     std::uint32_t count;
     float x,
         y;         // of the first, in pixels of the picture; the others follow to the right
@@ -71,22 +73,17 @@ struct FragmentRun {
 /// contributes to one pixel.
 struct FragmentList {
     std::uint32_t object = 0;
-    std::vector<FragmentRun> runs;  // split where a batch of k_batch_size ends
+    std::vector<FragmentRun> runs;           // split where a batch of k_batch_size ends
+    AlignedVector<std::uint32_t> triangles;  // of the object's mesh, one for each fragment
 
     void begin(std::uint32_t of_object);
-    inline void add(FragmentRun run) {
-        while (run.count > room_) run = add_what_has_room(run);
-        room_ -= run.count;
-        if (room_ == 0) room_ = k_batch_size;
-        runs.push_back(run);
-    }
-    /// Extends the last run by a pixel, unless a batch ends with it.
-    bool prolong();
+    /// The run's fragments see `seen`, triangles of the scene, of which `first_triangle` is the object's
+    /// first.
+    void add(FragmentRun run, const std::uint32_t* seen, std::uint32_t first_triangle);
+    /// Extends the last run by a pixel.
+    void prolong(std::uint32_t seen, std::uint32_t first_triangle);
 
   private:
-    /// Returns the rest of the run.
-    FragmentRun add_what_has_room(FragmentRun run);
-
     std::uint32_t room_ = k_batch_size;  // in the last batch
 };
 
@@ -123,22 +120,30 @@ class CANDELA_API TileFragments {
     std::size_t last_ = 0;
 };
 
+/// Fragments that are shaded together.
+struct FragmentBatch {
+    std::span<const FragmentRun> runs;
+    std::span<const std::uint32_t> triangles;  // of each fragment
+};
+
 /// Splits a list into batches of k_batch_size fragments; the last may have fewer.
 class FragmentBatches {
   public:
-    explicit FragmentBatches(const FragmentList& list) : rest_(list.runs) {}
+    explicit FragmentBatches(const FragmentList& list) : runs_(list.runs), triangles_(list.triangles) {}
 
-    /// The runs of the next batch; empty at the end.
-    inline std::span<const FragmentRun> next() {
+    /// The next batch; without fragments at the end.
+    inline FragmentBatch next() {
         std::size_t runs = 0, fragments = 0;
-        for (; runs < rest_.size() && fragments < k_batch_size; ++runs) fragments += rest_[runs].count;
-        const std::span<const FragmentRun> batch = rest_.first(runs);
-        rest_ = rest_.subspan(runs);
+        for (; runs < runs_.size() && fragments < k_batch_size; ++runs) fragments += runs_[runs].count;
+        const FragmentBatch batch{runs_.first(runs), triangles_.first(fragments)};
+        runs_ = runs_.subspan(runs);
+        triangles_ = triangles_.subspan(fragments);
         return batch;
     }
 
   private:
-    std::span<const FragmentRun> rest_;
+    std::span<const FragmentRun> runs_;
+    std::span<const std::uint32_t> triangles_;
 };
 
 /// One mesh of a projected scene.
@@ -153,8 +158,8 @@ struct ProjectedMesh {
 
 /// Fills `points` with the fragments of a batch: barycentric coordinates on the triangle itself (Blinn 1992,
 /// "Hyperbolic interpolation"), and what follows from them.
-CANDELA_API void gather_fragments(const ProjectedMesh& mesh, std::span<const FragmentRun> runs,
-                                  PointNeeds needs, SurfacePoints& points);
+CANDELA_API void gather_fragments(const ProjectedMesh& mesh, const FragmentBatch& batch, PointNeeds needs,
+                                  SurfacePoints& points);
 
 /// Fills `points` with the centroids of triangles.
 CANDELA_API void gather_faces(const ProjectedMesh& mesh, std::span<const std::uint32_t> triangles,

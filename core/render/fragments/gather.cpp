@@ -14,6 +14,7 @@ module;
 module candela.fragments;
 
 import :interpolation;
+import candela.simd;
 
 namespace candela {
 
@@ -75,6 +76,17 @@ void repeat_corners(const Mesh& mesh, const Indices& vertices, std::size_t first
     }
 }
 
+struct BlendLoop {
+    CANDELA_BATCH_LOOP static void run(Vec3 a, Vec3 b, ConstVec3Span weight, std::size_t count, float* to_a,
+                                       float* to_b) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            to_a[i] = weight.x[i] * a.x + weight.y[i] * a.y + weight.z[i] * a.z;
+            to_b[i] = weight.x[i] * b.x + weight.y[i] * b.y + weight.z[i] * b.z;
+        }
+    }
+};
+
 /// Colour, uv, derivatives and triangle of points whose barycentric coordinates are known.
 void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
                       std::size_t count, SurfacePoints& points) {
@@ -84,17 +96,15 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
         for (std::size_t i = first; i < first + count; ++i)
             points.color.span().set(i, blend(color, weight[i]));
     }
-    if (needs.uv) {
-        const bool has_uv = !mesh.u.empty();
-        for (std::size_t i = first; i < first + count; ++i) {
-            const auto mix = [&](const AlignedVector<float>& a) {
-                return has_uv ? weight.x[i] * a[vertices[0]] + weight.y[i] * a[vertices[1]] +
-                                    weight.z[i] * a[vertices[2]]
-                              : 0.0f;
-            };
-            points.u[i] = mix(mesh.u);
-            points.v[i] = mix(mesh.v);
-        }
+    if (needs.uv && mesh.u.empty()) {
+        std::fill_n(&points.u[first], count, 0.0f);
+        std::fill_n(&points.v[first], count, 0.0f);
+    } else if (needs.uv) {
+        const auto at_corners = [&](const AlignedVector<float>& a) {
+            return Vec3{a[vertices[0]], a[vertices[1]], a[vertices[2]]};
+        };
+        multiversion<BlendLoop>(at_corners(mesh.u), at_corners(mesh.v), weight.from(first), count,
+                                &points.u[first], &points.v[first]);
     }
     if (needs.derivatives) {
         Corners dpdu, dpdv;
@@ -138,7 +148,8 @@ SurfacePoints::SurfacePoints() {
          {&position, &face_normal, &vertex_normal, &barycentric, &dpdu, &dpdv, &color}) {
         arrays->resize(k_batch_size + k_lanes);
     }
-    for (AlignedVector<float>* const array : {&facing, &u, &v}) array->resize(k_batch_size + k_lanes);
+    for (AlignedVector<float>* const array : {&facing, &u, &v, &dudx, &dvdx, &dudy, &dvdy})
+        array->resize(k_batch_size + k_lanes);
 }
 
 bool ProjectedMesh::is_back(std::uint32_t triangle) const {
@@ -159,6 +170,68 @@ bool ProjectedMesh::is_back(std::uint32_t triangle) const {
 
 namespace {
 
+/// How a triangle's texture coordinates change over the picture. Barycentric coordinates are b_k = N_k / S,
+/// where the N_k = A_k + B_k x + C_k y and their sum S are linear in the pixel's position (Blinn 1992), so
+/// that du/dx = sum of B_k (u_k - u) / S, and likewise for the others.
+struct FootprintCoefficients {
+    float a = 0, b = 0, c = 0;  // S
+    float u = 0, v = 0;         // of the first vertex, to which the others are relative
+    float u_b = 0, u_c = 0, v_b = 0, v_c = 0;
+};
+
+FootprintCoefficients footprint_of(const ProjectedMesh& source, std::uint32_t triangle) {
+    const Indices vertices = corners_of(source.mesh, triangle);
+    const AlignedVector<float>&u = source.mesh.u, &v = source.mesh.v;
+    double x[3], y[3], w[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const ProjectedVertex& p = source.scene.vertices[source.first_vertex + vertices[k]];
+        x[k] = p.x, y[k] = p.y, w[k] = p.w;
+    }
+    double a[3], b[3], c[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+        a[k] = x[i] * y[j] - x[j] * y[i];
+        b[k] = w[j] * y[i] - w[i] * y[j];
+        c[k] = x[j] * w[i] - x[i] * w[j];
+    }
+    const double u1 = u[vertices[1]] - u[vertices[0]], u2 = u[vertices[2]] - u[vertices[0]];
+    const double v1 = v[vertices[1]] - v[vertices[0]], v2 = v[vertices[2]] - v[vertices[0]];
+    const double all[] = {a[0] + a[1] + a[2],    b[0] + b[1] + b[2],    c[0] + c[1] + c[2],
+                          b[1] * u1 + b[2] * u2, c[1] * u1 + c[2] * u2, b[1] * v1 + b[2] * v2,
+                          c[1] * v1 + c[2] * v2};
+    // The quotients stay as they are; the terms are brought into the range of floats.
+    double largest = 0;
+    for (const double term : all) largest = std::max(largest, std::abs(term));
+    const double scale = largest > 0 ? 1 / largest : 0;
+    float scaled[7];
+    for (std::size_t i = 0; i < 7; ++i) scaled[i] = static_cast<float>(scale * all[i]);
+    return {.a = scaled[0],
+            .b = scaled[1],
+            .c = scaled[2],
+            .u = u[vertices[0]],
+            .v = v[vertices[0]],
+            .u_b = scaled[3],
+            .u_c = scaled[4],
+            .v_b = scaled[5],
+            .v_c = scaled[6]};
+}
+
+struct FootprintLoop {
+    CANDELA_BATCH_LOOP static void run(FootprintCoefficients f, std::size_t count, const float* x,
+                                       const float* y, const float* u, const float* v, float* dudx,
+                                       float* dvdx, float* dudy, float* dvdy) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const float scale = 1.0f / (f.a + f.b * x[i] + f.c * y[i]);
+            const float s = u[i] - f.u, t = v[i] - f.v;
+            dudx[i] = scale * (f.u_b - f.b * s);
+            dvdx[i] = scale * (f.v_b - f.b * t);
+            dudy[i] = scale * (f.u_c - f.c * s);
+            dvdy[i] = scale * (f.v_c - f.c * t);
+        }
+    }
+};
+
 TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t triangle) {
     const Indices vertices = corners_of(source.mesh, triangle);
     TriangleAttributes t;
@@ -178,26 +251,36 @@ IndexedMesh indexed(const ProjectedMesh& source) {
             .face_normal = source.mesh.face_normal.span()};
 }
 
-/// Most runs of a fine mesh are one or two pixels long: writing a whole vector, and overwriting the excess
-/// with the next run, takes less time than counting.
+/// Whole vectors are written: the next run overwrites the excess.
 struct PlacesLoop {
-    CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y,
-                                       std::uint32_t* triangle) {
+    CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y) {
         for (const FragmentRun* run = runs; run != runs + count; ++run) {
             for (std::size_t first = 0; first < run->count; first += k_lanes) {
                 const float left = run->x + static_cast<float>(first);
                 const float top = run->y;
-                const std::uint32_t of = run->triangle;
                 CANDELA_VECTORIZE_SIXTEEN
                 for (std::size_t i = 0; i < k_lanes; ++i) {
                     x[first + i] = left + static_cast<float>(i);
                     y[first + i] = top;
-                    triangle[first + i] = of;
                 }
             }
             x += run->count;
             y += run->count;
-            triangle += run->count;
+        }
+    }
+};
+
+/// Which bits of the triangles differ from the first's, vector by vector.
+struct DifferencesLoop {
+    CANDELA_BATCH_LOOP static void run(const std::uint32_t* triangle, std::size_t count,
+                                       std::uint32_t* differing) {
+        for (std::size_t first = 0; first < count; first += k_lanes) {
+            const std::uint32_t* const of = triangle + first;
+            const std::uint32_t at_first = of[0];
+            std::uint32_t bits = 0;
+            CANDELA_VECTORIZE_SIXTEEN
+            for (std::size_t i = 0; i < k_lanes; ++i) bits |= of[i] ^ at_first;
+            differing[first / k_lanes] = bits;
         }
     }
 };
@@ -208,38 +291,53 @@ struct Places {
     static constexpr std::size_t k_behind = 2 * k_lanes;
 
     alignas(64) std::array<float, k_batch_size + k_behind> x, y;
+    bool is_one_triangle = false;  // all of them; then the following is not filled
     alignas(64) std::array<std::uint32_t, k_batch_size + k_behind> triangle;
-    std::size_t count = 0;
+    alignas(64) std::array<std::uint32_t, k_batch_size / k_lanes> differing;
 
-    Places(const Mesh& mesh, std::span<const FragmentRun> runs, Interpolated what) {
-        for (const FragmentRun& run : runs) {
-            count += run.count;
-            // All at once, because in a large mesh they come from far apart.
-            __builtin_prefetch(&mesh.indices[3 * std::size_t{run.triangle}]);
-            if (what != Interpolated::all) continue;
-            __builtin_prefetch(&mesh.face_normal.x[run.triangle]);
-            __builtin_prefetch(&mesh.face_normal.y[run.triangle]);
-            __builtin_prefetch(&mesh.face_normal.z[run.triangle]);
-        }
-        multiversion<PlacesLoop>(runs.data(), runs.size(), x.data(), y.data(), triangle.data());
+    explicit Places(const FragmentBatch& batch) {
+        const std::size_t count = batch.triangles.size();
+        multiversion<PlacesLoop>(batch.runs.data(), batch.runs.size(), x.data(), y.data());
         std::fill_n(&x[count], k_behind, x[count - 1]);
         std::fill_n(&y[count], k_behind, y[count - 1]);
+        is_one_triangle = are_all_equal(batch.triangles);
+        if (is_one_triangle) return;
+        std::ranges::copy(batch.triangles, triangle.begin());
         std::fill_n(&triangle[count], k_behind, triangle[count - 1]);
+        multiversion<DifferencesLoop>(std::as_const(triangle).data(), whole_vectors(count), differing.data());
+    }
+
+    /// Whether the vector from `first` on is on one triangle.
+    bool is_on_one(std::size_t first) const { return differing[first / k_lanes] == 0; }
+
+    /// All at once, because in a large mesh they come from far apart.
+    void prefetch(const Mesh& mesh, std::size_t first, Interpolated what) const {
+        for (std::size_t i = first; i < first + k_lanes; ++i) {
+            __builtin_prefetch(&mesh.indices[3 * std::size_t{triangle[i]}]);
+            if (what != Interpolated::all) continue;
+            __builtin_prefetch(&mesh.face_normal.x[triangle[i]]);
+            __builtin_prefetch(&mesh.face_normal.y[triangle[i]]);
+            __builtin_prefetch(&mesh.face_normal.z[triangle[i]]);
+        }
     }
 };
 
-/// Calls `visit(triangle, first, end)` for each triangle's fragments, which are adjacent in a batch; the last
-/// triangle's end where the padding ends.
+/// Calls `visit(triangle, first, end)` for each stretch of `triangles` on one triangle; the last one's end
+/// where the padding ends.
 template <class Visit>
-void each_triangle(std::span<const FragmentRun> runs, std::size_t filled, Visit visit) {
-    std::size_t first = 0;
-    for (std::size_t run = 0; run < runs.size();) {
-        const std::uint32_t triangle = runs[run].triangle;
-        std::size_t end = first;
-        for (; run < runs.size() && runs[run].triangle == triangle; ++run) end += runs[run].count;
-        visit(triangle, first, run == runs.size() ? filled : end);
+void each_triangle(std::span<const std::uint32_t> triangles, std::size_t filled, Visit visit) {
+    for (std::size_t first = 0; first < triangles.size();) {
+        std::size_t end = first + 1;
+        while (end < triangles.size() && triangles[end] == triangles[first]) ++end;
+        visit(triangles[first], first, end == triangles.size() ? filled : end);
         first = end;
     }
+}
+
+/// Of points that belong to no pixel.
+void clear_footprint(SurfacePoints& points) {
+    for (AlignedVector<float>* const array : {&points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
+        std::ranges::fill(*array, 0.0f);
 }
 
 /// Pads a batch that was assembled point by point with its last point.
@@ -263,6 +361,7 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
         fill(points.u);
         fill(points.v);
     }
+    if (needs.footprint) clear_footprint(points);
     if (needs.derivatives) {
         fill_all(points.dpdu);
         fill_all(points.dpdv);
@@ -280,51 +379,95 @@ Interpolated interpolated_for(PointNeeds needs) {
     return Interpolated::position_and_normal;
 }
 
-/// From this many fragments on, a triangle is worth a loop of its own.
-constexpr std::size_t k_worth_a_loop = 16;
+/// Barycentric coordinates of a batch's fragments and what follows from them, vector by vector: those on one
+/// triangle read it once, in all others each fragment reads its own.
+class BatchInterpolation {
+  public:
+    BatchInterpolation(const ProjectedMesh& source, const Places& places, Interpolated what,
+                       SurfacePoints& points)
+        : source_(source), places_(places), what_(what), points_(points) {}
+
+    void run() {
+        for (std::size_t first = 0; first < points_.filled; first += k_lanes) {
+            if (!places_.is_on_one(first)) places_.prefetch(source_.mesh, first, what_);
+        }
+        for (std::size_t first = 0; first < points_.filled;) {
+            const bool is_one = places_.is_on_one(first);
+            const std::uint32_t triangle = places_.triangle[first];
+            std::size_t end = first + k_lanes;
+            while (end < points_.filled && places_.is_on_one(end) == is_one &&
+                   (!is_one || places_.triangle[end] == triangle))
+                end += k_lanes;
+            if (is_one) {
+                on_one_triangle(triangle, first, end);
+            } else {
+                interpolate_each(what_, indexed(source_), end - first, &places_.triangle[first],
+                                 &places_.x[first], &places_.y[first], spans_from(first));
+            }
+            first = end;
+        }
+    }
+
+    void on_one_triangle(std::uint32_t triangle, std::size_t first, std::size_t end) {
+        interpolate(what_, attributes_of(source_, triangle), end - first, &places_.x[first],
+                    &places_.y[first], spans_from(first));
+    }
+
+  private:
+    InterpolatedSpans spans_from(std::size_t first) {
+        return {points_.barycentric.span().from(first), points_.position.span().from(first),
+                points_.vertex_normal.span().from(first), points_.face_normal.span().from(first)};
+    }
+
+    const ProjectedMesh& source_;
+    const Places& places_;
+    Interpolated what_;
+    SurfacePoints& points_;
+};
 
 }  // namespace
 
-void gather_fragments(const ProjectedMesh& source, std::span<const FragmentRun> runs, PointNeeds needs,
+void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, PointNeeds needs,
                       SurfacePoints& points) {
     points.has_color = needs.color = needs.color && !source.mesh.color.empty();
-    const Interpolated what = interpolated_for(needs);
-    const Places places(source.mesh, runs, what);
-    points.count = places.count;
-    points.filled = whole_vectors(places.count);
-    const auto spans_from = [&](std::size_t first) -> InterpolatedSpans {
-        return {points.barycentric.span().from(first), points.position.span().from(first),
-                points.vertex_normal.span().from(first), points.face_normal.span().from(first)};
-    };
-    std::size_t interpolated = 0;
-    const auto fetch_up_to = [&](std::size_t end) {
-        if (end == interpolated) return;
-        interpolate_each(what, indexed(source), end - interpolated, &places.triangle[interpolated],
-                         &places.x[interpolated], &places.y[interpolated], spans_from(interpolated));
-        interpolated = end;
-    };
-    each_triangle(runs, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
-        if (source.scene.is_moderate && end - first < k_worth_a_loop) return;
-        fetch_up_to(first);
-        interpolate(what, attributes_of(source, triangle), end - first, &places.x[first], &places.y[first],
-                    spans_from(first));
-        interpolated = end;
-    });
-    fetch_up_to(points.filled);
+    points.count = batch.triangles.size();
+    points.filled = whole_vectors(points.count);
+    const Places places(batch);
+    BatchInterpolation interpolation(source, places, interpolated_for(needs), points);
+    if (places.is_one_triangle) {
+        interpolation.on_one_triangle(batch.triangles[0], 0, points.filled);
+    } else if (source.scene.is_moderate) {
+        interpolation.run();
+    } else {
+        // Each triangle has a scale of its own.
+        each_triangle(batch.triangles, points.filled,
+                      [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+                          interpolation.on_one_triangle(triangle, first, end);
+                      });
+    }
 
     points.any_from_behind = false;
     std::fill_n(points.facing.begin(), points.filled, 1.0f);
     if (source.mesh.closed && !needs.more()) return;
-    each_triangle(runs, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
-        if (source.is_back(triangle)) {
-            points.any_from_behind = true;
-            std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
-                      points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
-        }
-        if (needs.more())
-            blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first, end - first,
-                             points);
-    });
+    const bool has_footprint = needs.footprint && !source.mesh.u.empty();
+    if (needs.footprint && !has_footprint) clear_footprint(points);
+    each_triangle(
+        batch.triangles, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+            if (source.is_back(triangle)) {
+                points.any_from_behind = true;
+                std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
+                          points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
+            }
+            if (needs.more())
+                blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first, end - first,
+                                 points);
+            if (has_footprint)
+                multiversion<FootprintLoop>(footprint_of(source, triangle), end - first, &places.x[first],
+                                            &places.y[first], std::as_const(points.u).data() + first,
+                                            std::as_const(points.v).data() + first,
+                                            points.dudx.data() + first, points.dvdx.data() + first,
+                                            points.dudy.data() + first, points.dvdy.data() + first);
+        });
 }
 
 void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> triangles, PointNeeds needs,

@@ -96,9 +96,10 @@ struct TileWorker {
 /// The observer's camera for a picture of that size.
 Camera camera_of(const Observer& observer, int width, int height);
 
-/// Projects a scene's meshes and sorts their triangles into tiles. Throws Error.
-void project_scene(const CompiledScene& scene, int width, int height, int tile_size, int samples,
-                   ProjectedScene& projected);
+/// Projects a scene's meshes and sorts their triangles into the tiles that these rows of the picture touch.
+/// Throws Error.
+void project_scene(const CompiledScene& scene, int width, int height, RowRange rows, int tile_size,
+                   int samples, ProjectedScene& projected);
 
 /// Finds the fragments that are visible in a tile.
 void find_visible(const ProjectedScene& projected, int tile, TileVisibility& visibility,

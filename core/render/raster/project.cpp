@@ -8,6 +8,7 @@ module;
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -101,12 +102,6 @@ float near_distance(std::span<const Mesh* const> meshes, const Camera& camera) {
     return farthest > 0 ? std::min(k_most, k_of_farthest * farthest) : k_most;
 }
 
-struct Stretch {
-    std::size_t mesh;
-    std::size_t first;  // triangle of the mesh
-    std::size_t count;
-};
-
 }  // namespace
 
 ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
@@ -117,7 +112,7 @@ ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera
 }
 
 void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size, int samples,
-             ProjectedScene& scene) {
+             ProjectedScene& scene, std::optional<TileRows> rows) {
     scene.first_vertex.clear();
     scene.first_triangle.clear();
     scene.samples = samples;
@@ -126,23 +121,19 @@ void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile
     scene.tile_size = tile_size;
     scene.tile_columns = (camera.width + tile_size - 1) / tile_size;
     scene.tile_rows = (camera.height + tile_size - 1) / tile_size;
+    scene.seen_rows = rows.value_or(TileRows{0, scene.tile_rows});
     // Twice the picture's size, in fixed point, must leave room for 64 steps in 32 bits.
     scene.subpixel_bits = std::max(camera.width, camera.height) <= 8192 ? 8 : 4;
 
     std::size_t vertices = 0;
     std::size_t triangles = 0;
-    std::vector<Stretch> stretches;
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
+    for (const Mesh* const mesh : meshes) {
         scene.first_vertex.push_back(static_cast<std::uint32_t>(vertices));
         scene.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
-        vertices += meshes[m]->vertex_count();
-        triangles += meshes[m]->triangle_count();
+        vertices += mesh->vertex_count();
+        triangles += mesh->triangle_count();
         if (vertices > k_no_triangle / 2 || triangles >= k_no_triangle) {
             throw std::length_error("the scene has more than 4294967294 triangles, or half as many vertices");
-        }
-        for (std::size_t first = 0; first < meshes[m]->triangle_count(); first += k_triangles_per_bin) {
-            stretches.push_back(
-                {m, first, std::min(k_triangles_per_bin, meshes[m]->triangle_count() - first)});
         }
     }
     scene.first_triangle.push_back(static_cast<std::uint32_t>(triangles));
@@ -163,12 +154,13 @@ void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile
     }
     scene.is_moderate = is_moderate;
 
-    scene.bins.resize(stretches.size());
-    parallel_for(stretches.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s) {
-            const auto [m, first, count] = stretches[s];
-            bin_triangles(scene, *meshes[m], scene.first_vertex[m], scene.first_triangle[m], first, count,
-                          scene.bins[s]);
+    // Ranges of the scene, not of its meshes: each tile looks at every bin.
+    scene.bins.resize((triangles + k_triangles_per_bin - 1) / k_triangles_per_bin);
+    parallel_for(scene.bins.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t bin = begin; bin < end; ++bin) {
+            const std::size_t first = bin * k_triangles_per_bin;
+            bin_triangles(scene, meshes, first, std::min(k_triangles_per_bin, triangles - first),
+                          scene.bins[bin]);
         }
     });
 }

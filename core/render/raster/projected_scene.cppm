@@ -4,6 +4,7 @@ module;
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,15 +16,6 @@ import candela.mesh;
 
 export namespace candela {
 
-/// A triangle, or a piece of a clipped one, in fixed-point pixels, with an orientation that makes its area
-/// positive with y down.
-struct RasterTriangle {
-    std::int32_t x[3];
-    std::int32_t y[3];
-    float depth[3];  // linear in screen space; larger is nearer
-    std::uint32_t id;
-};
-
 /// A vertex in homogeneous pixels: on the screen at (x / w, y / w).
 struct alignas(16) ProjectedVertex {
     float x, y;
@@ -32,18 +24,41 @@ struct alignas(16) ProjectedVertex {
 };
 
 /// A vertex in fixed-point pixels, with bits from Outside.
-struct ScreenVertex {
+struct alignas(16) ScreenVertex {
     std::int32_t x, y;
-    float depth;
+    float depth;  // linear in screen space; larger is nearer
     std::uint32_t outside;
+};
+
+/// A triangle in fixed-point pixels, with an orientation that makes its area positive with y down.
+struct RasterTriangle {
+    ScreenVertex vertex[3];
+    std::uint32_t id;
+};
+
+/// A triangle as a tile's list has it: its vertices in the scene, in such an order; or a piece of a clipped
+/// one.
+struct alignas(16) BinnedTriangle {
+    static constexpr std::uint32_t k_piece = 0xffff'ffffu;
+
+    std::uint32_t vertex[3];  // or k_piece, and the piece's number in the bin
+    std::uint32_t id;
+
+    [[gnu::always_inline]] inline bool is_piece() const { return vertex[0] == k_piece; }
 };
 
 /// The triangles of one range of the scene, by tile.
 struct TriangleBin {
-    std::vector<RasterTriangle> triangles;
     int first_column = 0, columns = 0, first_row = 0, rows = 0;  // tiles that the range touches
-    std::vector<std::uint32_t> start;  // of each tile's list in `entries`; one more than there are tiles
-    std::vector<std::uint32_t> entries;
+    std::vector<std::uint32_t> start;       // of each tile's list in `entries`; one more than there are tiles
+    AlignedVector<BinnedTriangle> entries;  // in the scene's order within each list
+    std::vector<RasterTriangle> pieces;     // of clipped triangles
+};
+
+/// Rows of tiles, from `first` up to, not including, `end`.
+struct TileRows {
+    int first = 0;
+    int end = 0;
 };
 
 /// A scene as the camera sees it: shared by all tiles. Immutable once made.
@@ -54,6 +69,7 @@ struct ProjectedScene {
     int subpixel_bits = 8;
     float near = 0;  // metres from the eye: nothing closer is seen (perspective only)
     int tile_columns = 0, tile_rows = 0;
+    TileRows seen_rows;  // only their tiles have lists of triangles
 
     // Per vertex, all meshes in turn.
     AlignedVector<ProjectedVertex> vertices;
@@ -65,6 +81,9 @@ struct ProjectedScene {
     std::vector<TriangleBin> bins;
 
     inline int tile_count() const { return tile_columns * tile_rows; }
+    /// Of those that have lists: consecutive numbers from here on.
+    inline int first_seen_tile() const { return tile_columns * seen_rows.first; }
+    inline int seen_tile_count() const { return tile_columns * (seen_rows.end - seen_rows.first); }
 };
 
 /// Tiles are squares of `tile_size` pixels, a power of two from 16 on. Triangles are numbered consecutively
@@ -72,8 +91,8 @@ struct ProjectedScene {
 CANDELA_API ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
                                    int samples);
 
-/// Same, reusing the memory of a previously projected scene.
+/// Same, reusing the memory of a previously projected scene, and only for some rows of tiles, or all.
 CANDELA_API void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
-                         int samples, ProjectedScene& scene);
+                         int samples, ProjectedScene& scene, std::optional<TileRows> rows = {});
 
 }  // namespace candela

@@ -9,21 +9,13 @@ module;
 
 module candela.raster;
 
+import :bounds;
 import :small_triangles;
 import candela.arrays;
 
 namespace candela {
 
 namespace {
-
-[[gnu::always_inline]] inline std::int32_t least(std::int32_t a, std::int32_t b, std::int32_t c) {
-    const std::int32_t ab = a < b ? a : b;
-    return ab < c ? ab : c;
-}
-[[gnu::always_inline]] inline std::int32_t most(std::int32_t a, std::int32_t b, std::int32_t c) {
-    const std::int32_t ab = a > b ? a : b;
-    return ab > c ? ab : c;
-}
 
 /// An edge from one vertex to the next, as an edge function: >= 0 inside.
 struct Edge {
@@ -53,37 +45,42 @@ struct Edge {
 }
 
 struct SmallLoop {
-    CANDELA_BATCH_LOOP static void run(const RasterTriangle* all, const std::uint32_t* numbers,
+    CANDELA_BATCH_LOOP static void run(const ScreenVertex* screen, const BinnedTriangle* triangles,
                                        std::size_t count, int bits, SmallTriangles* out) {
         for (std::size_t first = 0; first < count; first += k_lanes)
-            run_some(all, numbers, first, count, bits, out);
+            run_some(screen, triangles, first, count, bits, out);
     }
 
   private:
     /// Sixteen from `first` on; if there are fewer, the last is repeated.
-    [[gnu::always_inline]] static void run_some(const RasterTriangle* all, const std::uint32_t* numbers,
+    [[gnu::always_inline]] static void run_some(const ScreenVertex* screen, const BinnedTriangle* triangles,
                                                 std::size_t first, std::size_t count, int bits,
                                                 SmallTriangles* out) {
-        const auto triangle = [&](std::size_t lane) -> const RasterTriangle& {
-            return all[numbers[first + lane < count ? first + lane : count - 1]];
-        };
-        Columns begin, middle, end;  // of a triangle: overlapping
-        begin.gather([&](std::size_t i) { return &triangle(i).x[0]; });
-        middle.gather([&](std::size_t i) { return &triangle(i).y[1]; });
-        end.gather([&](std::size_t i) { return &triangle(i).depth[0]; });
+        const ScreenVertex* vertex[3][k_lanes];
+        std::int32_t is_piece[k_lanes];
+// One by one: they become addresses, not vectors.
+#pragma clang loop unroll(disable) vectorize(disable)
+        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+            const BinnedTriangle& t = triangles[first + lane < count ? first + lane : count - 1];
+            is_piece[lane] = t.is_piece() ? 1 : 0;
+            for (std::size_t k = 0; k < 3; ++k) vertex[k][lane] = screen + (t.is_piece() ? 0 : t.vertex[k]);
+        }
+        Columns of_a, of_b, of_c;
+        of_a.gather([&](std::size_t i) { return vertex[0][i]; });
+        of_b.gather([&](std::size_t i) { return vertex[1][i]; });
+        of_c.gather([&](std::size_t i) { return vertex[2][i]; });
         const std::int32_t one = 1 << bits, half = one / 2;
         CANDELA_VECTORIZE_SIXTEEN
         for (std::size_t lane = 0; lane < k_lanes; ++lane) {
             const std::size_t i = first + lane;
-            const std::int32_t ax = begin.integer(0, lane), bx = begin.integer(1, lane),
-                               cx = begin.integer(2, lane);
-            const std::int32_t ay = begin.integer(3, lane), by = middle.integer(0, lane),
-                               cy = middle.integer(1, lane);
+            const std::int32_t ax = of_a.integer(0, lane), ay = of_a.integer(1, lane);
+            const std::int32_t bx = of_b.integer(0, lane), by = of_b.integer(1, lane);
+            const std::int32_t cx = of_c.integer(0, lane), cy = of_c.integer(1, lane);
             const std::int32_t x0 = (least(ax, bx, cx) + half - 1) >> bits;
             const std::int32_t y0 = (least(ay, by, cy) + half - 1) >> bits;
             const std::int32_t x1 = (most(ax, bx, cx) - half) >> bits;
             const std::int32_t y1 = (most(ay, by, cy) - half) >> bits;
-            const bool is_small = (x1 - x0 <= 3) & (y1 - y0 <= 3);
+            const bool is_small = (x1 - x0 <= 3) & (y1 - y0 <= 3) & (is_piece[lane] == 0);
 
             // Relative to the first sample; zero for a large triangle, so that nothing overflows.
             const std::int32_t sx = x0 * one + half, sy = y0 * one + half;
@@ -97,7 +94,7 @@ struct SmallLoop {
             out->covered[i] = covered_of_row(a, b, c, 0) | covered_of_row(a, b, c, 1) |
                               covered_of_row(a, b, c, 2) | covered_of_row(a, b, c, 3);
 
-            const float z = end.real[0][lane], zv = end.real[1][lane] - z, zw = end.real[2][lane] - z;
+            const float z = of_a.real[2][lane], zv = of_b.real[2][lane] - z, zw = of_c.real[2][lane] - z;
             const auto dvx = static_cast<float>(vx - ux), dvy = static_cast<float>(vy - uy);
             const auto dwx = static_cast<float>(wx - ux), dwy = static_cast<float>(wy - uy);
             const float area = dvx * dwy - dwx * dvy;
@@ -112,10 +109,10 @@ struct SmallLoop {
 
 }  // namespace
 
-void SmallTriangles::set_up(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count,
+void SmallTriangles::set_up(const ScreenVertex* screen, const BinnedTriangle* triangles, std::size_t count,
                             int subpixel_bits) {
     SmallTriangles* const out = this;
-    multiversion<SmallLoop>(all, numbers, count, subpixel_bits, out);
+    multiversion<SmallLoop>(screen, triangles, count, subpixel_bits, out);
 }
 
 }  // namespace candela

@@ -13,6 +13,7 @@ module;
 
 module candela.raster;
 
+import :bounds;
 import :small_triangles;
 
 namespace candela {
@@ -79,8 +80,9 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
     const auto last_x = static_cast<std::int64_t>(grid.width - 1);
     const auto last_y = static_cast<std::int64_t>(grid.height - 1);
     // Pixels whose sample lies within the triangle's box.
-    const auto [left, right] = std::minmax({t.x[0], t.x[1], t.x[2]});
-    const auto [top, bottom] = std::minmax({t.y[0], t.y[1], t.y[2]});
+    const ScreenVertex &a = t.vertex[0], &b = t.vertex[1], &c = t.vertex[2];
+    const std::int32_t left = least(a.x, b.x, c.x), right = most(a.x, b.x, c.x);
+    const std::int32_t top = least(a.y, b.y, c.y), bottom = most(a.y, b.y, c.y);
     const std::int64_t up = (std::int64_t{1} << bits) - 1;
     const std::int64_t x0 = std::max<std::int64_t>((left - grid.x + up) >> bits, 0);
     const std::int64_t x1 = std::min<std::int64_t>((right - grid.x) >> bits, last_x);
@@ -93,11 +95,12 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
 
     for (int k = 0; k < 3; ++k) {
         const int next = k == 2 ? 0 : k + 1;
-        const std::int64_t dx = t.x[next] - t.x[k];
-        const std::int64_t dy = t.y[next] - t.y[k];
+        const ScreenVertex &from = t.vertex[k], &to = t.vertex[next];
+        const std::int64_t dx = to.x - from.x;
+        const std::int64_t dy = to.y - from.y;
         const bool owns_its_samples = dy < 0 || (dy == 0 && dx > 0);  // a left or a top edge
         const std::int64_t at_first =
-            dx * (grid.y - t.y[k]) - dy * (grid.x - t.x[k]) - (owns_its_samples ? 0 : 1);
+            dx * (grid.y - from.y) - dy * (grid.x - from.x) - (owns_its_samples ? 0 : 1);
         // In steps of whole pixels: e + steps * 2^bits >= 0 is floor(e / 2^bits) + steps >= 0.
         const std::int64_t e = at_first >> bits;
         const std::int64_t to_right = -dy;
@@ -113,20 +116,20 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
         result.ey[k] = crosses ? static_cast<std::int32_t>(down) : 0;
     }
 
-    const double x10 = t.x[1] - t.x[0], y10 = t.y[1] - t.y[0];
-    const double x20 = t.x[2] - t.x[0], y20 = t.y[2] - t.y[0];
-    const double z10 = static_cast<double>(t.depth[1]) - static_cast<double>(t.depth[0]);
-    const double z20 = static_cast<double>(t.depth[2]) - static_cast<double>(t.depth[0]);
+    const double x10 = b.x - a.x, y10 = b.y - a.y;
+    const double x20 = c.x - a.x, y20 = c.y - a.y;
+    const double z10 = static_cast<double>(b.depth) - static_cast<double>(a.depth);
+    const double z20 = static_cast<double>(c.depth) - static_cast<double>(a.depth);
     const double area = x10 * y20 - x20 * y10;
     const double zx = (z10 * y20 - z20 * y10) / area;
     const double zy = (z20 * x10 - z10 * x20) / area;
     const auto one = static_cast<double>(std::int64_t{1} << bits);
     // The sample next to the first vertex.
-    result.anchor_x = static_cast<int>((t.x[0] - grid.x) >> bits);
-    result.anchor_y = static_cast<int>((t.y[0] - grid.y) >> bits);
-    const std::int64_t to_anchor_x = grid.x + (std::int64_t{result.anchor_x} << bits) - t.x[0];
-    const std::int64_t to_anchor_y = grid.y + (std::int64_t{result.anchor_y} << bits) - t.y[0];
-    result.z = static_cast<float>(static_cast<double>(t.depth[0]) + zx * static_cast<double>(to_anchor_x) +
+    result.anchor_x = static_cast<int>((a.x - grid.x) >> bits);
+    result.anchor_y = static_cast<int>((a.y - grid.y) >> bits);
+    const std::int64_t to_anchor_x = grid.x + (std::int64_t{result.anchor_x} << bits) - a.x;
+    const std::int64_t to_anchor_y = grid.y + (std::int64_t{result.anchor_y} << bits) - a.y;
+    result.z = static_cast<float>(static_cast<double>(a.depth) + zx * static_cast<double>(to_anchor_x) +
                                   zy * static_cast<double>(to_anchor_y));
     result.zx = static_cast<float>(zx * one);
     result.zy = static_cast<float>(zy * one);
@@ -150,25 +153,32 @@ class TileRaster {
     TileRaster(const ProjectedScene& scene, TileVisibility& visibility)
         : scene_(scene), visibility_(visibility), pattern_(sample_pattern(scene.samples)) {}
 
-    void see(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count) {
+    void see(const TriangleBin& bin, std::span<const BinnedTriangle> triangles) {
         if (scene_.samples > 1) {
-            for (std::size_t i = 0; i < count; ++i) see_large(all[numbers[i]]);
+            for (const BinnedTriangle& triangle : triangles) see_large(corners_of(bin, triangle));
             return;
         }
-        for (std::size_t first = 0; first < count; first += SmallTriangles::k_size)
-            see_some(all, numbers + first, std::min(SmallTriangles::k_size, count - first));
+        for (std::size_t first = 0; first < triangles.size(); first += SmallTriangles::k_size)
+            see_some(bin,
+                     triangles.subspan(first, std::min(SmallTriangles::k_size, triangles.size() - first)));
     }
 
   private:
+    RasterTriangle corners_of(const TriangleBin& bin, const BinnedTriangle& triangle) const {
+        if (triangle.is_piece()) return bin.pieces[triangle.vertex[1]];
+        const ScreenVertex* const vertices = scene_.screen.data();
+        return {{vertices[triangle.vertex[0]], vertices[triangle.vertex[1]], vertices[triangle.vertex[2]]},
+                triangle.id};
+    }
+
     /// In their order, because the first of equally near ones is visible.
-    void see_some(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count) {
-        small_.set_up(all, numbers, count, scene_.subpixel_bits);
-        for (std::size_t i = 0; i < count; ++i) {
-            const RasterTriangle& triangle = all[numbers[i]];
+    void see_some(const TriangleBin& bin, std::span<const BinnedTriangle> triangles) {
+        small_.set_up(scene_.screen.data(), triangles.data(), triangles.size(), scene_.subpixel_bits);
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
             if (small_.is_small[i] != 0) {
-                see_small(i, triangle.id);
+                see_small(i, triangles[i].id);
             } else {
-                see_large(triangle);
+                see_large(corners_of(bin, triangles[i]));
             }
         }
     }
@@ -239,7 +249,7 @@ bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility
         if (first == end) continue;
         if (!is_cleared) clear(visibility);
         is_cleared = true;
-        raster.see(bin.triangles.data(), bin.entries.data() + first, end - first);
+        raster.see(bin, std::span(bin.entries).subspan(first, end - first));
     }
     return is_cleared;
 }

@@ -134,9 +134,26 @@ PointNeeds SurfaceModels::needs() const {
     return {.face_normal = needs.face_normal,
             .vertex_normal = needs.vertex_normal,
             .barycentric = needs.barycentric,
-            .uv = needs.uv || reflection->needs_uv(),
+            .uv = needs.uv || reflection->needs_uv() || color_texture != nullptr,
+            .footprint = color_texture != nullptr,
             .derivatives = needs.derivatives || reflection->needs_tangent(),
             .triangle = needs.triangle};
+}
+
+void apply_texture(const SurfaceModels& surface, SurfacePoints& points) {
+    if (surface.color_texture == nullptr) return;
+    const Vec3Span color = points.color.span();
+    if (!points.has_color) {
+        std::fill_n(color.x, points.filled, surface.color.r);
+        std::fill_n(color.y, points.filled, surface.color.g);
+        std::fill_n(color.z, points.filled, surface.color.b);
+        points.has_color = true;
+    }
+    surface.color_texture->multiply(surface.color_texture_wrap, points.filled,
+                                    {.uv = {points.u.data(), points.v.data()},
+                                     .per_x = {points.dudx.data(), points.dvdx.data()},
+                                     .per_y = {points.dudy.data(), points.dvdy.data()}},
+                                    color);
 }
 
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {

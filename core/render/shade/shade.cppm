@@ -30,6 +30,10 @@ class ObjectSurroundings;
 
 export namespace candela {
 
+/// Where the surface has a texture, multiplies the points' colours with it; they have been gathered with what
+/// the surface needs.
+CANDELA_API void apply_texture(const SurfaceModels& surface, SurfacePoints& points);
+
 /// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
 class CANDELA_API SurfaceShader {
   public:

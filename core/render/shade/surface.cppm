@@ -16,7 +16,9 @@ import candela.light;
 import candela.mesh;
 import candela.raster;
 import candela.reflection;
+import candela.scene;
 import candela.shading;
+import candela.texture;
 
 export namespace candela {
 
@@ -29,6 +31,8 @@ struct LitSource {
 /// The look of an object's surface.
 struct SurfaceModels {
     Rgb color;
+    std::shared_ptr<const MipMap> color_texture{};  // which the colour is multiplied with; null: none
+    TextureWrap color_texture_wrap = TextureWrap::repeat;
     std::string shading_plugin;
     std::unique_ptr<ShadingModel> shading;
     std::string reflection_plugin;

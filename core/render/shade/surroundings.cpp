@@ -46,7 +46,7 @@ void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& ori
     }
     if (triangles_.empty()) return;
     PointNeeds needs = surface_->needs();
-    needs.color = false;
+    needs.color = needs.footprint = false;
     gather_places(*interior_.mesh, triangles_, std::as_const(barycentric_).span(), needs, points_);
     shading_normals(*surface_, points_, normal_.span());
     for (std::size_t i = 0; i < rays_.size(); ++i) {

@@ -43,16 +43,6 @@ std::string at(const SourcePlace& place) {
                           : std::string();
 }
 
-/// A light's position, if it has one; ambient and directional lights do not.
-std::optional<Vec3> position_of(const LightSource& light) {
-    const ParamSet& parameters = light.model.parameters;
-    const std::size_t index = parameters.index_of("position");
-    if (index == parameters.schema().size() || parameters.schema()[index].type != ParamType::point)
-        return std::nullopt;
-    const auto& value = parameters.get(index);
-    return value ? std::optional(std::get<Vec3>(*value)) : std::nullopt;
-}
-
 class Checker {
   public:
     Checker(const SceneDraft& draft, std::span<const SurfaceView> surfaces, Diagnostics& diagnostics)
@@ -155,7 +145,7 @@ class Checker {
         std::size_t found = 0;
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             if (checked) checked();
-            if (surfaces_[i].empty()) continue;
+            if (surfaces_[i].empty() || !scene_.constraints.overlap) continue;
             for (const std::size_t j : tree_.meeting(i)) {
                 if (j >= i || surfaces_[j].empty() || !overlap(body(i), body(j))) continue;
                 const Object& first = scene_.objects[j];
@@ -205,6 +195,15 @@ class Checker {
 };
 
 }  // namespace
+
+std::optional<Vec3> position_of(const LightSource& light) {
+    const ParamSet& parameters = light.model.parameters;
+    const std::size_t index = parameters.index_of("position");
+    if (index == parameters.schema().size() || parameters.schema()[index].type != ParamType::point)
+        return std::nullopt;
+    const auto& value = parameters.get(index);
+    return value ? std::optional(std::get<Vec3>(*value)) : std::nullopt;
+}
 
 void check_constraints(const SceneDraft& draft, std::span<const SurfaceView> surfaces,
                        Diagnostics& diagnostics, const std::function<void()>& checked) {

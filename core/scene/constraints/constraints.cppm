@@ -6,6 +6,7 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 export module candela.constraints;
@@ -25,6 +26,9 @@ struct SurfaceView {
 
     constexpr bool empty() const { return vertex_count == 0; }
 };
+
+/// A light's position, if it has one; ambient and directional lights do not.
+CANDELA_API std::optional<Vec3> position_of(const LightSource& light);
 
 /// Checks that objects, lights and the observer are inside the room; that no two lights share a position, nor
 /// a light the observer's; that no light and no observer is inside an object; and that objects do not overlap

@@ -1,11 +1,17 @@
 // What a scene holds.
 module;
 
+#include "candela/api.h"
+
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 export module candela.scene:content;
 
+import :animation;
 import candela.color;
 import candela.diagnostics;
 import candela.math;
@@ -26,7 +32,7 @@ struct Room {
 
 /// How strictly a scene as a whole is checked.
 struct ConstraintSettings {
-    Severity overlap = Severity::error;  // of objects with each other
+    std::optional<Severity> overlap = Severity::error;  // of objects with each other; none: not looked at
 
     friend bool operator==(const ConstraintSettings&, const ConstraintSettings&) = default;
 };
@@ -72,6 +78,9 @@ struct Model {
     friend bool operator==(const Model&, const Model&) = default;
 };
 
+/// The name in a label of a light or an object: lamp in 'lamp'. None where the label is an index.
+CANDELA_API std::optional<std::string_view> name_of_label(std::string_view label) noexcept;
+
 struct LightSource {
     std::string label;  // 'lamp', as the scene's author calls it, or an index
     Model model;
@@ -84,26 +93,36 @@ struct LightSource {
     }
 };
 
+/// What a texture shows beyond its edges.
+enum class TextureWrap : int {
+    repeat,  // the picture again
+    clamp,   // the colours at its edge
+};
+
 struct Object {
     std::string label;
     Model shape;
     Transform transform;
-    Vec3 color;             // 0-255
+    Vec3 color;                   // 0-255
+    std::string color_texture{};  // absolute path of a picture that `color` is multiplied with; empty: none
+    TextureWrap color_texture_wrap = TextureWrap::repeat;
     bool encloses = false;  // others may be inside; drawn from both sides
     Model shading;
     Model reflection;
     SourcePlace place;
     SourcePlace position_place{};  // of its 'position', or of the whole object
+    SourcePlace texture_place{};   // of its 'color_texture', or of the whole object
 
     /// Ignores where they are in their files.
     friend inline bool operator==(const Object& a, const Object& b) {
         return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
+               a.color_texture == b.color_texture && a.color_texture_wrap == b.color_texture_wrap &&
                a.encloses == b.encloses && a.shading == b.shading && a.reflection == b.reflection;
     }
 };
 
-/// Every value has been checked; every plugin named is installed (none is loaded). Constraints that only
-/// triangles can decide come later: candela.constraints.
+/// One frame, if it is animated. Every value has been checked; every plugin named is installed (none is
+/// loaded). Constraints that only triangles can decide come later: candela.constraints.
 struct Scene {
     Room room;
     Observer observer;
@@ -111,8 +130,19 @@ struct Scene {
     ConstraintSettings constraints;
     std::vector<LightSource> lights;
     std::vector<Object> objects;
+    std::optional<Animation> animation{};  // of which this is one frame
 
-    friend bool operator==(const Scene&, const Scene&) = default;
+    friend CANDELA_API bool operator==(const Scene& a, const Scene& b);
+};
+
+/// A scene as far as it was understood, so that the rest can be checked as well.
+struct SceneDraft {
+    Scene scene;  // without the lights and objects whose kind, shape or place is unknown
+    bool has_room = true;
+    bool has_observer = true;                    // its position is known
+    bool is_complete = true;                     // there were no errors
+    SourcePlace picture_place{};                 // of what says how large the picture is
+    std::vector<std::filesystem::path> files{};  // all that were read, as absolute paths
 };
 
 }  // namespace candela

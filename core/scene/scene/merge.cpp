@@ -237,40 +237,39 @@ std::optional<std::size_t> number_from(const std::string& text) {
 
 class Setter {
   public:
-    Setter(const Setting& setting, TableNode& root, Diagnostics& diagnostics)
-        : setting_(setting), place_{setting.origin, 0, 0, 0}, root_(root), diagnostics_(diagnostics) {}
+    Setter(std::string_view path, const SourcePlace& place, TableNode& root, Diagnostics& diagnostics)
+        : parts_(parts_of(path)), place_(place), root_(root), diagnostics_(diagnostics) {}
 
-    void apply() {
-        auto value = parse_value(setting_.value, place_, diagnostics_);
-        if (!value) return;
-        const std::vector<std::string> parts = parts_of(setting_.path);
-        if (std::ranges::any_of(parts, [](const std::string& part) { return part.empty(); })) {
+    bool apply(Node value) {
+        if (std::ranges::any_of(parts_, [](const std::string& part) { return part.empty(); })) {
             return fail("the path has an empty part");
         }
-        if (parts.size() < 2) return fail("the path needs a table and a key, as in image.width");
+        if (parts_.size() < 2) return fail("the path needs a table and a key, as in image.width");
         TableNode* table = nullptr;
         std::size_t next = 1;
-        if (parts[0] == "light" || parts[0] == "object") {
-            if (parts.size() < 3)
-                return fail(fmt::format("the path needs a key, as in {}.0.color", parts[0]));
-            table = element(parts[0], parts[1]);
+        if (parts_[0] == "light" || parts_[0] == "object") {
+            if (parts_.size() < 3)
+                return fail(fmt::format("the path needs a key, as in {}.0.color", parts_[0]));
+            table = element(parts_[0], parts_[1]);
             next = 2;
         } else {
-            table = table_in(root_, parts[0]);
+            table = table_in(root_, parts_[0]);
         }
-        for (; table != nullptr && next + 1 < parts.size(); ++next) table = table_in(*table, parts[next]);
-        if (table == nullptr) return;
-        if (TableNode::Entry* const entry = table->find(parts.back())) {
+        for (; table != nullptr && next + 1 < parts_.size(); ++next) table = table_in(*table, parts_[next]);
+        if (table == nullptr) return false;
+        if (TableNode::Entry* const entry = table->find(parts_.back())) {
             entry->key_place = place_;
-            entry->node = std::move(*value);
+            entry->node = std::move(value);
         } else {
-            table->entries.push_back({parts.back(), place_, std::move(*value)});
+            table->entries.push_back({parts_.back(), place_, std::move(value)});
         }
+        return true;
     }
 
   private:
-    void fail(const std::string& message, const std::string& hint = {}) {
+    bool fail(const std::string& message, const std::string& hint = {}) {
         diagnostics_.error(place_, message, hint);
+        return false;
     }
 
     TableNode* table_in(TableNode& parent, const std::string& key) {
@@ -300,8 +299,8 @@ class Setter {
         return nullptr;
     }
 
-    const Setting& setting_;
-    SourcePlace place_;
+    std::vector<std::string> parts_;
+    const SourcePlace& place_;
     TableNode& root_;
     Diagnostics& diagnostics_;
 };
@@ -321,6 +320,11 @@ std::vector<std::string> parts_of(std::string_view path) {
         }
     }
     return parts;
+}
+
+bool set_value(TableNode& root, std::string_view path, Node value, const SourcePlace& place,
+               Diagnostics& diagnostics) {
+    return Setter(path, place, root, diagnostics).apply(std::move(value));
 }
 
 std::optional<std::size_t> index_of(const ArrayNode& all, const std::string& which) {
@@ -376,7 +380,11 @@ std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagn
     merged.files = gatherer.files();
     report_too_many(merged.root, diagnostics);
     if (diagnostics.has_errors()) return std::nullopt;
-    for (const Setting& setting : request.settings) Setter(setting, merged.root, diagnostics).apply();
+    for (const Setting& setting : request.settings) {
+        const SourcePlace place{setting.origin, 0, 0, 0};
+        if (auto value = parse_value(setting.value, place, diagnostics))
+            set_value(merged.root, setting.path, *std::move(value), place, diagnostics);
+    }
     return merged;
 }
 

@@ -23,13 +23,6 @@ import candela.validation;
 
 namespace candela {
 
-namespace {
-
-constexpr const char* k_default_shading = "phong";
-constexpr const char* k_default_reflection = "phong";
-
-}  // namespace
-
 ModelChooser::ModelChooser(const SceneRequest& request, SceneTables& tables)
     : request_(request), tables_(tables) {
     shading_ = named("shading", request.shading);

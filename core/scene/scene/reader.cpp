@@ -20,6 +20,7 @@ module candela.scene;
 
 import :merge;
 import :models;
+import :reading;
 import :tables;
 import candela.color;
 import candela.diagnostics;
@@ -178,7 +179,9 @@ class Reader {
 
     void read_constraints() {
         const ParamSet values = tables_.read_plain("constraints");
-        scene_.constraints.overlap = text(values, "overlap") == "warn" ? Severity::warning : Severity::error;
+        const std::string& overlap = text(values, "overlap");
+        if (overlap == "allow") scene_.constraints.overlap.reset();
+        if (overlap == "warn") scene_.constraints.overlap = Severity::warning;
     }
 
     template <class Visit>
@@ -212,9 +215,8 @@ class Reader {
 
     /// As label_of(), for messages: as much of it as fits.
     static std::string short_label(const std::string& label) {
-        const bool is_quoted = label.starts_with('\'');
-        return is_quoted ? fmt::format("'{}'", shortened(std::string_view(label).substr(1, label.size() - 2)))
-                         : label;
+        const auto name = name_of_label(label);
+        return name ? fmt::format("'{}'", shortened(*name)) : label;
     }
 
     /// A plugin named by `type` with its parameters, which are beside the table's own keys.
@@ -258,6 +260,10 @@ class Reader {
         const ParamSet own = read_parameters(table, schema_of("object").parameters, context, diagnostics_);
         object.transform = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
         object.color = vector(own, "color");
+        object.color_texture = text(own, "color_texture");
+        object.color_texture_wrap =
+            text(own, "color_texture_wrap") == "clamp" ? TextureWrap::clamp : TextureWrap::repeat;
+        object.texture_place = place_of(table, "color_texture", place);
         object.encloses = boolean(own, "encloses");
         auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"});
         object.shading = models.shading_for(table);
@@ -318,17 +324,16 @@ std::vector<std::filesystem::path> input_files(const SceneDraft& draft) {
     if (!scene.image.environment.empty()) files.emplace_back(scene.image.environment);
     for (const LightSource& light : scene.lights) add_files(light.model, files);
     for (const Object& object : scene.objects) {
+        if (!object.color_texture.empty()) files.emplace_back(object.color_texture);
         for (const Model* const model : {&object.shape, &object.shading, &object.reflection})
             add_files(*model, files);
     }
     return files;
 }
 
-std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
-                                      Diagnostics& diagnostics) {
-    const auto document = merge_documents(request, diagnostics);
-    if (!document) return std::nullopt;
-    return Reader(request, *document, registry, diagnostics).read();
+SceneDraft read_draft(const SceneRequest& request, const MergedDocument& document, Registry& registry,
+                      Diagnostics& diagnostics) {
+    return Reader(request, document, registry, diagnostics).read();
 }
 
 std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry, Diagnostics& diagnostics) {

@@ -35,6 +35,7 @@ struct SceneRequest {
     std::vector<Setting> settings;
     std::optional<ModelSetting> shading;                   // of every object
     std::optional<ModelSetting> reflection;                // likewise
+    int frame = 0;                                         // of an animated scene
     bool use_defaults = false;                             // if no shading or reflection model is named
     std::function<bool(const std::string& question)> ask;  // called instead of failing then; may be empty
 };

@@ -5,6 +5,7 @@ module;
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@ module;
 
 export module candela.scene;
 
+export import :animation;
 export import :content;
 export import :request;
 export import :schema;
@@ -21,21 +23,38 @@ import candela.registry;
 
 export namespace candela {
 
-/// A scene as far as it was understood, so that the rest can be checked as well.
-struct SceneDraft {
-    Scene scene;  // without the lights and objects whose kind, shape or place is unknown
-    bool has_room = true;
-    bool has_observer = true;                    // its position is known
-    bool is_complete = true;                     // there were no errors
-    SourcePlace picture_place{};                 // of what says how large the picture is
-    std::vector<std::filesystem::path> files{};  // all that were read, as absolute paths
-};
-
 /// All files that a scene consists of or names: itself, its includes, its environment, and every parameter
 /// that is a file. Absolute paths.
 CANDELA_API std::vector<std::filesystem::path> input_files(const SceneDraft& draft);
 
-/// Reads, merges and validates. Reports all problems; returns nothing if a file cannot be read as TOML.
+/// The frames of a scene; one that is not animated has one. One thread.
+class CANDELA_API SceneFrames {
+  public:
+    /// Reads and merges the files, and reads and validates what is animated. Reports all problems; returns
+    /// nothing if a file cannot be read as TOML. `registry` is to outlive the frames.
+    static std::optional<SceneFrames> read(const SceneRequest& request, Registry& registry,
+                                           Diagnostics& diagnostics);
+    SceneFrames(SceneFrames&&) noexcept;
+    SceneFrames& operator=(SceneFrames&&) noexcept;
+    ~SceneFrames();
+
+    /// Nothing if the scene is not animated, or if its animation has errors.
+    const std::optional<Animation>& animation() const;
+    int count() const;
+    /// Whether the animation has errors; frames are then as if there were none.
+    bool is_broken() const;
+
+    /// Validates a frame and reports all its problems. Throws Error (bad_request) if there is no such frame.
+    SceneDraft draft(int frame, Diagnostics& diagnostics);
+
+  private:
+    struct Content;
+    explicit SceneFrames(std::unique_ptr<Content> content);
+    std::unique_ptr<Content> content_;
+};
+
+/// Reads, merges and validates the requested frame. Reports all problems; returns nothing if a file cannot be
+/// read as TOML. Throws Error (bad_request) if there is no such frame.
 CANDELA_API std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
                                                   Diagnostics& diagnostics);
 

@@ -23,10 +23,11 @@ namespace {
 using Type = ParamType;
 
 constexpr const char* k_projections[] = {"perspective", "orthographic"};
+constexpr const char* k_wraps[] = {"repeat", "clamp"};
 constexpr const char* k_encodings[] = {"srgb", "none"};
 constexpr const char* k_sample_counts[] = {"1", "4", "8", "16"};
 
-constexpr const char* k_severities[] = {"error", "warn"};
+constexpr const char* k_severities[] = {"error", "warn", "allow"};
 constexpr const char* k_versions[] = {"1"};
 
 constexpr ParamSpec k_top[] = {
@@ -130,8 +131,8 @@ constexpr ParamSpec k_image[] = {
 constexpr ParamSpec k_constraints[] = {
     {.name = "overlap",
      .type = Type::choice,
-     .meaning = "what objects that overlap are: an error, or a warning, for scenes that were made for other "
-                "programs",
+     .meaning = "what objects that overlap are: an error, a warning, or nothing that is looked for, for "
+                "scenes that were made for other programs",
      .choices = k_severities},
 };
 constexpr ParamSpec k_shading[] = {
@@ -170,6 +171,14 @@ constexpr ParamSpec k_object[] = {
      .type = Type::color,
      .meaning = "colour of the surface",
      .default_value = {{200, 200, 200}}},
+    {.name = "color_texture",
+     .type = Type::file,
+     .meaning = "a picture that the colour is multiplied with, placed by the shape's texture coordinates",
+     .default_value = {.text = ""}},
+    {.name = "color_texture_wrap",
+     .type = Type::choice,
+     .meaning = "beyond the edges of color_texture: the picture again, or the colours at its edges",
+     .choices = k_wraps},
     {.name = "encloses",
      .type = Type::boolean,
      .meaning = "whether lights, the observer and other objects may be inside, as in a room or a lampshade; "
@@ -178,6 +187,45 @@ constexpr ParamSpec k_object[] = {
      .default_value = {}},
     {.name = "shading", .type = Type::text, .meaning = "shading plugin; overrides [shading]"},
     {.name = "reflection", .type = Type::text, .meaning = "reflection plugin; overrides [reflection]"},
+};
+
+constexpr const char* k_interpolations[] = {"linear", "step", "smooth"};
+constexpr ParamSpec k_animation[] = {
+    {.name = "frames",
+     .type = Type::integer,
+     .meaning = "how many, numbered from 0",
+     .required = true,
+     .minimum = 1,
+     .maximum = 1'000'000},
+    {.name = "fps",
+     .meaning = "frames per second: frame i is at i / fps seconds",
+     .default_value = {{24}},
+     .minimum = 0,
+     .maximum = 1000,
+     .minimum_excluded = true},
+};
+constexpr ParamSpec k_orbit[] = {
+    {.name = "turns",
+     .meaning = "over all frames; counter-clockwise seen from above, the other way round if negative",
+     .default_value = {{1}},
+     .minimum = -1'000'000,
+     .maximum = 1'000'000},
+};
+constexpr ParamSpec k_track[] = {
+    {.name = "path",
+     .type = Type::text,
+     .meaning = R"(what changes, as --set names it: "light.lamp.intensity", "object.0.rotation")",
+     .required = true},
+    {.name = "keys",
+     .type = Type::numbers,
+     .meaning = "seconds, strictly increasing, and the value then; before the first key and after the last "
+                "it stays as it is there",
+     .required = true},
+    {.name = "interpolation",
+     .type = Type::choice,
+     .meaning = "between keys: in a straight line; not at all, until the next key; or along a Catmull-Rom "
+                "spline through all of them, which may go beyond their values",
+     .choices = k_interpolations},
 };
 
 TableSchema table(std::string_view name, std::string_view title, std::string_view meaning,
@@ -201,6 +249,19 @@ const TableSchema& top_schema() {
 }
 
 std::span<const TableSchema> scene_schema() {
+    static const TableSchema k_animation_table = [] {
+        TableSchema animation = table("animation", "[animation]",
+                                      "makes the scene a film; optional (docs/animation.md)", k_animation);
+        animation.tables = {table("orbit", "[animation.orbit]",
+                                  "the observer goes around what it looks at, about its 'up', and is back "
+                                  "after the last frame; "
+                                  "optional",
+                                  k_orbit),
+                            table("track", "[[animation.track]]",
+                                  "one value of the scene that changes over time; any number", k_track)};
+        animation.tables.back().timed = {"keys"};
+        return animation;
+    }();
     static const std::array k_tables = {
         table("room", "[room]", "a box centred on the origin that contains everything; optional", k_room),
         table("observer", "[observer]", "who sees the scene; required, exactly once over all files",
@@ -219,6 +280,7 @@ std::span<const TableSchema> scene_schema() {
               {{"type", PluginKind::shape, ""},
                {"shading", PluginKind::shading},
                {"reflection", PluginKind::reflection, "material"}}),
+        k_animation_table,
     };
     return k_tables;
 }

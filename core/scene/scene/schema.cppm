@@ -30,9 +30,11 @@ struct TableSchema {
     std::string title;  // as written in a file: "[image]", "[[light]]"
     std::string meaning;
     std::vector<Parameter> parameters;
-    bool repeated = false;             // may occur any number of times
-    std::vector<PluginKey> plugins{};  // which of the parameters name plugins
-    std::vector<std::string> lists{};  // which of the parameters are lists of such values
+    bool repeated = false;              // may occur any number of times
+    std::vector<PluginKey> plugins{};   // which of the parameters name plugins
+    std::vector<std::string> lists{};   // which of the parameters are lists of such values
+    std::vector<std::string> timed{};   // which of the parameters are lists of [time, value]
+    std::vector<TableSchema> tables{};  // within this one
 };
 
 /// The tables of the scene file, in the order in which people write them.

@@ -64,9 +64,7 @@ std::string value_text(const Value& value, ParamType type) {
 
 /// The name that a label states, if it is not an index.
 std::optional<std::string> name_of(const std::string& label, std::size_t index) {
-    if (label.size() > 2 && label.starts_with('\'') && label.ends_with('\'')) {
-        return label.substr(1, label.size() - 2);
-    }
+    if (const auto name = name_of_label(label)) return std::string(*name);
     if (label != fmt::format("number {}", index)) {
         cannot_say(fmt::format("{} is neither a name in quotes nor 'number {}'", label, index));
     }
@@ -93,6 +91,7 @@ class Writer {
         write_observer(scene.observer);
         write_image(scene.image);
         write_constraints(scene.constraints);
+        if (scene.animation) write_animation(*scene.animation);
         if (!scene.objects.empty()) {
             shading_ = shared_shading(scene.objects);
             reflection_ = most_common(scene.objects, &Object::reflection).name;
@@ -166,8 +165,34 @@ class Writer {
 
     void write_constraints(const ConstraintSettings& constraints) {
         begin("[constraints]");
-        add("overlap", constraints.overlap == Severity::error ? "\"error\"" : "\"warn\"");
+        add("overlap", !constraints.overlap                     ? "\"allow\""
+                       : constraints.overlap == Severity::error ? "\"error\""
+                                                                : "\"warn\"");
         end();
+    }
+
+    void write_animation(const Animation& animation) {
+        begin("[animation]");
+        add("frames", fmt::format("{}", animation.frames));
+        add("fps", toml_text(animation.fps));
+        end();
+        if (animation.orbit) {
+            begin("[animation.orbit]");
+            add("turns", toml_text(animation.orbit->turns));
+            end();
+        }
+        for (const Track& track : animation.tracks) {
+            std::string keys;
+            for (const Key& key : track.keys) {
+                keys += fmt::format("{}[{}, {}]", keys.empty() ? "" : ", ", toml_text(key.time),
+                                    value_text(key.value, track.type));
+            }
+            begin("[[animation.track]]");
+            add("path", toml_text(track.path));
+            add("keys", fmt::format("[{}]", keys));
+            add("interpolation", toml_text(name_of(track.interpolation)));
+            end();
+        }
     }
 
     /// The model of [shading]. Only that table can set parameters of a shading model: an object that names a
@@ -204,6 +229,8 @@ class Writer {
         add("rotation", vector_text(object.transform.rotation));
         add("scale", rgb_text(object.transform.scale));
         add("color", color_text(object.color));
+        if (!object.color_texture.empty()) add("color_texture", toml_text(object.color_texture));
+        if (object.color_texture_wrap == TextureWrap::clamp) add("color_texture_wrap", "\"clamp\"");
         add("encloses", object.encloses ? "true" : "false");
         if (object.shading != shading_) add("shading", toml_text(object.shading.name));
         if (object.reflection.name != reflection_) add("reflection", toml_text(object.reflection.name));

@@ -185,8 +185,6 @@ std::optional<Value> typed_value(const Node& node, const Parameter& parameter, D
     return value;
 }
 
-namespace {
-
 std::optional<Value> valid_value(const Node& node, const Parameter& p, Diagnostics& diagnostics) {
     auto value = typed_value(node, p, diagnostics);
     if (!value) return std::nullopt;
@@ -206,14 +204,17 @@ std::optional<Value> valid_value(const Node& node, const Parameter& p, Diagnosti
         }
     }
     if (p.type == ParamType::file) {
-        const auto file = existing_file(std::get<std::string>(*value), node.place, diagnostics);
+        const auto& written = std::get<std::string>(*value);
+        if (written.empty()) {
+            diagnostics.error(node.place, fmt::format("'{}' is empty; expected a quoted path", p.name));
+            return std::nullopt;
+        }
+        const auto file = existing_file(written, node.place, diagnostics);
         if (!file) return std::nullopt;
         value = *file;
     }
     return value;
 }
-
-}  // namespace
 
 bool is_valid(const TableNode& table, const Parameter& parameter) {
     const TableNode::Entry* const entry = table.find(parameter.name);

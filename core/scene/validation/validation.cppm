@@ -45,6 +45,10 @@ CANDELA_API void check_relations(const TableNode& table, const ParamSet& values,
                                  std::span<const Relation> relations, const TableContext& context,
                                  Diagnostics& diagnostics);
 
+/// `node` as a valid value of the parameter; the path of a file becomes absolute. Reports what is wrong.
+CANDELA_API std::optional<Value> valid_value(const Node& node, const Parameter& parameter,
+                                             Diagnostics& diagnostics);
+
 /// `node` as a value of the parameter's type, without checking its range. Reports a type mismatch.
 CANDELA_API std::optional<Value> typed_value(const Node& node, const Parameter& parameter,
                                              Diagnostics& diagnostics);

@@ -25,6 +25,7 @@ using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
 constexpr std::size_t k_band = std::size_t{1} << 18;         // of pixels, approximately; at least one row
+constexpr std::size_t k_at_once = std::size_t{1} << 26;      // of pixels that are compressed together
 constexpr std::size_t k_longest_row = std::size_t{1} << 30;  // a band of one row must fit into a chunk
 constexpr std::uint32_t k_adler_of_nothing = 1;
 
@@ -61,34 +62,48 @@ struct Band {
     std::uint32_t adler = 0;
 };
 
+/// Some rows of the picture, from `first` on.
+struct Rows {
+    const std::uint8_t* pixels;
+    std::size_t size;  // of a row, in bytes
+    std::size_t first;
+    std::size_t of_picture;
+    ByteView before;  // the row before the first; empty at the top
+
+    const std::uint8_t* at(std::size_t y) const { return pixels + (y - first) * size; }
+    const std::uint8_t* above(std::size_t y) const {
+        if (y > first) return at(y - 1);
+        return before.empty() ? nullptr : before.data();
+    }
+};
+
+[[noreturn]] void fail() { throw std::runtime_error("this is no picture that a PNG file can hold"); }
+
 struct PngOptions {
     std::int32_t compression;
 };
 
-class Png final : public candela::ImageFormat {
+class Png final : public candela::ImageFormat, public candela::RowFormat {
   public:
     explicit Png(const PngOptions& options) : options_(options) {}
 
-    void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
+    void write(const candela::PictureView& picture, const char* extension,
+               candela::ByteSink& sink) const override {
+        if (picture.bytes.size() != k_pixel * static_cast<std::size_t>(std::max(picture.width, 0)) *
+                                        static_cast<std::size_t>(std::max(picture.height, 0)))
+            fail();
+        candela::ViewedRows rows(picture);
+        write_rows(picture, rows, extension, sink);
+    }
+
+    bool writes_rows(const char*) const override { return true; }
+
+    void write_rows(const candela::PictureView& picture, candela::PictureRows& rows, const char*,
+                    candela::ByteSink& sink) const override {
         const auto width = static_cast<std::size_t>(std::max(picture.width, 0));
         const auto height = static_cast<std::size_t>(std::max(picture.height, 0));
-        if (width == 0 || height == 0 || width > k_longest_row / k_pixel ||
-            picture.bytes.size() != k_pixel * width * height)
-            throw std::runtime_error("this is no picture that a PNG file can hold");
+        if (width == 0 || height == 0 || width > k_longest_row / k_pixel) fail();
         const std::size_t row = k_pixel * width;
-
-        const std::size_t count = std::clamp(row * height / k_band + 1, std::size_t{1}, height);
-        std::vector<Band> bands(count);
-        for (std::size_t i = 0; i < count; ++i)
-            bands[i] = {.begin = height * i / count, .end = height * (i + 1) / count};
-        // Allocating memory for each band takes longer than compressing it.
-        candela::Pool<Tools> pool;
-        const auto make = [&] { return std::make_unique<Tools>(options_.compression); };
-        candela::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
-            pool.with(make, [&](Tools& tools) {
-                for (std::size_t i = begin; i < end; ++i) encode(picture, bands[i], tools);
-            });
-        });
 
         Bytes head = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
         const std::array<std::uint8_t, 5> kind = {8, 2, 0, 0, 0};  // bits; red, green, blue; no options
@@ -100,11 +115,35 @@ class Png final : public candela::ImageFormat {
             append_chunk(head, "sRGB", {perceptual});
         }
         sink.write(std::as_bytes(std::span(head)));
+        const std::size_t count = std::clamp(row * height / k_band + 1, std::size_t{1}, height);
+        const auto begin_of = [&](std::size_t band) { return height * band / count; };
+        // Allocating memory for each band takes longer than compressing it.
+        candela::Pool<Tools> pool;
+        const auto make = [&] { return std::make_unique<Tools>(options_.compression); };
         uLong adler = k_adler_of_nothing;
-        for (const Band& band : bands) {
-            sink.write(std::as_bytes(std::span(band.chunk)));
-            adler =
-                adler32_combine(adler, band.adler, static_cast<z_off_t>((row + 1) * (band.end - band.begin)));
+        Bytes above;  // the row before those at hand
+        std::vector<Band> bands;
+        for (std::size_t first = 0; first < count; first += bands.size()) {
+            std::size_t end = first + 1;
+            while (end < count && row * (begin_of(end + 1) - begin_of(first)) <= k_at_once) ++end;
+            bands.assign(end - first, {});
+            const candela::PictureView some = rows.next(static_cast<int>(begin_of(end) - begin_of(first)));
+            const Rows at_hand{some.bytes.data(), row, begin_of(first), height, above};
+            candela::parallel_for(bands.size(), 1, [&](std::size_t from, std::size_t to) {
+                pool.with(make, [&](Tools& tools) {
+                    for (std::size_t i = from; i < to; ++i) {
+                        bands[i] = {.begin = begin_of(first + i), .end = begin_of(first + i + 1)};
+                        encode(at_hand, bands[i], tools);
+                    }
+                });
+            });
+            for (const Band& band : bands) {
+                sink.write(std::as_bytes(std::span(band.chunk)));
+                adler = adler32_combine(adler, band.adler,
+                                        static_cast<z_off_t>((row + 1) * (band.end - band.begin)));
+            }
+            if (end < count)
+                above.assign(some.bytes.end() - static_cast<std::ptrdiff_t>(row), some.bytes.end());
         }
         Bytes tail;
         append_chunk(tail, "IDAT", {big_endian(static_cast<std::uint32_t>(adler))});
@@ -113,16 +152,13 @@ class Png final : public candela::ImageFormat {
     }
 
   private:
-    void encode(const candela::PictureView& picture, Band& band, Tools& tools) const {
-        const std::size_t row = k_pixel * static_cast<std::size_t>(picture.width);
-        tools.filtered.resize((row + 1) * (band.end - band.begin));
+    void encode(const Rows& rows, Band& band, Tools& tools) const {
+        tools.filtered.resize((rows.size + 1) * (band.end - band.begin));
         std::uint8_t* out = tools.filtered.data();
-        for (std::size_t y = band.begin; y < band.end; ++y, out += row + 1) {
-            const std::uint8_t* const pixels = &picture.bytes[y * row];
-            filter_row({pixels, row}, y > 0 ? pixels - row : nullptr, out);
-        }
+        for (std::size_t y = band.begin; y < band.end; ++y, out += rows.size + 1)
+            filter_row({rows.at(y), rows.size}, rows.above(y), out);
         band.adler = isal_adler32(k_adler_of_nothing, tools.filtered.data(), tools.filtered.size());
-        const bool is_last = band.end == static_cast<std::size_t>(picture.height);
+        const bool is_last = band.end == rows.of_picture;
         // Deflate, with a window of 32 kB.
         static constexpr std::array<std::uint8_t, 2> k_zlib_header = {0x78, 0x01};
         append_chunk(band.chunk, "IDAT",

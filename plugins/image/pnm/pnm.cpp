@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <span>
 #include <stdexcept>
@@ -17,18 +19,17 @@ using namespace candela::sdk;
 namespace {
 
 /// The two formats that take a dozen lines to write and a few more to read.
-class Pnm final : public candela::ImageFormat {
+class Pnm final : public candela::ImageFormat, public candela::RowFormat {
   public:
     explicit Pnm(const NoParams&) {}
 
     void write(const candela::PictureView& picture, const char* extension,
                candela::ByteSink& sink) const override {
-        const std::string size = std::to_string(picture.width) + ' ' + std::to_string(picture.height) + '\n';
-        if (std::string_view(extension) == "ppm") {
-            put(sink, "P6\n" + size + "255\n");
-            sink.write(std::as_bytes(picture.bytes));
-            return;
+        if (writes_rows(extension)) {
+            candela::ViewedRows rows(picture);
+            return write_rows(picture, rows, extension, sink);
         }
+        const std::string size = size_of(picture);
         // The sign of the scale gives the byte order; rows run from the bottom.
         put(sink, "PF\n" + size + (std::endian::native == std::endian::little ? "-1.0\n" : "1.0\n"));
         const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
@@ -37,21 +38,40 @@ class Pnm final : public candela::ImageFormat {
         }
     }
 
+    /// Those of a PFM run from the bottom.
+    bool writes_rows(const char* extension) const override { return std::string_view(extension) == "ppm"; }
+
+    void write_rows(const candela::PictureView& whole, candela::PictureRows& rows, const char*,
+                    candela::ByteSink& sink) const override {
+        put(sink, "P6\n" + size_of(whole) + "255\n");
+        constexpr int k_at_once = 64;
+        for (int y = 0; y < whole.height; y += k_at_once)
+            sink.write(std::as_bytes(rows.next(k_at_once).bytes));
+    }
+
     void read(const char* path, candela::PictureSink& sink) const override {
         std::ifstream file(path, std::ios::binary);
         const std::string kind = word(file);
         if (kind != "P6" && kind != "PF")
             throw std::runtime_error("it is neither a binary PPM (P6) nor a PFM (PF)");
         const int width = whole_number(file), height = whole_number(file);
+        const std::size_t row = 3 * static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
         if (kind == "P6") {
-            read_pixmap(file, whole_number(file), sink.allocate(width, height, true));
+            const int largest = whole_number(file);
+            require_bytes(file, path, rows * row * (largest > 255 ? 2 : 1));
+            read_pixmap(file, largest, row, sink.allocate(width, height, true));
         } else {
             const bool is_little = word(file).starts_with('-');
-            read_floats(file, is_little, width, height, sink.allocate(width, height, false));
+            require_bytes(file, path, rows * row * sizeof(float));
+            read_floats(file, is_little, row, sink.allocate(width, height, false));
         }
     }
 
   private:
+    static std::string size_of(const candela::PictureView& picture) {
+        return std::to_string(picture.width) + ' ' + std::to_string(picture.height) + '\n';
+    }
+
     /// The next word between white space; # begins a comment that ends with the line.
     static std::string word(std::istream& file) {
         std::string text;
@@ -70,6 +90,13 @@ class Pnm final : public candela::ImageFormat {
         return number;
     }
 
+    /// Before memory is asked for that the header alone speaks of.
+    static void require_bytes(std::istream& file, const char* path, std::uintmax_t count) {
+        const std::uintmax_t size = std::filesystem::file_size(path);
+        const auto begin = static_cast<std::uintmax_t>(file.tellg());
+        if (size < begin || size - begin < count) throw std::runtime_error("it ends before its last pixel");
+    }
+
     static void fill(std::istream& file, std::span<char> bytes) {
         file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         if (file.gcount() != static_cast<std::streamsize>(bytes.size()))
@@ -77,29 +104,31 @@ class Pnm final : public candela::ImageFormat {
     }
 
     /// One byte per channel up to 255, otherwise two, most significant first.
-    static void read_pixmap(std::istream& file, int largest, std::span<float> pixels) {
+    static void read_pixmap(std::istream& file, int largest, std::size_t row, std::span<float> pixels) {
         const std::size_t size = largest > 255 ? 2 : 1;
-        std::vector<char> bytes(size * pixels.size());
-        fill(file, bytes);
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            int value = 0;
-            for (std::size_t k = 0; k < size; ++k)
-                value = 256 * value + static_cast<unsigned char>(bytes[size * i + k]);
-            pixels[i] = std::min(static_cast<float>(value) / static_cast<float>(largest), 1.0f);
+        std::vector<char> bytes(size * row);
+        for (; !pixels.empty(); pixels = pixels.subspan(row)) {
+            fill(file, bytes);
+            for (std::size_t i = 0; i < row; ++i) {
+                int value = 0;
+                for (std::size_t k = 0; k < size; ++k)
+                    value = 256 * value + static_cast<unsigned char>(bytes[size * i + k]);
+                pixels[i] = std::min(static_cast<float>(value) / static_cast<float>(largest), 1.0f);
+            }
         }
     }
 
-    static void read_floats(std::istream& file, bool is_little, int width, int height,
-                            std::span<float> pixels) {
-        const std::size_t row = 3 * static_cast<std::size_t>(width);
+    /// From the lowest row up.
+    static void read_floats(std::istream& file, bool is_little, std::size_t row, std::span<float> pixels) {
         std::vector<char> bytes(4 * row);
-        for (int y = height - 1; y >= 0; --y) {
+        for (; !pixels.empty(); pixels = pixels.first(pixels.size() - row)) {
             fill(file, bytes);
+            const std::span<float> lowest = pixels.last(row);
             for (std::size_t i = 0; i < row; ++i) {
                 std::uint32_t bits = 0;
                 for (std::size_t k = 0; k < 4; ++k)
                     bits = bits << 8 | static_cast<unsigned char>(bytes[4 * i + (is_little ? 3 - k : k)]);
-                pixels[static_cast<std::size_t>(y) * row + i] = std::bit_cast<float>(bits);
+                lowest[i] = std::bit_cast<float>(bits);
             }
         }
     }

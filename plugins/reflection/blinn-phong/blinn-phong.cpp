@@ -1,3 +1,4 @@
+#include "candela/materials.h"
 #include "candela/reflection_plugin.h"
 
 namespace candela::kernel {
@@ -29,4 +30,5 @@ CANDELA_REFLECTION_PLUGIN(
      .reference =
          "Blinn (1977), Models of light reflection for computer synthesized pictures, SIGGRAPH, 192-198",
      .relations = k_diffuse_and_specular,
-     .properties = k_properties})
+     .properties = k_properties,
+     .presets = k_classic_presets})

@@ -1,3 +1,4 @@
+#include "candela/materials.h"
 #include "candela/reflection_plugin.h"
 
 namespace candela::kernel {
@@ -34,4 +35,5 @@ CANDELA_REFLECTION_PLUGIN(cook_torrance, CookTorranceMaterial, k_fields,
                                         "ACM Transactions on Graphics 1(1), "
                                         "7-24",
                            .relations = k_diffuse_and_specular,
-                           .properties = k_properties})
+                           .properties = k_properties,
+                           .presets = k_metal_presets})

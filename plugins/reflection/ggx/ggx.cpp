@@ -1,3 +1,4 @@
+#include "candela/materials.h"
 #include "candela/reflection_plugin.h"
 
 namespace candela::kernel {
@@ -38,4 +39,5 @@ CANDELA_REFLECTION_PLUGIN(
          "195-206; Heitz (2014), Understanding the masking-shadowing function, JCGT 3(2); Schlick (1994), An "
          "inexpensive BRDF model for physically-based rendering, Eurographics",
      .relations = k_diffuse_and_specular,
-     .properties = k_properties})
+     .properties = k_properties,
+     .presets = k_metal_presets})

@@ -1,3 +1,4 @@
+#include "candela/materials.h"
 #include "candela/reflection_plugin.h"
 
 namespace candela::kernel {
@@ -27,4 +28,5 @@ CANDELA_REFLECTION_PLUGIN(
                 "I_s = ks I_L max(R.V, 0)^shininess  where N.L > 0, else 0",
      .reference = "Phong (1975), Illumination for computer generated pictures, CACM 18(6), 311-317",
      .relations = k_diffuse_and_specular,
-     .properties = k_properties})
+     .properties = k_properties,
+     .presets = k_classic_presets})

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <ranges>
 #include <utility>
 
@@ -151,7 +152,11 @@ class Reader {
     Surface read() {
         const Walk walk(document_.model);
         check_counts(walk.placed);
-        for (const Placed& placed : walk.placed) add(placed);
+        surface_.materials = std::move(document_.materials);
+        for (const Placed& placed : walk.placed) {
+            add(placed);
+            surface_.material.resize(surface_.triangles(), material_of(*placed.primitive));
+        }
         surface_.losses = std::move(document_.losses);
         surface_.is_color_linear = true;
         if (has_opacity_) surface_.losses.emplace_back("the opacity of vertices");
@@ -160,6 +165,17 @@ class Reader {
 
   private:
     Accessor accessor(int index, int components) const { return {document_, index, components}; }
+
+    std::uint32_t material_of(const tinygltf::Primitive& primitive) {
+        const std::size_t count = no_material_.value_or(surface_.materials.size());
+        if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < count)
+            return static_cast<std::uint32_t>(primitive.material);
+        if (!no_material_) {
+            no_material_ = static_cast<std::uint32_t>(surface_.materials.size());
+            surface_.materials.emplace_back(k_no_material);
+        }
+        return *no_material_;
+    }
 
     /// Nodes and primitives may share accessors: a small file can describe any number of triangles.
     void check_counts(const std::vector<Placed>& placed) {
@@ -299,6 +315,7 @@ class Reader {
 
     Document document_;
     Surface surface_;
+    std::optional<std::uint32_t> no_material_;  // its number, where a primitive has none
     bool has_normals_ = false;
     bool has_uv_ = false;
     bool has_color_ = false;

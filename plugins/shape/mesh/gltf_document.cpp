@@ -170,6 +170,7 @@ Document read_document(std::string_view bytes, const std::filesystem::path& fold
     if (!files.problem.empty()) throw BadFile(files.problem);
     if (!is_read) throw BadFile("is no valid glTF: " + first_line(problems));
     document.losses = std::move(geometry.losses);
+    document.materials = std::move(geometry.materials);
     document.bytes = bytes.size();
     for (const tinygltf::Buffer& buffer : document.model.buffers) document.bytes += buffer.data.size();
     return document;

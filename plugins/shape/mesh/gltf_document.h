@@ -23,9 +23,10 @@
 namespace mesh::gltf {
 
 struct Document {
-    tinygltf::Model model;            // asset, scene, scenes, nodes, meshes, accessors, views and buffers
-    std::vector<std::string> losses;  // what else the file has
-    std::size_t bytes = 0;            // of the file and of its buffers
+    tinygltf::Model model;     // asset, scene, scenes, nodes, meshes, accessors, views and buffers
+    std::vector<Loss> losses;  // what else the file has
+    std::vector<std::string> materials;
+    std::size_t bytes = 0;  // of the file and of its buffers
 };
 
 /// Buffers outside the file are read from `folder`, and as far from it as `reach` allows. Throws BadFile.

@@ -112,18 +112,21 @@ void require_known_extensions(const Json& json) {
 
 // ---- losses
 
-void note(std::vector<std::string>& losses, std::size_t count, std::string_view singular) {
-    if (count > 0) losses.push_back(counted(count, singular));
+void note(std::vector<Loss>& losses, std::size_t count, std::string_view singular,
+          bool is_appearance = false) {
+    if (count > 0) losses.emplace_back(counted(count, singular), is_appearance);
 }
 
-std::vector<std::string> losses_of(const Json& json) {
-    std::vector<std::string> losses;
-    for (const char* const what : {"material", "texture", "image", "camera", "animation", "skin"})
+std::vector<Loss> losses_of(const Json& json) {
+    std::vector<Loss> losses;
+    for (const char* const what : {"material", "texture", "image", "camera"})
+        note(losses, array_of(json, (std::string(what) + "s").c_str()).size(), what, true);
+    for (const char* const what : {"animation", "skin"})
         note(losses, array_of(json, (std::string(what) + "s").c_str()).size(), what);
     if (const auto extensions = json.find("extensions");
         extensions != json.end() && extensions->is_object()) {
         if (const auto lights = extensions->find("KHR_lights_punctual"); lights != extensions->end())
-            note(losses, array_of(*lights, "lights").size(), "light");
+            note(losses, array_of(*lights, "lights").size(), "light", true);
     }
     std::size_t targets = 0, points = 0, lines = 0;
     bool has_more_colors = false, has_second_uv = false, has_other_attributes = false;
@@ -148,12 +151,11 @@ std::vector<std::string> losses_of(const Json& json) {
         }
     }
     note(losses, targets, "morph target");
-    note(losses, points, "set of points");
-    note(losses, lines, "set of lines");
-    for (std::string& loss : losses) {
-        if (loss.ends_with("set of pointss")) loss = fmt::format("{} sets of points", points);
-        if (loss.ends_with("set of liness")) loss = fmt::format("{} sets of lines", lines);
-    }
+    const auto note_sets = [&](std::size_t count, std::string_view of) {
+        if (count > 0) losses.emplace_back(fmt::format("{} set{} of {}", count, count == 1 ? "" : "s", of));
+    };
+    note_sets(points, "points");
+    note_sets(lines, "lines");
     if (has_more_colors) losses.emplace_back("further vertex colours");
     if (has_second_uv) losses.emplace_back("further texture coordinates");
     if (has_other_attributes) losses.emplace_back("attributes of vertices of its own");
@@ -172,7 +174,8 @@ std::vector<std::string> losses_of(const Json& json) {
         unknown.push_back(fmt::format("{} more", more));
     }
     if (!unknown.empty())
-        losses.push_back(fmt::format("the extension{} {}", unknown.size() == 1 ? "" : "s", listed(unknown)));
+        losses.emplace_back(
+            fmt::format("the extension{} {}", unknown.size() == 1 ? "" : "s", listed(unknown)));
     return losses;
 }
 
@@ -253,7 +256,7 @@ Json meshes_of(const Json& json) {
     for (const Json& mesh : array_of(json, "meshes")) {
         Json primitives = Json::array();
         for (const Json& primitive : array_of(mesh, "primitives")) {
-            Json copy = only(primitive, {"attributes", "indices", "mode"});
+            Json copy = only(primitive, {"attributes", "indices", "mode", "material"});
             if (copy.is_object() && copy.contains("attributes"))
                 copy["attributes"] =
                     only(copy["attributes"], {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"});
@@ -299,7 +302,13 @@ Geometry geometry_of(std::string_view text, bool has_binary) {
                {"bufferView", "byteOffset", "componentType", "normalized", "count", "type", "sparse"}));
     set("bufferViews", copies(json, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"}));
     set("buffers", buffers_of(json, has_binary));
-    return {result.dump(), losses_of(json)};
+    std::vector<std::string> materials;
+    for (const Json& material : array_of(json, "materials")) {
+        const auto name = material.is_object() ? material.find("name") : material.end();
+        const bool has_name = material.is_object() && name != material.end() && name->is_string();
+        materials.push_back(has_name ? name->get<std::string>() : "");
+    }
+    return {result.dump(), losses_of(json), std::move(materials)};
 }
 
 }  // namespace mesh::gltf

@@ -5,11 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include "surface.h"
+
 namespace mesh::gltf {
 
 struct Geometry {
-    std::string json;                 // nothing but what triangles depend on
-    std::vector<std::string> losses;  // what else there is
+    std::string json;                    // nothing but what triangles depend on
+    std::vector<Loss> losses;            // what else there is
+    std::vector<std::string> materials;  // their names, in order; empty where one has none
 };
 
 /// Refuses what is no JSON, is nested too deeply, or needs an extension that we do not read. `has_binary`:

@@ -20,6 +20,7 @@
 #include "derivatives.h"
 #include "file_bytes.h"
 #include "orientation.h"
+#include "part.h"
 #include "readers.h"
 #include "surface.h"
 
@@ -32,6 +33,8 @@ struct MeshShape {
     float crease_angle;  // radians
     std::int32_t allow_outside;
     std::int32_t vertex_colors;
+    const char* part;
+    std::int32_t appearance_imported;
 };
 
 enum class Format { obj, ply, stl, gltf };
@@ -104,7 +107,9 @@ class FileMesh final : public candela::Shape {
         : file_(shape.file != nullptr ? shape.file : ""),
           crease_angle_(shape.crease_angle),
           reach_(shape.allow_outside != 0 ? mesh::Reach::anywhere : mesh::Reach::its_folder),
-          uses_colors_(shape.vertex_colors != 0) {}
+          uses_colors_(shape.vertex_colors != 0),
+          part_(shape.part != nullptr ? shape.part : ""),
+          appearance_imported_(shape.appearance_imported != 0) {}
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         try {
@@ -124,8 +129,13 @@ class FileMesh final : public candela::Shape {
         if (!uses_colors_ || !request.color) surface.color = {};
         mesh::Corners corners(surface);
         sink.progress(k_joined);
-        const mesh::OpenEdges open = mesh::open_edges(surface, corners);
+        mesh::OpenEdges open = mesh::open_edges(surface, corners);
         if (mesh::turn_outwards(surface, corners, open)) corners = mesh::Corners(surface);
+        if (!part_.empty()) {
+            mesh::keep_part(surface, part_);
+            corners = mesh::Corners(surface);
+            open = mesh::open_edges(surface, corners);
+        }
         sink.progress(k_oriented);
         mesh::SplitVertices split;
         if (!has_all_normals(surface)) split = mesh::split_at_creases(surface, corners, crease_angle_);
@@ -156,10 +166,12 @@ class FileMesh final : public candela::Shape {
         std::ranges::copy(indices, to.indices.begin());
         if (layout.has_smooth_groups) std::ranges::copy(split.group, to.smooth_group.begin());
         if (layout.has_derivatives && layout.has_uv) derivatives_from_uv(to, layout.vertices);
-        if (!surface.losses.empty())
-            sink.warn(
-                fmt::format("'{}' also has {}, which {} left out", file_, mesh::listed(surface.losses),
-                            surface.losses.size() == 1 && !surface.losses[0].ends_with('s') ? "is" : "are"));
+        std::vector<std::string> losses;
+        for (const mesh::Loss& loss : surface.losses)
+            if (!loss.appearance || !appearance_imported_) losses.push_back(loss.text);
+        if (!losses.empty())
+            sink.warn(fmt::format("'{}' also has {}, which {} left out", file_, mesh::listed(losses),
+                                  losses.size() == 1 && !losses[0].ends_with('s') ? "is" : "are"));
         for (const std::string& note : surface.notes) sink.warn(fmt::format("'{}' {}", file_, note));
     }
 
@@ -184,6 +196,8 @@ class FileMesh final : public candela::Shape {
     double crease_angle_;
     mesh::Reach reach_;
     bool uses_colors_;
+    std::string part_;
+    bool appearance_imported_;
 };
 
 constexpr auto k_fields = fields(
@@ -196,7 +210,16 @@ constexpr auto k_fields = fields(
             "whether a glTF file may name buffers outside its folder"),
     boolean(
         &MeshShape::vertex_colors, "vertex_colors", true,
-        "whether the colours of the file's vertices, where it has them, are multiplied with the object's"));
+        "whether the colours of the file's vertices, where it has them, are multiplied with the object's"),
+    Field<MeshShape>{.spec = {.name = "part",
+                              .type = candela::ParamType::text,
+                              .meaning = "only the triangles with the file's material of this name, or of "
+                                         "this number, such as #0; (none): those without one; empty: all",
+                              .default_value = {.text = ""}},
+                     .text = &MeshShape::part},
+    boolean(&MeshShape::appearance_imported, "appearance_imported", false,
+            "whether the scene has the file's materials, textures, lights and cameras in its own words, as "
+            "candela import writes it, so that they are left out without a warning"));
 
 }  // namespace
 

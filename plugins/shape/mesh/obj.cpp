@@ -2,7 +2,9 @@
 
 #include <array>
 #include <boost/unordered/unordered_flat_map.hpp>
+#include <functional>
 #include <map>
+#include <optional>
 
 #include "polygons.h"
 #include "readers.h"
@@ -66,7 +68,7 @@ class Reader {
         } else if (keyword == "s") {
             smoothing_group();
         } else if (keyword == "mtllib" || keyword == "usemtl") {
-            if (keyword == "usemtl") ++losses_["use of a material"];
+            if (keyword == "usemtl") use_material();
             if (keyword == "mtllib") ++losses_["material library"];
         } else if (keyword == "l") {
             ++losses_["line"];
@@ -122,7 +124,11 @@ class Reader {
         }
         polygons_.end_face();
         corners_.resize(polygons_.corners.size());
-        if (smoothing_.size() < polygons_.ends.size()) smoothing_.push_back(group_);
+        if (smoothing_.size() == polygons_.ends.size()) return;
+        smoothing_.push_back(group_);
+        if (!material_) material_ = number_of(k_no_material);
+        const std::size_t before = polygons_.ends.size() < 2 ? 0 : *(polygons_.ends.end() - 2);
+        surface_.material.resize(surface_.material.size() + polygons_.ends.back() - before - 2, *material_);
     }
 
     /// Counts from 1, or backwards from the last one listed so far.
@@ -140,6 +146,21 @@ class Reader {
         Highest& highest = highest_[part];
         if (highest.line == 0 || result > highest.index) highest = {result, scanner_.line()};
         return result;
+    }
+
+    void use_material() {
+        ++losses_["use of a material"];
+        std::string name;
+        for (std::string_view word = next(); !word.empty(); word = next())
+            name.append(name.empty() ? "" : " ").append(word);
+        material_ = number_of(name.empty() ? k_no_material : name);
+    }
+
+    std::uint32_t number_of(const std::string& material) {
+        const auto [known, is_new] =
+            materials_.try_emplace(material, static_cast<std::uint32_t>(surface_.materials.size()));
+        if (is_new) surface_.materials.push_back(material);
+        return known->second;
     }
 
     void smoothing_group() {
@@ -245,23 +266,23 @@ class Reader {
         if (unknown_ > 0 && polygons_.ends.empty())
             throw BadFile(fmt::format("is no OBJ file: {} begins no statement", first_unknown_));
         if (unknown_ > 0)
-            surface_.losses.push_back(fmt::format("{} that no OBJ file has, such as {}",
-                                                  counted(unknown_, "statement"), first_unknown_));
+            surface_.losses.emplace_back(fmt::format("{} that no OBJ file has, such as {}",
+                                                     counted(unknown_, "statement"), first_unknown_));
         for (const auto& [what, count] : losses_) {
             if (what == "use of a material") {
-                surface_.losses.push_back(count == 1 ? "a use of a material"
-                                                     : fmt::format("{} uses of materials", count));
+                surface_.losses.emplace_back(
+                    count == 1 ? "a use of a material" : fmt::format("{} uses of materials", count), true);
             } else if (what == "weight of a vertex") {
                 surface_.losses.emplace_back("weights of vertices");
             } else if (what == "material library") {
-                surface_.losses.push_back(count == 1 ? "a material library"
-                                                     : fmt::format("{} material libraries", count));
+                surface_.losses.emplace_back(
+                    count == 1 ? "a material library" : fmt::format("{} material libraries", count), true);
             } else if (what == "list of points") {
                 surface_.losses.emplace_back("points");
             } else if (what == "free-form curve or surface") {
                 surface_.losses.emplace_back("free-form curves and surfaces");
             } else {
-                surface_.losses.push_back(counted(count, what));
+                surface_.losses.emplace_back(counted(count, what));
             }
         }
     }
@@ -275,6 +296,8 @@ class Reader {
     std::vector<std::uint32_t> smoothing_;  // per face
     std::array<Highest, 3> highest_{};
     std::uint32_t group_ = k_flat;
+    std::map<std::string, std::uint32_t, std::less<>> materials_;  // their numbers
+    std::optional<std::uint32_t> material_;
     bool has_smoothing_ = false;
     std::map<std::string, std::uint64_t> losses_;
     std::uint64_t unknown_ = 0;

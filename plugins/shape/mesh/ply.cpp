@@ -103,8 +103,8 @@ class Reader {
                 }
             } else {
                 if (element.count > 0)
-                    surface_.losses.push_back(counted(element.count, "element") + " " +
-                                              in_quotes(element.name));
+                    surface_.losses.emplace_back(counted(element.count, "element") + " " +
+                                                 in_quotes(element.name));
                 skip(values, element);
             }
         }
@@ -213,7 +213,7 @@ class Reader {
             if (!is_color) others.push_back(in_quotes(name));
         }
         if (element.count == 0) return;
-        if (has_colors) surface_.losses.push_back(fmt::format("{} colours", whose));
+        if (has_colors) surface_.losses.emplace_back(fmt::format("{} colours", whose));
         constexpr std::size_t k_most_named = 5;
         if (others.size() > k_most_named) {
             const std::size_t more = others.size() - k_most_named;
@@ -221,7 +221,7 @@ class Reader {
             others.push_back(fmt::format("{} more", more));
         }
         if (!others.empty())
-            surface_.losses.push_back(
+            surface_.losses.emplace_back(
                 fmt::format("the {} propert{} {}", whose, others.size() == 1 ? "y" : "ies", listed(others)));
     }
 

@@ -192,7 +192,7 @@ void triangulate(const Polygons& polygons, std::span<const std::uint32_t> smooth
         begin = end;
     }
     if (polygons.too_small > 0)
-        surface.losses.push_back(counted(polygons.too_small, "face") + " of fewer than three corners");
+        surface.losses.emplace_back(counted(polygons.too_small, "face") + " of fewer than three corners");
 }
 
 }  // namespace mesh

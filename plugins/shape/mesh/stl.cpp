@@ -80,7 +80,7 @@ Surface read_binary(std::string_view bytes) {
     });
     if (has_attributes) surface.losses.emplace_back("attributes of facets, such as colours");
     const std::size_t rest = bytes.size() - k_header - facets * k_facet;
-    if (rest > 0) surface.losses.push_back(counted(rest, "byte") + " after the last facet");
+    if (rest > 0) surface.losses.emplace_back(counted(rest, "byte") + " after the last facet");
     return surface;
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mesh {
@@ -56,6 +57,17 @@ inline constexpr std::uint32_t k_by_angle = 0xffff'ffffu;
 /// A triangle that shares no normal with any other: `s off`.
 inline constexpr std::uint32_t k_flat = 0;
 
+/// Something that a file has and a mesh leaves out.
+struct Loss {
+    /// `what`, as the object of a verb: "2 materials". `is_appearance`: it is about how the triangles are
+    /// coloured and lit, which a scene can say in words of its own.
+    Loss(std::string what, bool is_appearance = false)  // NOLINT(google-explicit-constructor)
+        : text(std::move(what)), appearance(is_appearance) {}
+
+    std::string text;
+    bool appearance;
+};
+
 /// The triangles of a file, in the file's own vertices. Object space.
 struct Surface {
     Vectors position;              // per vertex
@@ -68,11 +80,16 @@ struct Surface {
 
     bool is_color_linear = false;  // else encoded as colours of scenes are
 
-    std::vector<std::string> losses;  // what is left out, as objects of the verb: "2 materials"
-    std::vector<std::string> notes;   // what was found strange, as whole predicates of the file's name
+    std::vector<std::uint32_t> material;  // per triangle: one of the materials; or empty
+    std::vector<std::string> materials;   // their names; k_no_material is that of triangles without one
+
+    std::vector<Loss> losses;
+    std::vector<std::string> notes;  // what was found strange, as whole predicates of the file's name
 
     std::size_t triangles() const { return indices.size() / 3; }
 };
+
+inline constexpr const char* k_no_material = "(none)";
 
 /// A file is not what its format demands; the sentence does not name it.
 struct BadFile : std::runtime_error {

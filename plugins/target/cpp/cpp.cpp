@@ -16,8 +16,10 @@
 #include "candela/target/kernels.h"
 #include "candela/target/literals.h"
 #include "candela/target/text_template.h"
+#include "candela/target/textures.h"
 #include "candela/target_plugin.h"
 #include "objects.h"
+#include "textures.h"
 #include "vectors.h"
 
 CANDELA_EMBED(candela_cpp_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
@@ -33,15 +35,17 @@ namespace {
 
 class CppWriter {
   public:
-    explicit CppWriter(const ExportedScene& scene) : scene_(scene), objects_(scene) {}
+    explicit CppWriter(const ExportedScene& scene)
+        : scene_(scene), objects_(scene), textures_(textures_of(scene)) {}
 
     std::string run() {
         require_different_names(scene_);
         const std::string text = candela_cpp_scene;
         const std::string glue = lights() + loops() + reflection() + shading() + if_triangles(k_triangle_of) +
-                                 objects_.shapes() + objects_.statements() + text;
+                                 textures_.declarations + textures_.seen + objects_.shapes() +
+                                 objects_.statements() + text;
         std::string kernels = model_kernels();
-        const std::string library = vectors_for(kernels);
+        const std::string library = vectors_for(kernels + textures_.declarations);
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
         const bool has_tables = !scene_.tables.empty() || is_spoken_of("Table", without_comments(kernels));
         const std::string vectors = needed_parts(library, kernels + glue);
@@ -95,10 +99,14 @@ class CppWriter {
              {"MESH_COLOR", if_colors("    std::vector<vec3> color;          // per vertex, which the "
                                       "object's is multiplied with, or "
                                       "empty\n")},
-             {"COLOR_PARAMETER", if_colors(", vec3 vertex_color")},
-             {"TIMES_COLOR", if_colors(" * vertex_color")},
-             {"COLOR_WITHIN", if_colors(", m.color.empty() ? vec3(1.0f) : blend(m.color, m, triangle, b)")},
-             {"COLOR_AT_VERTEX", if_colors(", o.mesh.color.empty() ? vec3(1.0f) : o.mesh.color[v]")},
+             {"TEXTURES", textures_.declarations},
+             {"TEXTURE_SEEN", textures_.seen},
+             {"TINT_PARAMETER", tint().empty() ? "" : ", vec3 tint"},
+             {"TIMES_TINT", tint().empty() ? "" : " * tint"},
+             {"TINT_WITHIN", tint("(m.color.empty() ? vec3(1.0f) : blend(m.color, m, triangle, b))",
+                                  "texture_within(o, triangle, b)")},
+             {"TINT_AT_VERTEX",
+              tint("(o.mesh.color.empty() ? vec3(1.0f) : o.mesh.color[v])", "texture_at_vertex(o, v)")},
              {"TRIANGLE_OF", if_triangles(k_triangle_of)},
              {"TRIANGLE_PARAMETER", if_triangles(", const Triangle& triangle")},
              {"TRIANGLE_ARGUMENT", if_triangles(", triangle")},
@@ -132,6 +140,14 @@ class CppWriter {
 
     /// Likewise of colours at vertices.
     std::string if_colors(const char* text) const { return objects_.has_vertex_colors() ? text : ""; }
+
+    /// What the object's colour is multiplied with at a point, as an argument; empty in a scene without.
+    std::string tint(const char* of_vertices = "1", const char* of_texture = "1") const {
+        std::vector<const char*> factors;
+        if (objects_.has_vertex_colors()) factors.push_back(of_vertices);
+        if (!scene_.textures.empty()) factors.push_back(of_texture);
+        return factors.empty() ? "" : fmt::format(", {}", fmt::join(factors, " * "));
+    }
 
     std::string model_kernels() const {
         std::string text;
@@ -268,6 +284,7 @@ class CppWriter {
         std::string text;
         if (scene_.shadings.size() > 1) text += "    Shading shading{};\n";
         if (scene_.reflections.size() > 1) text += "    Reflection reflection{};\n";
+        if (!scene_.textures.empty()) text += "    ColorTexture texture;\n";
         const auto add = [&](const ExportedModel& model, const std::string& name) {
             if (has_parameters(model)) text += fmt::format("    {} {}{{}};\n", constants_type(model), name);
         };
@@ -427,8 +444,9 @@ class CppWriter {
                    "lists "
                    "them\");\n        }}\n"
                    "        const std::string path = argc > 1 ? argv[1] : \"scene.png\";\n"
+                   "{}"
                    "        std::vector<scene::Object> objects = scene::make_objects();\n",
-                   most) +
+                   most, scene_.textures.empty() ? "" : "        scene::look_for_textures_at(argv[0]);\n") +
                shading_argument().statements(first) + reflection_argument().statements(second) +
                "        for (scene::Object& o : objects) {\n            scene::place(o);\n            "
                "scene::find_normals(o);\n"
@@ -439,19 +457,25 @@ class CppWriter {
 
     const ExportedScene& scene_;
     CppObjects objects_;
+    TextureTexts textures_;
 };
 
 class CppTarget final : public Target {
   public:
     explicit CppTarget(const sdk::NoParams&) {}
 
-    TargetAbilities abilities() const noexcept override { return {.triangle = true, .vertex_colors = true}; }
+    TargetAbilities abilities() const noexcept override {
+        return {.triangle = true, .vertex_colors = true, .textures = true};
+    }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(), CppWriter(scene).run());
+        write_textures(scene, files);
         target::write(files, "CMakeLists.txt", candela_cpp_cmake);
         target::write(
             files, "README.md",
-            filled(candela_cpp_readme, {{"TITLE", tame(scene.title)}, {"VERSION", CANDELA_PLUGIN_VERSION}}));
+            filled(candela_cpp_readme, {{"TITLE", tame(scene.title)},
+                                        {"VERSION", CANDELA_PLUGIN_VERSION},
+                                        {"TEXTURES", scene.textures.empty() ? "" : readme_of_textures()}}));
     }
     const char* main_file() const noexcept override { return "scene.cpp"; }
     bool can_draw() const noexcept override { return true; }

@@ -65,6 +65,9 @@ void CppObjects::add_object(std::size_t index) {
     if (at.scale != Vec3{1, 1, 1}) text += fmt::format("        o.scale = {};\n", vec3_text(at.scale));
     text +=
         fmt::format("        o.color = color({});\n", list(object.color.x, object.color.y, object.color.z));
+    if (object.color_texture != ExportedObject::k_no_texture)
+        text += fmt::format("        o.texture = {{&texture_{}(), {}}};\n", object.color_texture,
+                            object.color_texture_repeats);
     if (scene_.shadings.size() > 1)
         text += fmt::format("        o.shading = Shading::{};\n",
                             shading_enumerator(scene_.shadings[object.shading]));

@@ -16,7 +16,10 @@
 #include "candela/target/glsl.h"
 #include "candela/target/literals.h"
 #include "candela/target/text_template.h"
+#include "candela/target/textures.h"
 #include "candela/target_plugin.h"
+#include "literals.h"
+#include "textures.h"
 
 CANDELA_EMBED(candela_opengl_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
 CANDELA_EMBED(candela_opengl_tables, CANDELA_SOURCE_DIR "/templates/tables.cpp");
@@ -29,13 +32,6 @@ namespace candela::opengl_target {
 using namespace target;
 
 namespace {
-
-/// A raw string literal, whose end is nowhere in the text.
-std::string raw(const std::string& text) {
-    std::string mark = "glsl";
-    while (text.find(")" + mark + "\"") != std::string::npos) mark += "_";
-    return fmt::format("R\"{0}({1}){0}\"", mark, text);
-}
 
 std::string braces(Vec3 v) {
     return fmt::format("{{{}, {}, {}}}", float_text(v.x), float_text(v.y), float_text(v.z));
@@ -78,18 +74,22 @@ class OpenGlWriter {
             {"BIND_TABLES", if_tables("        glActiveTexture(GL_TEXTURE3);\n        table_numbers();\n")},
             {"SET_TABLES",
              if_tables("        set(program, {\"table_numbers\", Uniform::whole, {3, 0, 0}});\n")},
-            {"ATTRIBUTES", sees_triangles(scene_) ? "15" : "9"},
+            {"ATTRIBUTES", is_textured()            ? "16"
+                           : sees_triangles(scene_) ? "15"
+                                                    : "9"},
             {"TRIANGLE_COMMENT", if_triangles(", and the triangle's vertices and normals")},
-            {"TRIANGLE_SIZES", if_triangles(", 3, 3, 3, 3, 3, 3")},
+            {"TRIANGLE_SIZES", is_textured() ? ", 3, 3, 3, 3, 3, 3, 4" : if_triangles(", 3, 3, 3, 3, 3, 3")},
             {"PUT_TRIANGLE", if_triangles(k_put_triangle)},
             {"OBJECTS", objects},
             {"PICTURE_FILE", std::string(picture_file_source())}};
-        values.insert(values.end(), about.begin(), about.end());
+        for (const Values& more : {about, texture_values(scene_, glsl.texture)})
+            values.insert(values.end(), more.begin(), more.end());
         write(files, "scene.cpp", filled(candela_opengl_scene, values));
         write(files, "meshes.h",
               filled(candela_opengl_meshes, {{"VERSION", CANDELA_PLUGIN_VERSION}, {"ARRAYS", arrays_}}));
         write(files, "CMakeLists.txt", candela_opengl_cmake);
         write(files, "README.md", filled(candela_opengl_readme, about));
+        write_textures(scene_, files);
     }
 
   private:
@@ -99,6 +99,7 @@ class OpenGlWriter {
         "                put(12 + corner, vector(mesh.normals[normals], v[corner]));\n"
         "            }\n";
     const char* if_triangles(const char* text) const { return sees_triangles(scene_) ? text : ""; }
+    bool is_textured() const { return !scene_.textures.empty(); }
 
     template <class Model, class RateOf>
     static std::string models(std::span<const Model> all, const std::vector<std::string>& glsl,
@@ -230,10 +231,11 @@ class OpenGlWriter {
     std::string object_text(std::size_t index) {
         const ExportedObject& object = scene_.objects[index];
         const bool is_closed = add_arrays(index);
-        return fmt::format("    {{\"{}\", {}, {}, {},\n     {},\n     {},\n     {}, object_{}()}},\n",
+        return fmt::format("    {{\"{}\", {}, {}, {},\n     {},\n     {},\n     {}, object_{}(){}}},\n",
                            tame(object.label), braces(decoded(object.color, encoding_)), object.shading,
                            object.reflection, all_uniforms(scene_.reflections, object.materials),
-                           all_uniforms(scene_.shadings, object.shadings), is_closed, index);
+                           all_uniforms(scene_.shadings, object.shadings), is_closed, index,
+                           texture_members(scene_, object));
     }
 
     /// Returns whether the object is closed.
@@ -279,7 +281,9 @@ class OpenGlTarget final : public Target {
   public:
     explicit OpenGlTarget(const sdk::NoParams&) {}
 
-    TargetAbilities abilities() const noexcept override { return {.triangle = true, .vertex_colors = true}; }
+    TargetAbilities abilities() const noexcept override {
+        return {.triangle = true, .vertex_colors = true, .textures = true};
+    }
     void write(const ExportedScene& scene, FileSink& files) const override { OpenGlWriter(scene).run(files); }
     const char* main_file() const noexcept override { return "scene.cpp"; }
     bool can_draw() const noexcept override { return true; }

@@ -6,16 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "candela/target/building.h"
+#include "candela/target/files.h"
 #include "candela/target/literals.h"
 
 namespace candela::webgl_target {
@@ -51,41 +49,13 @@ std::optional<std::string> content_of(const std::string& html, const std::string
     return html.substr(begin, html.find("</pre>", begin) - begin);
 }
 
-/// A new folder for a browser's settings, which is gone when this is.
-class Profile {
-  public:
-    Profile() : path_((fs::temp_directory_path() / "candela-chromium-XXXXXX").string()) {
-        if (::mkdtemp(path_.data()) == nullptr)
-            throw std::runtime_error(
-                fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));
-    }
-    Profile(const Profile&) = delete;
-    Profile& operator=(const Profile&) = delete;
-    ~Profile() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    const std::string& path() const { return path_; }
-
-  private:
-    std::string path_;
-};
-
-/// Whole, or not at all.
-void write_file(const fs::path& file, const std::string& content) {
-    fs::path beside = file;
-    beside += ".part";
-    if (!(std::ofstream(beside, std::ios::binary) << content).flush())
-        throw std::runtime_error(fmt::format("'{}' cannot be written", file.string()));
-    fs::rename(beside, file);
-}
-
 }  // namespace
 
 void draw_page(const fs::path& page, const fs::path& picture, ProgramRunner& programs) {
     const char* const browser = browser_among(programs);
-    const Profile profile;
-    const std::string profile_option = "--user-data-dir=" + profile.path(), url = file_url(page) + "#verify";
+    const target::TemporaryFolder profile("candela-chromium");
+    const std::string profile_option = "--user-data-dir=" + profile.path().string(),
+                      url = file_url(page) + "#verify";
     std::vector<const char*> words = {browser,
                                       "--headless=new",
                                       "--use-angle=swiftshader",
@@ -113,7 +83,7 @@ void draw_page(const fs::path& page, const fs::path& picture, ProgramRunner& pro
         throw std::runtime_error(fmt::format("Chromium does not show the page (exit code {}):\n{}",
                                              result.exit_code, target::tail(result.err)));
     }
-    write_file(picture, target::base64_decoded(std::string_view(*data).substr(k_begin.size())));
+    target::write_whole(picture, target::base64_decoded(std::string_view(*data).substr(k_begin.size())));
 }
 
 }  // namespace candela::webgl_target

@@ -1,8 +1,13 @@
 // The page: a template, the scene as JSON, and the scripts that read it.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "candela/embed.h"
@@ -11,12 +16,15 @@
 #include "candela/target/glsl.h"
 #include "candela/target/literals.h"
 #include "candela/target/text_template.h"
+#include "candela/target/textures.h"
 #include "candela/target_plugin.h"
 #include "picture.h"
 
 CANDELA_EMBED(candela_webgl_page, CANDELA_SOURCE_DIR "/templates/page.html");
 CANDELA_EMBED(candela_webgl_style, CANDELA_SOURCE_DIR "/templates/page.css");
+CANDELA_EMBED(candela_webgl_editor_style, CANDELA_SOURCE_DIR "/templates/editor.css");
 CANDELA_EMBED(candela_webgl_lobe, CANDELA_SOURCE_DIR "/templates/lobe.glsl");
+CANDELA_EMBED(candela_webgl_codemirror, CANDELA_PAGE_CODEMIRROR);
 CANDELA_EMBED(candela_webgl_script, CANDELA_PAGE_SCRIPT);
 
 namespace candela::webgl_target {
@@ -43,7 +51,7 @@ Json value_json(const ParamSpec& p, const ParamValue& written) {
         case ParamType::choice:
             return p.choices[static_cast<std::size_t>(written.integer)];
         default:
-            return {written.number[0], written.number[1], written.number[2]};
+            return {shortest(written.number[0]), shortest(written.number[1]), shortest(written.number[2])};
     }
 }
 
@@ -86,15 +94,38 @@ Json parameter_json(const ParamSpec& p) {
             {"choices", std::move(choices)}};
 }
 
+/// Values that people choose by a name: { name, source, values, color }.
+Json preset_json(const PluginDescriptor& plugin, const PresetSpec& preset) {
+    Json values = Json::object();
+    for (const PresetValue& v : preset.values) {
+        for (const ParamSpec& p : plugin.parameters) {
+            if (std::string_view(p.name) == v.parameter && is_adjustable(p))
+                values[p.name] = value_json(p, v.value);
+        }
+    }
+    const bool has_color = preset.has_color;
+    return {{"name", preset.name},
+            {"source", preset.source},
+            {"values", std::move(values)},
+            {"color", has_color ? Json{preset.color[0], preset.color[1], preset.color[2]} : Json()}};
+}
+
 Json model_json(const ExportedModel& model, const std::string& glsl) {
     const PluginDescriptor& plugin = *model.plugin;
     Json parameters = Json::array();
     for (const ParamSpec& p : plugin.parameters) {
         if (is_adjustable(p)) parameters.push_back(parameter_json(p));
     }
-    return {
-        {"title", plugin.title},         {"summary", plugin.summary},           {"formula", plugin.formula},
-        {"reference", plugin.reference}, {"parameters", std::move(parameters)}, {"glsl", glsl}};
+    Json presets = Json::array();
+    for (const PresetSpec& preset : plugin.presets) presets.push_back(preset_json(plugin, preset));
+    return {{"title", plugin.title},
+            {"summary", plugin.summary},
+            {"formula", plugin.formula},
+            {"reference", plugin.reference},
+            {"parameters", std::move(parameters)},
+            {"presets", std::move(presets)},
+            {"kernel", plugin.kernel.text},
+            {"glsl", glsl}};
 }
 
 /// Where a light model's lights are in the table that shaders read.
@@ -169,7 +200,33 @@ Json object_json(const ExportedScene& scene, std::size_t index) {
             {"shadings", std::move(shadings)},
             {"fixed", {{"material", std::move(fixed_materials)}, {"shading", std::move(fixed_shadings)}}},
             {"closed", mesh.closed},
+            {"texture",
+             object.color_texture == ExportedObject::k_no_texture ? Json() : Json(object.color_texture)},
+            {"texture_repeats", object.color_texture_repeats},
             {"mesh", mesh_json(scene, mesh)}};
+}
+
+/// The pictures, of which the page makes the levels. Throws std::runtime_error where they are too large for a
+/// page: browsers read one of a hundred megabytes, and none of a few hundred.
+Json textures_json(const ExportedScene& scene) {
+    constexpr std::size_t k_most_bytes = std::size_t{96} << 20;
+    Json textures = Json::array();
+    std::size_t bytes = 0;
+    for (const ExportedTexture& texture : scene.textures) {
+        const TexturePixels pixels = pixels_of(texture, scene.image.color_management);
+        bytes += pixels.bytes.size();
+        if (bytes > k_most_bytes)
+            throw std::runtime_error(fmt::format(
+                "the scene's textures take more than {} MiB, for which a page has no room; make them "
+                "smaller (the first that is too much is '{}', {} x {} pixels of {} bits)",
+                k_most_bytes >> 20, texture.file, pixels.width, pixels.height, pixels.is_encoded ? 24 : 48));
+        textures.push_back({{"title", title_of(texture)},
+                            {"width", pixels.width},
+                            {"height", pixels.height},
+                            {"encoded", pixels.is_encoded},
+                            {"pixels", base64(pixels.bytes)}});
+    }
+    return textures;
 }
 
 Json image_json(const ExportedImage& image) {
@@ -227,8 +284,11 @@ Json scene_json(const ExportedScene& scene) {
             {"candela", CANDELA_PLUGIN_VERSION},
             {"image", image_json(scene.image)},
             {"observer", observer_json(scene.observer)},
+            {"room", vector_json(scene.room)},
             {"shaders",
              {{"prelude", glsl.prelude},
+              {"library", whole_glsl_prelude()},
+              {"texture", glsl.texture},
               {"lights", glsl.lights},
               {"vertex", glsl.vertex},
               {"fragment", glsl.fragment},
@@ -239,6 +299,7 @@ Json scene_json(const ExportedScene& scene) {
             {"light_table_width", k_light_table_width},
             {"tables", packed(scene.tables)},
             {"table_width", k_table_width},
+            {"textures", textures_json(scene)},
             {"lights", std::move(lights)},
             {"light_models", std::move(light_models)},
             {"reflection_models", std::move(reflections)},
@@ -253,13 +314,17 @@ class WebGlTarget final : public Target {
   public:
     explicit WebGlTarget(const sdk::NoParams&) {}
 
-    TargetAbilities abilities() const noexcept override { return {.triangle = true, .vertex_colors = true}; }
+    TargetAbilities abilities() const noexcept override {
+        return {.triangle = true, .vertex_colors = true, .textures = true};
+    }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(),
-                      filled(candela_webgl_page, {{"TITLE", html_text(scene.title)},
-                                                  {"STYLE", candela_webgl_style},
-                                                  {"SCENE", script_json(text_of(scene_json(scene)))},
-                                                  {"SCRIPT", candela_webgl_script}}));
+                      filled(candela_webgl_page,
+                             {{"TITLE", html_text(scene.title)},
+                              {"STYLE", std::string(candela_webgl_style) + candela_webgl_editor_style},
+                              {"SCENE", script_json(text_of(scene_json(scene)))},
+                              {"CODEMIRROR", candela_webgl_codemirror},
+                              {"SCRIPT", candela_webgl_script}}));
     }
     const char* main_file() const noexcept override { return "scene.html"; }
     bool can_draw() const noexcept override { return true; }

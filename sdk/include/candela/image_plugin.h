@@ -5,4 +5,5 @@
 #pragma once
 
 #include "candela/image.h"
+#include "candela/picture_rows.h"
 #include "candela/plugin.h"

@@ -292,6 +292,7 @@ struct About {
     std::span<const RelationSpec> relations{};
     std::span<const Property> properties{};
     std::span<const FileFormat> formats{};
+    std::span<const PresetSpec> presets{};
 };
 
 /// The `Params` of a plugin without parameters.
@@ -462,6 +463,7 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
             .parameters = specs,                                                              \
             .relations = about.relations,                                                     \
             .properties = about.properties,                                                   \
+            .presets = about.presets,                                                         \
             .formats = about.formats,                                                         \
             .kernel = kernel_,                                                                \
             .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* { \

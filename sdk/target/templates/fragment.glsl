@@ -29,7 +29,9 @@ void main() {
 #else
     float facing = 1.0;
 #endif
-    intensity = vec4(intensity_at(at_place, point, at_vertex_color, facing), 1.0);
+    vec3 color = at_vertex_color;
+@TEXTURE_COLOR@
+    intensity = vec4(intensity_at(at_place, point, color, facing), 1.0);
 #else
     intensity = vec4(gl_FrontFacing ? front : back, 1.0);
 #endif

@@ -3,9 +3,9 @@ uniform bool is_orthographic;
 uniform vec3 towards_observer;
 uniform vec3 object_color;
 
-// The intensity that a place of a surface sends to the observer. `vertex_color`: what the object's colour is multiplied with;
-// `facing`: -1 where an open surface is seen from behind.
-vec3 intensity_at(vec3 place, ShadingPoint point, vec3 vertex_color, float facing) {
+// The intensity that a place of a surface sends to the observer. `color`: what the object's colour is multiplied with; `facing`:
+// -1 where an open surface is seen from behind.
+vec3 intensity_at(vec3 place, ShadingPoint point, vec3 color, float facing) {
 @PREPARATION@
     Surface s;
     s.normal = facing * shading_normal(point);
@@ -14,7 +14,7 @@ vec3 intensity_at(vec3 place, ShadingPoint point, vec3 vertex_color, float facin
 #ifdef NEEDS_TANGENT
     s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, point.dpdu));
 #endif
-    s.color = object_color * vertex_color;
+    s.color = object_color * color;
     s.position = vec3(0.0);
 #ifdef NEEDS_POSITION
     s.position = place;

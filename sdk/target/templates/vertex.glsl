@@ -37,11 +37,14 @@ void main() {
     at_dpdv = dpdv;
     at_barycentric = barycentric;
     at_vertex_color = vertex_color;
+@PASS_TEXTURE@
 #else
+    vec3 color = vertex_color;
+@TEXTURE_COLOR@
     ShadingPoint point = ShadingPoint(face_normal, vertex_normal, barycentric, uv, dpdu, dpdv);
-    front = intensity_at(place, point, vertex_color, 1.0);
+    front = intensity_at(place, point, color, 1.0);
 #ifdef TWO_SIDED
-    back = intensity_at(place, point, vertex_color, -1.0);
+    back = intensity_at(place, point, color, -1.0);
 #else
     back = front;
 #endif

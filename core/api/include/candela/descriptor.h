@@ -80,6 +80,7 @@ struct PluginDescriptor {
     std::span<const ParamSpec> parameters{};
     std::span<const RelationSpec> relations{};
     std::span<const Property> properties{};
+    std::span<const PresetSpec> presets{};
     std::span<const FileFormat> formats{};  // image plugins only
     KernelText kernel{};
 

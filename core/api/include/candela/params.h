@@ -79,4 +79,20 @@ struct RelationSpec {
     const char* meaning = "";  // why, as the end of the sentence "... because "
 };
 
+/// A value of one parameter in a preset.
+struct PresetValue {
+    const char* parameter = "";
+    ParamValue value{};  // as a person writes it: degrees, colours 0-255
+};
+
+/// Values that belong together under a name, such as those of a material ("brass"), for people to choose.
+/// Parameters that it does not have stay as they are.
+struct PresetSpec {
+    const char* name = "";    // what people call it; unique within the plugin
+    const char* source = "";  // of the figures: author, year, title
+    std::span<const PresetValue> values{};
+    bool has_color = false;  // of a reflection model: the object's own colour belongs to it
+    float color[3] = {};     // 0-255
+};
+
 }  // namespace candela

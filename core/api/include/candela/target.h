@@ -8,6 +8,7 @@
 #include "candela/api.h"
 #include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/punctual.h"
 #include "candela/shading.h"
 #include "candela/transform.h"
 
@@ -45,9 +46,29 @@ struct ExportedLight {
     const char* label = "";  // as messages call it: 'lamp', in quotes, or number 2
     std::size_t model = 0;   // of ExportedScene::light_models
     ExportedValues values{};
+    bool is_data = false;  // whether it can say what it sends (Light::describe()), as follows
+    std::span<const PunctualLight> punctual{};  // a sample each
+    Rgb ambient{};                              // the part that comes from everywhere
+};
+
+/// One of a texture's levels, each half as wide and high as the one before, down to a single texel.
+struct ExportedTextureLevel {
+    int width = 0;
+    int height = 0;
+    std::span<const std::uint16_t>
+        texels{};  // red, green, blue, nothing: 65535 is an intensity of 1; rows from the top
+};
+
+/// A picture that the colours of surfaces are multiplied with. Both its levels and what lies between them are
+/// looked up as candela.texture does.
+struct ExportedTexture {
+    const char* file = "";  // its absolute path
+    std::span<const ExportedTextureLevel> levels{};
 };
 
 struct ExportedObject {
+    static constexpr std::size_t k_no_texture = static_cast<std::size_t>(-1);
+
     const char* label = "";                       // the name that its author gave it, or number 2
     Vec3 color{};                                 // 0-255
     std::size_t shading = 0;                      // its own: of ExportedScene::shadings
@@ -57,6 +78,8 @@ struct ExportedObject {
     ExportedModel shape{};
     ExportedValues shape_values{};
     Transform transform{};
+    std::size_t color_texture = k_no_texture;  // of ExportedScene::textures
+    bool color_texture_repeats = true;         // beyond its edges; else the colours there go on
 };
 
 /// Where within a pixel it is looked at, in pixels from its top left.
@@ -127,14 +150,16 @@ struct ExportedScene {
     const char* title = "";  // any text
     ExportedImage image{};
     ExportedObserver observer{};
+    Vec3 room{};  // the extent of the box around the origin that everything is in; zero: there is none
     std::span<const ExportedModel> light_models{};
     std::span<const ExportedLight> lights{};
     std::span<const ExportedShading> shadings{};        // those of the objects, then those to switch to
     std::span<const ExportedReflection> reflections{};  // likewise
     std::span<const ExportedObject> objects{};
     std::span<const float> tables{};  // the numbers of all kernels' tables, equal ones once
-    bool needs_uv = false;            // a model reads texture coordinates
-    bool needs_derivatives = false;   // a model reads partial derivatives of positions
+    std::span<const ExportedTexture> textures{};
+    bool needs_uv = false;           // a model reads texture coordinates, or an object has a texture
+    bool needs_derivatives = false;  // a model reads partial derivatives of positions
     ExportedGeometry* geometry = nullptr;
 };
 
@@ -146,6 +171,12 @@ class CANDELA_API FileSink {
     /// `name` is relative to the program's folder ("shaders/lit.glsl"), without ".."; each is written once.
     /// Throws std::exception where it is not so.
     virtual void write(const char* name, std::span<const std::byte> content) = 0;
+
+    /// Says that the files express a part of the scene only approximately, or leave it out: a sentence
+    /// without a full stop that names the part, such as "reflection/ggx becomes a highlight of the same
+    /// width". The host refuses the files unless the user accepts approximations; each sentence is said once.
+    /// Unless overridden, nothing is done.
+    virtual void approximate(const char* sentence);
 };
 
 /// What became of a program that has ended.
@@ -170,10 +201,12 @@ class CANDELA_API ProgramRunner {
 
 /// What a target can express. The host refuses a scene that needs more before write() is called.
 struct TargetAbilities {
-    bool models_without_kernel = false;  // of lights, shading and reflection; shapes always have triangles
+    bool models_without_kernel = false;  // of lights, shading and reflection; shapes always have triangles.
+                                         // Its files are not made from kernels, but have models of their own
     bool surroundings = false;           // pictures all around, and models that show what is behind an object
     bool triangle = false;               // kernels of shading models that see their triangle: ShadingNeeds
     bool vertex_colors = false;  // ExportedMesh::color; a mesh that has it is refused when it is asked for
+    bool textures = false;       // ExportedObject::color_texture
 };
 
 /// Something that a scene can be turned into: a program, a page, a file. Any thread.

@@ -2,6 +2,7 @@ module;
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 module candela.raster:binning;
 
@@ -18,9 +19,8 @@ struct Outside {
     static constexpr std::uint32_t guard = 32, nowhere = 64;
 };
 
-/// Makes the fixed-point triangles of a range of a mesh, and sorts them into tiles. `first_id`: of the mesh's
-/// first triangle.
-void bin_triangles(const ProjectedScene& scene, const Mesh& mesh, std::uint32_t first_vertex,
-                   std::uint32_t first_id, std::size_t first_triangle, std::size_t count, TriangleBin& bin);
+/// Sorts the triangles of a range of the scene into tiles.
+void bin_triangles(const ProjectedScene& scene, std::span<const Mesh* const> meshes, std::size_t first_id,
+                   std::size_t count, TriangleBin& bin);
 
 }  // namespace candela

@@ -20,8 +20,8 @@ struct SmallTriangles {
     alignas(64) float depth[k_size];                // at the first pixel
     alignas(64) float to_right[k_size], down[k_size];
 
-    /// Sets up `count` <= k_size triangles of `all`, given their indices.
-    void set_up(const RasterTriangle* all, const std::uint32_t* numbers, std::size_t count,
+    /// Sets up `count` <= k_size triangles with vertices in `screen`.
+    void set_up(const ScreenVertex* screen, const BinnedTriangle* triangles, std::size_t count,
                 int subpixel_bits);
 };
 

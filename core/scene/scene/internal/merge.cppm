@@ -28,6 +28,11 @@ std::vector<std::string> parts_of(std::string_view path);
 /// The index of the light or object with that name, or with that index from 0; nothing if there is none.
 std::optional<std::size_t> index_of(const ArrayNode& all, const std::string& which);
 
+/// Sets the value at a setting's path; false if the path leads nowhere, which is reported at `place`, and
+/// that is where the key will be said to stand.
+bool set_value(TableNode& root, std::string_view path, Node value, const SourcePlace& place,
+               Diagnostics& diagnostics);
+
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics);
 
 }  // namespace candela

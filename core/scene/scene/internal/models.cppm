@@ -17,6 +17,9 @@ import candela.validation;
 
 namespace candela {
 
+inline constexpr const char* k_default_shading = "phong";
+inline constexpr const char* k_default_reflection = "phong";
+
 /// Which shading and reflection model each object gets: the command line's, its own, the scene's, or (R12,
 /// R13) the default, if the user agrees.
 class ModelChooser {

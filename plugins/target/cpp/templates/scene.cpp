@@ -53,6 +53,7 @@ const bool k_is_perspective = @IS_PERSPECTIVE@;
 @VIEW_SIZE@
 
 @LIGHTS@
+@TEXTURES@
 // Where light is evaluated; between those places it is interpolated.
 enum class Rate { face, vertex, pixel };
 
@@ -204,12 +205,12 @@ vec3 lights_at(const Object& o, const Surface& s, const Receiver& r) {
 }
 
 // The intensity that a place of an object sends to the observer.
-vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@COLOR_PARAMETER@, bool is_back) {
+vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TINT_PARAMETER@, bool is_back) {
     Surface s;
     s.normal = (is_back ? -1.0f : 1.0f) * shading_normal(o, point@TRIANGLE_ARGUMENT@);
     s.to_observer = k_is_perspective ? normalize(k_eye - place) : -k_forward;
 @TANGENT@
-    s.color = o.color@TIMES_COLOR@;
+    s.color = o.color@TIMES_TINT@;
     Receiver r;
     r.position = place;
     r.normal = s.normal;
@@ -225,6 +226,7 @@ T blend(const std::vector<T>& values, const Mesh& mesh, int triangle, vec3 b) {
 }
 
 @TRIANGLE_OF@
+@TEXTURE_SEEN@
 vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back) {
     const Mesh& m = o.mesh;
     ShadingPoint p;
@@ -234,7 +236,7 @@ vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back) {
     p.uv = blend(m.uv, m, triangle, b);
     p.dpdu = blend(m.dpdu, m, triangle, b);
     p.dpdv = blend(m.dpdv, m, triangle, b);
-    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@COLOR_WITHIN@, is_back);
+    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TINT_WITHIN@, is_back);
 }
 
 vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back) {
@@ -245,7 +247,7 @@ vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back) {
     p.uv = o.mesh.uv.empty() ? vec2(0.0f) : o.mesh.uv[v];
     p.dpdu = at(o.mesh.dpdu);
     p.dpdv = at(o.mesh.dpdv);
-    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@COLOR_AT_VERTEX@, is_back);
+    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@TINT_AT_VERTEX@, is_back);
 }
 
 vec3 intensity_seen(const Object& o, const Seen& seen) {

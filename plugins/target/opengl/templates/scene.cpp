@@ -37,6 +37,7 @@ namespace {
 
 const std::string k_header = "#version 330 core\n";
 const std::string k_prelude = @PRELUDE@;
+@TEXTURE_SHADER@
 const std::string k_lights = @LIGHTS@;
 const std::string k_vertex = @VERTEX@;
 const std::string k_fragment = @FRAGMENT@;
@@ -78,6 +79,7 @@ struct Object {
     std::vector<std::vector<Uniform>> materials, shadings;  // for each model
     bool is_closed;                                         // else it is seen, and lit, from both sides
     MeshArrays mesh;
+@TEXTURE_MEMBERS@
 };
 
 const int k_width = @WIDTH@, k_height = @HEIGHT@;
@@ -232,6 +234,7 @@ GLuint data_texture(GLint format, std::size_t width, std::size_t height, GLenum 
 }
 
 @TABLES@
+@TEXTURES@
 // The lights' values as a texture that shaders read, a texel each, in rows of this width.
 GLuint light_table() {
     const std::size_t width = @LIGHT_TABLE_WIDTH@, height = k_light_values.size() / width + 1;
@@ -281,6 +284,7 @@ Buffers upload(const MeshArrays& mesh, std::size_t normals, Rate rate) {
             put(7, barycentric);
             put(8, mesh.color == nullptr ? vec3{1, 1, 1} : at(mesh.color, k));
 @PUT_TRIANGLE@
+@PUT_TEXTURE@
             for (std::size_t i = 0; i < 2; ++i) {
                 const auto uv = [&](std::size_t vertex) { return mesh.uv == nullptr ? 0.0f : mesh.uv[2 * vertex + i]; };
                 all[4].push_back(rate == Rate::face ? (uv(v[0]) + uv(v[1]) + uv(v[2])) / 3 : uv(v[k]));
@@ -292,6 +296,7 @@ Buffers upload(const MeshArrays& mesh, std::size_t normals, Rate rate) {
     glGenVertexArrays(1, &buffers.array);
     glBindVertexArray(buffers.array);
     for (std::size_t i = 0; i < all.size(); ++i) {
+@SKIP_ABSENT@
         GLuint buffer = 0;
         glGenBuffers(1, &buffer);
         glBindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -342,6 +347,7 @@ class Renderer {
         glActiveTexture(GL_TEXTURE2);  // passes over the screen have the first two
         light_table();
 @BIND_TABLES@
+@LOAD_TEXTURES@
         glActiveTexture(GL_TEXTURE0);
     }
 
@@ -392,7 +398,7 @@ class Renderer {
             const Object& object = k_objects[i];
             const std::size_t shading = choice.shading < 0 ? object.shading : static_cast<std::size_t>(choice.shading);
             const std::size_t reflection = choice.reflection < 0 ? object.reflection : static_cast<std::size_t>(choice.reflection);
-            const GLuint program = program_for(shading, reflection, object.is_closed);
+            const GLuint program = program_for(object, shading, reflection);
             glUseProgram(program);
             glUniformMatrix4fv(glGetUniformLocation(program, "view_projection"), 1, GL_FALSE, matrix.data());
             set(program, {"near", Uniform::real, {near, 0, 0}});
@@ -402,6 +408,7 @@ class Renderer {
             set(program, {"object_color", Uniform::vector, object.color});
             for (const Uniform& u : object.materials[reflection]) set(program, u, "material.");
             for (const Uniform& u : object.shadings[shading]) set(program, u, "shading.");
+@BIND_TEXTURE@
             (object.is_closed ? glEnable : glDisable)(GL_CULL_FACE);
             const Buffers& buffers = buffers_for(i, shading);
             glBindVertexArray(buffers.array);
@@ -425,10 +432,10 @@ class Renderer {
         glDrawArrays(GL_TRIANGLES, 0, 3);
     }
 
-    GLuint program_for(std::size_t shading, std::size_t reflection, bool is_closed) {
-        GLuint& program = programs_[{shading, reflection, is_closed}];
+    GLuint program_for(const Object& object, std::size_t shading, std::size_t reflection) {
+        GLuint& program = programs_[{shading, reflection, object.is_closed@IS_TEXTURED@}];
         if (program != 0) return program;
-        const std::string common = k_header + (is_closed ? "" : "#define TWO_SIDED\n") + k_prelude + k_lights +
+        const std::string common = k_header + (object.is_closed ? "" : "#define TWO_SIDED\n") + k_prelude +@TEXTURE_TEXT@ k_lights +
                                    k_reflections[reflection].glsl + k_shadings[shading].glsl;
         program = linked(common + k_vertex, common + k_fragment);
         glUseProgram(program);
@@ -449,7 +456,8 @@ class Renderer {
     int width_ = 0, height_ = 0;
     Canvas picture_;
     std::array<Canvas, 2> sums_;
-    std::map<std::tuple<std::size_t, std::size_t, bool>, GLuint> programs_;
+    std::map<std::tuple<std::size_t, std::size_t, bool@TEXTURED_KEY@>, GLuint> programs_;
+@TEXTURES_HELD@
     std::map<std::pair<std::size_t, std::size_t>, Buffers> buffers_;
 };
 
@@ -650,6 +658,7 @@ void run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
     try {
+@FIND_TEXTURES@
         run({argv + 1, argv + argc});
         return 0;
     } catch (const std::exception& problem) {

@@ -70,6 +70,7 @@ export function appearanceOf(settings) {
         const shadingModel = scene.shading_models[shading];
         return {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
+            isTextured: object.texture !== null,
             uniforms: [
                 ["object_color", toUniform(COLOR, settings.get(`object.${i}.color`), isSrgb)],
                 ...materialUniforms(settings, i, reflection),

@@ -56,6 +56,12 @@ export function viewProjection(observer, bounds, width, height, offset) {
     return new Float32Array([0, 1, 2, 3].flatMap((i) => [x[i], y[i], z[i], w[i]]));
 }
 
+/** How far apart the lines of sight of two pixels, one beside the other, are: in metres, at a distance of 1 in perspective. */
+export function pixelSize(observer, height) {
+    const whole = observer.projection === "orthographic" ? observer.height : 2 * Math.tan((observer.fov * Math.PI) / 360);
+    return whole / height;
+}
+
 /** The observer turned around what it looks at, by angles in radians; it stops short of the poles. */
 export function orbit(observer, azimuth, elevation) {
     const pole = normalize(observer.up);

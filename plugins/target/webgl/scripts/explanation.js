@@ -1,5 +1,6 @@
 import { arrowLayer, drawArrows } from "./arrows.js";
 import { element, isolated, newId } from "./elements.js";
+import { encodingAt, formulaAt, sumAt } from "./formula_numbers.js";
 import { Lobes } from "./lobes.js";
 import { announce } from "./messages.js";
 import { queryOf } from "./options.js";
@@ -106,7 +107,7 @@ export class Explanation {
 
     show(explanation) {
         const { bytes, fragments } = explanation, [x, y] = explanation.pixel;
-        this.result.replaceChildren(element("p", {}, `Pixel ${x}, ${y}: `, element("b", { class: "bytes" }, bytes.join(", "))), this.pixelTable(explanation));
+        this.result.replaceChildren(element("p", {}, `Pixel ${x}, ${y}: `, element("b", { class: "bytes" }, bytes.join(", "))), this.pixelTable(explanation), encodingAt(explanation));
         if (explanation.note) this.result.append(element("p", { class: "reference" }, explanation.note));
         const shown = element("div");
         if (fragments.length === 0) this.result.append(element("p", {}, "No object is seen here: this is the background."));
@@ -142,7 +143,7 @@ export class Explanation {
         const choice = this.choice("Light", point.lights.map(name), (i) => shown.replaceChildren(...this.lightParts(fragment, point, point.lights[i])));
         const sums = table("Of all lights", ["red", "green", "blue"], ["I_a", "I_d", "I_s", "I"].map((sum) => row(sum, ...point[sum].map(number))));
         if (point.lights.length === 0) this.drawVectors(point, vectorsOf(point, {}));
-        return [steps("How N is found", point.normal_steps), ...choice, shown, sums].filter((part) => part !== null);
+        return [steps("How N is found", point.normal_steps), ...choice, shown, sumAt(point), sums].filter((part) => part !== null);
     }
 
     lightParts(fragment, point, light) {
@@ -153,12 +154,28 @@ export class Explanation {
             table("Unit vectors", ["x", "y", "z"], vectors.map(([name, vector]) => row(name, ...vector.map(number)))),
             ...this.lobes.parts(fragment.index, point, light),
             element("p", {}, `C_o = ${numbers(point.C_o)}`),
+            ...this.formulas(fragment.index, point, light),
             "N.L" in light ? element("p", {}, `N·L = ${number(light["N.L"])}`) : null,
             table(`Of ${nameOf(light.light)}`, ["red", "green", "blue"],
                 [...arriving, ...["I_a", "I_d", "I_s"].map((sum) => [sum, light[sum]])].map(([name, values]) => row(name, ...values.map(number)))),
             steps(`What ${light.type} sends, step by step`, light.light_steps),
             steps(`What ${light.reflection} reflects, step by step`, light.reflection_steps),
         ].filter((part) => part !== null);
+    }
+
+    /** The formulas of the light and of the reflection, with this point's numbers. */
+    formulas(index, point, light) {
+        const { settings } = this, { scene } = settings;
+        const valuesOf = (model, prefix) => Object.fromEntries(model.parameters.map(({ name }) => prefix + name)
+            .filter((path) => settings.find(path) !== null).map((path) => [path.slice(prefix.length), settings.get(path)]));
+        const reflection = settings.modelOf(scene.objects[index], "reflection"), named = scene.lights.filter(({ label }) => label === light.light);
+        const models = [[scene.reflection_models[reflection], `object.${index}.material.${reflection}.`, light.reflection_steps]];
+        // Of two lights of one name, nobody knows which it is.
+        if (named.length === 1) models.unshift([scene.light_models[named[0].model], `light.${scene.lights.indexOf(named[0])}.value.`, light.light_steps]);
+        return models.flatMap(([model, prefix, done]) => {
+            const formula = formulaAt(model, point, light, valuesOf(model, prefix), done);
+            return formula === null ? [] : [element("h3", {}, `${model.title} here`), formula];
+        });
     }
 
     drawVectors(point, vectors) {

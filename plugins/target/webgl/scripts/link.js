@@ -1,5 +1,6 @@
 import { decodeTextFromUrl, encodeTextForUrl } from "./base64.js";
 import { validateObserver } from "./camera.js";
+import { panesLast } from "./settings.js";
 import { validateValue } from "./validation.js";
 
 const PREFIX = "#s=";
@@ -37,7 +38,7 @@ export function restoreSettings(settings, fragment) {
     // The observer is validated as a whole, since one value may only be valid together with the next.
     const observer = { ...settings.observer() };
     let refused = 0;
-    for (const [path, value] of entries) {
+    for (const [path, value] of panesLast(entries)) {
         const found = settings.find(path);
         if (found === null || validateValue(found.parameter, value) !== null) refused += 1;
         else if (path.startsWith("observer.")) observer[path.slice("observer.".length)] = value;

@@ -1,6 +1,7 @@
 import { announce, showNotice, showSceneProblems } from "./messages.js";
 import { readSceneFrom } from "./scene.js";
 
+const RETRY_MS = 1000;
 const ENDED = "candela view has ended, or cannot be reached; this is the last picture.";
 
 /** The scene of another generation of this page, from the server of this one. */
@@ -12,20 +13,24 @@ async function fetchScene(generation) {
     return { scene: readSceneFrom(await response.text()), generation: newest };
 }
 
+/** Whether `candela view` serves the page: the address then says of which generation it is. */
+export const isServed = () => new URLSearchParams(location.search).has("live");
+
 /**
- * Keeps the page up to date where `candela view` serves it: the address then says of which generation the page is. `show`
- * takes a scene. Without a server, nothing happens, and the result is false.
+ * Keeps the page up to date where `candela view` serves it. `show` takes a scene. Without a server, nothing happens, and the result is false.
  */
 export function followScene(show, onError) {
-    const parameters = new URLSearchParams(location.search);
-    if (!parameters.has("live")) return false;
-    let shown = Number(parameters.get("live")), wanted = shown, isFetching = false;
+    if (!isServed()) return false;
+    let shown = Number(new URLSearchParams(location.search).get("live")), wanted = shown, isFetching = false;
     const update = async () => {
         if (isFetching) return;
         isFetching = true;
+        let isMissing = false;
         try {
             while (wanted > shown) {
+                isMissing = true;
                 const { scene, generation } = await fetchScene(wanted);
+                isMissing = false;
                 show(scene);
                 shown = generation;
                 history.replaceState(null, "", `?live=${shown}${location.hash}`);
@@ -34,6 +39,8 @@ export function followScene(show, onError) {
             onError(null);
         } catch (error) {
             onError(error);
+            // No event may come any more that would have it fetched.
+            if (isMissing) setTimeout(update, RETRY_MS);
         } finally {
             isFetching = false;
         }

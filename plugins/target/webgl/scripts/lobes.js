@@ -33,7 +33,7 @@ export class Lobes {
     parts(index, point, light) {
         this.clear();
         const { scene } = this.settings, reflection = this.settings.modelOf(scene.objects[index], "reflection");
-        if (!light.L || !this.isKnown(reflection, point)) return [];
+        if (this.renderer() === null || !light.L || !this.isKnown(reflection, point)) return [];
         const valuesOf = (model, directions) =>
             reflectedInto(this.renderer(), model, materialUniforms(this.settings, index, model), point, light, directions).map(luminance);
         const { width, height } = scene.image, grid = hemisphere(point, light);

@@ -6,6 +6,9 @@ const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", "uv", "
     "vertex_color"];
 /** Those of shading models that see their triangle: equal ones at its three vertices. */
 const TRIANGLE_ATTRIBUTES = ["p0", "p1", "p2", "n0", "n1", "n2"];
+/** Of textured objects: how u and v change from a triangle's first vertex to the second and to the third. */
+const TEXTURE_ATTRIBUTES = ["uv_edges"];
+const SIZES = { uv: 2, uv_edges: 4 };  // all others: 3
 
 function boundsOf(positions) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -15,6 +18,9 @@ function boundsOf(positions) {
     }
     return { low, high };
 }
+
+/** The box around an object of the scene. */
+export const boxOf = ({ mesh }) => boundsOf(decodeFloats(mesh.position));
 
 function expandIndexed(values, indices, size) {
     const result = new Float32Array(indices.length * size);
@@ -39,6 +45,15 @@ function averagePerTriangle(values, size) {
 /** Each triangle's three values replaced by one of them. */
 function repeatCorner(values, corner) {
     return values.map((_, i) => values[i - (i % 9) + 3 * corner + (i % 3)]);
+}
+
+/** Of each triangle, the differences of its second and third pair to the first, at each of its vertices. */
+function edgesPerTriangle(uv) {
+    const result = new Float32Array(2 * uv.length);
+    for (let i = 0; i < uv.length; i += 6) {
+        for (let k = 0; k < 12; ++k) result[2 * i + k] = uv[i + 2 + (k % 4)] - uv[i + (k % 2)];
+    }
+    return result;
 }
 
 function faceNormals(positions) {
@@ -70,7 +85,7 @@ export class Mesh {
     }
 
     /** For each attribute the name of its buffer, or three numbers where it is the same everywhere. */
-    attributeSources(rate, normalSet, seesTriangle) {
+    attributeSources({ rate, seesTriangle, isTextured }, normalSet) {
         const { uv, dpdu, dpdv, color } = this.mesh;
         const mean = rate === "face" ? " mean" : "";
         const normals = `normals ${normalSet}${mean}`;
@@ -78,6 +93,7 @@ export class Mesh {
             [name, `${name[0] === "p" ? "position" : `normals ${normalSet}`} of ${name[1]}`]);
         return {
             ...(seesTriangle ? Object.fromEntries(triangle) : {}),
+            ...(isTextured && rate === "fragment" ? { ...Object.fromEntries(triangle.slice(0, 3)), uv_edges: "uv edges" } : {}),
             position: "position",
             place: `position${mean}`,
             vertex_normal: normals,
@@ -96,6 +112,7 @@ export class Mesh {
             return averagePerTriangle(this.bufferValues(base), base === "uv" ? 2 : 3);
         }
         if (/ of [012]$/.test(name)) return repeatCorner(this.bufferValues(name.slice(0, -" of 0".length)), Number(name.at(-1)));
+        if (name === "uv edges") return edgesPerTriangle(this.bufferValues("uv"));
         if (name === "position") return this.positions;
         if (name === "face normals") return faceNormals(this.positions);
         if (name === "barycentric") return Float32Array.from({ length: 3 * this.vertexCount }, (_, i) => (i % 9) % 4 === 0);
@@ -121,12 +138,12 @@ export class Mesh {
         const { gl } = this;
         const vertexArray = gl.createVertexArray();
         gl.bindVertexArray(vertexArray);
-        [...ATTRIBUTES, ...TRIANGLE_ATTRIBUTES].forEach((attribute, i) => {
+        [...ATTRIBUTES, ...TRIANGLE_ATTRIBUTES, ...TEXTURE_ATTRIBUTES].forEach((attribute, i) => {
             if (typeof sources[attribute] !== "string") return;
             const buffer = this.buffer(sources[attribute]);
             gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
             gl.enableVertexAttribArray(i);
-            gl.vertexAttribPointer(i, attribute === "uv" ? 2 : 3, gl.FLOAT, false, 0, 0);
+            gl.vertexAttribPointer(i, SIZES[attribute] ?? 3, gl.FLOAT, false, 0, 0);
         });
         this.vertexArrays.set(key, vertexArray);
         return vertexArray;
@@ -146,11 +163,11 @@ export class Mesh {
     }
 
     /** `rate`: how often the shading model evaluates light, per "face", "vertex" or "fragment". */
-    draw({ rate, shading, seesTriangle }) {
+    draw({ rate, shading, seesTriangle, isTextured }) {
         const { gl } = this;
         const normalSet = this.mesh.normals_of[shading];
-        const sources = this.attributeSources(rate, normalSet, seesTriangle);
-        gl.bindVertexArray(this.vertexArray(sources, `${rate} ${normalSet} ${seesTriangle}`));
+        const sources = this.attributeSources({ rate, seesTriangle, isTextured }, normalSet);
+        gl.bindVertexArray(this.vertexArray(sources, `${rate} ${normalSet} ${seesTriangle} ${isTextured}`));
         // Constant attributes are state of the context, not of the vertex array.
         ATTRIBUTES.forEach((attribute, i) => {
             if (typeof sources[attribute] !== "string") gl.vertexAttrib3f(i, ...sources[attribute]);

@@ -3,12 +3,13 @@ const tomlOf = (value) => JSON.stringify(value);
 
 /**
  * What has been changed in the page, as options of `candela render`: pairs of an option's name ("set", "shading", "reflection") and
- * its value. Values of models that are not in force have no effect, and are left out.
+ * its value. What is shown over the picture and beside it is not of the scene. Values of models that are not in force have no effect, and are left out.
  */
 export function optionsOf(settings) {
     const { scene } = settings, options = [];
     for (const [path, value] of settings.changes) {
         const [kind, index, group, ...rest] = path.split(".");
+        if (["show", "panes", "pane"].includes(kind)) continue;
         if (kind === "shading" || kind === "reflection") {
             if (value !== "") options.push([kind, value]);
         } else if (kind === "light" && group === "on") {

@@ -4,9 +4,18 @@ export function layOver(overlay, picture) {
     Object.assign(overlay.style, { left: `${box.left - around.left}px`, top: `${box.top - around.top}px`, width: `${box.width}px`, height: `${box.height}px` });
 }
 
-/** Calls `place` whenever the picture may have moved: without another size, too, when there is less room around it. */
+/**
+ * Calls `place` whenever the picture may have moved: without another size, too, when there is less room around it, and
+ * where pictures beside it come and go ("arranged", an event of the picture area). Returns what ends it.
+ */
 export function onMoved(overlay, picture, place) {
     const observer = new ResizeObserver(place);
     observer.observe(picture);
     observer.observe(overlay.parentElement);
+    const { parentElement } = overlay;
+    parentElement.addEventListener("arranged", place);
+    return () => {
+        observer.disconnect();
+        parentElement.removeEventListener("arranged", place);
+    };
 }

@@ -1,12 +1,17 @@
 import { connectActions, connectSaving, pngUrl } from "./actions.js";
 import { appearanceOf } from "./appearance.js";
 import { Controls } from "./controls.js";
+import { Display } from "./display.js";
 import { element } from "./elements.js";
 import { Explanation } from "./explanation.js";
+import { FormulaEditor } from "./formula_editor.js";
+import { unusedOf, withFormulas } from "./formulas.js";
 import { Gestures } from "./gestures.js";
 import { restoreSettings } from "./link.js";
-import { followScene } from "./live.js";
+import { CorePicture } from "./core_picture.js";
+import { followScene, isServed } from "./live.js";
 import { showError, showNotice } from "./messages.js";
+import { boxOf } from "./mesh.js";
 import { Panels } from "./panels.js";
 import { Renderer } from "./renderer.js";
 import { Reference } from "./reference.js";
@@ -17,34 +22,39 @@ import { Viewport } from "./viewport.js";
 
 /** The page, from the scene in its HTML to a picture that can be looked at and changed. */
 export class Page {
-    /** Throws where the page cannot work, for want of WebGL 2 for one. */
+    /** Throws where the page cannot work, for want of WebGL 2 for one, unless `candela view` has a picture in its place. */
     start() {
         this.scene = readScene();
         document.querySelector("h1").textContent = this.scene.title;
         document.getElementById("maker").textContent = `Made by Candela ${this.scene.candela}`;
         this.settings = new Settings(this.scene);
+        this.formulas = new Map();  // edited kernel texts, by model
         this.container = document.getElementById("viewport");
         this.canvas = document.getElementById("picture-canvas");
         const options = { alpha: false, antialias: false, depth: false, powerPreference: "high-performance" };
         this.gl = this.canvas.getContext("webgl2", options);
-        if (this.gl === null) {
+        if (this.gl === null && !isServed()) {
             throw new Error(
                 "This page needs WebGL 2, which this browser does not offer. It may be switched off in its settings, or the " +
                 "graphics driver may be too old; a current Firefox, Chrome, Edge or Safari should do.");
         }
         const isVerification = location.hash === "#verify";
         const notice = restoreSettings(this.settings, location.hash);
-        this.renderer = new Renderer(this.gl, this.scene);
-        this.renderer.prepare(appearanceOf(this.settings));
+        this.renderer = null;
+        if (this.gl !== null) {
+            this.renderer = new Renderer(this.gl, this.scene);
+            this.renderer.prepare(appearanceOf(this.settings));
+        }
         if (isVerification) this.appendPicture();
         else this.open(notice);
     }
 
-    /** Rows of RGBA bytes, from the top. */
+    /** Rows of RGBA bytes, from the top; a promise of them without WebGL 2. */
     pixels(width, height) {
         for (const size of [width, height]) {
             if (!Number.isInteger(size) || size < 1) throw new Error("A picture's width and height are whole numbers from 1.");
         }
+        if (this.renderer === null) return this.viewport.pixels(width, height);
         if (this.gl.isContextLost()) throw new Error("The graphics have been interrupted.");
         return this.renderer.pixels(appearanceOf(this.settings), width, height);
     }
@@ -60,12 +70,16 @@ export class Page {
         const { settings } = this;
         this.setProportion();
         const resetView = () => document.getElementById("reset-view").click();
-        this.controls = new Controls(settings, sliderExtent(this.scene, this.renderer.bounds));
+        this.controls = new Controls(settings, sliderExtent(this.scene, this.bounds()));
         this.panels = new Panels(settings, this.controls);
         this.panels.build();
         new Gestures(this.canvas, settings, resetView);
         connectActions(settings, async (width, height) => this.pixels(width, height));
-        this.openViewport();
+        this.display = new Display({
+            settings, picture: this.canvas, controls: this.controls, bounds: () => this.bounds(), onReset: resetView,
+            setOthers: this.renderer === null ? null : (views) => this.setOthers(views),
+        });
+        this.renderer === null ? this.openCorePicture() : this.openViewport();
         showNotice(notice);
         addEventListener("hashchange", () => showNotice(restoreSettings(settings, location.hash)));
         this.canvas.addEventListener("webglcontextlost", (event) => {
@@ -74,13 +88,15 @@ export class Page {
             showError(new Error("The graphics have been interrupted; the picture comes back when they do."));
         });
         this.canvas.addEventListener("webglcontextrestored", () => {
-            this.renderer = new Renderer(this.gl, this.scene);
+            this.renderer = new Renderer(this.gl, withFormulas(this.scene, this.formulas));
             this.openViewport();
         });
         document.body.classList.add("open");
-        if (followScene((scene) => this.show(scene), showError)) {
+        const isLive = followScene((scene) => this.show(scene), showError);
+        this.formulaEditor = this.renderer === null ? null : new FormulaEditor(this, isLive);
+        if (isLive) {
             connectSaving(settings);
-            this.reference = new Reference(settings, this.canvas, (width, height) => this.pixels(width, height));
+            if (this.renderer !== null) this.reference = new Reference(settings, this.canvas, (width, height) => this.pixels(width, height));
             this.explanation = new Explanation(settings, this.canvas, () => this.renderer);
         }
     }
@@ -94,29 +110,98 @@ export class Page {
      * not in the scene. Throws where it cannot be drawn; then everything stays as it is.
      */
     show(scene) {
-        if (this.gl.isContextLost()) throw new Error("The graphics have been interrupted.");
-        const renderer = new Renderer(this.gl, scene, this.renderer);
-        try {
-            renderer.prepare(appearanceOf(this.settings.continuedIn(scene)));
-        } catch (error) {
-            renderer.release();
-            throw error;
-        }
-        this.renderer.release();
-        Object.assign(this, { scene, renderer });
+        if (this.renderer !== null) this.replaceRenderer(scene);
+        this.scene = scene;
         document.title = scene.title;
         document.querySelector("h1").textContent = scene.title;
         this.setProportion();
         this.settings.replaceScene(scene);
-        this.controls.extent = sliderExtent(scene, renderer.bounds);
+        this.controls.extent = sliderExtent(scene, this.bounds());
         this.panels.rebuild();
-        this.viewport.use(renderer);
-        this.reference.invalidate();
+        this.viewport.use(this.renderer);
+        this.display.rebuild();
+        this.reference?.invalidate();
         this.explanation.clear();
+        this.formulaEditor?.sceneChanged();
+    }
+
+    /** By one that draws another scene. Throws where it cannot, and leaves the present one. */
+    replaceRenderer(scene) {
+        if (this.gl.isContextLost()) throw new Error("The graphics have been interrupted.");
+        const settings = this.settings.continuedIn(scene);
+        let renderer;
+        try {
+            renderer = this.rendererOf(scene, this.formulas, settings);
+        } catch (error) {
+            if (this.formulas.size === 0) throw error;
+            renderer = this.rendererOf(scene, new Map(), settings);
+            this.formulas = new Map();
+            showNotice("The edited formula does not fit the models of the scene any more; this is the scene without it.");
+        }
+        this.renderer.release();
+        this.renderer = renderer;
+    }
+
+    /** The boxes around the objects. */
+    bounds() {
+        return this.renderer?.bounds ?? this.scene.objects.map(boxOf);
+    }
+
+    openCorePicture() {
+        const { canvas, container, settings } = this;
+        this.viewport = new CorePicture({ canvas, container, settings, onError: showError });
+        document.getElementById("without-graphics").hidden = false;
+    }
+
+    /** A renderer of a scene with edited formulas, beside the present one. Throws where it cannot draw the settings' picture. */
+    rendererOf(scene, formulas, settings) {
+        const renderer = new Renderer(this.gl, withFormulas(scene, formulas), this.renderer);
+        try {
+            const appearance = appearanceOf(settings);
+            renderer.prepare(appearance, unusedOf(appearance, formulas.keys()));
+        } catch (error) {
+            renderer.release();
+            throw error;
+        }
+        return renderer;
+    }
+
+    /** From now on, draws with these. Throws where they do not compile; then everything stays as it is. */
+    drawWith(formulas) {
+        if (this.gl.isContextLost()) throw new Error("The graphics have been interrupted.");
+        const renderer = this.rendererOf(this.scene, formulas, this.settings);
+        this.renderer.release();
+        this.renderer = renderer;
+        this.viewport.use(renderer);
+    }
+
+    /** The same, and the formulas are the page's. */
+    useFormulas(formulas) {
+        this.drawWith(formulas);
+        this.formulas = formulas;
+    }
+
+    /** As pixels(), with other formulas. */
+    pixelsWith(formulas, width, height) {
+        const renderer = this.rendererOf(this.scene, formulas, this.settings);
+        try {
+            return renderer.pixels(appearanceOf(this.settings), width, height);
+        } finally {
+            renderer.release();
+        }
     }
 
     openViewport() {
-        const { canvas, container, renderer, settings } = this;
-        this.viewport = new Viewport({ canvas, container, renderer, settings, onError: showError });
+        const { canvas, container, display, renderer, settings } = this;
+        this.viewport = new Viewport({
+            canvas, container, renderer, settings, onError: showError,
+            onDraft: (film) => display.markers.lookBehind(this.renderer, film),
+        });
+        this.viewport.setOthers(this.others);
+    }
+
+    setOthers(views) {
+        this.others = views;
+        this.viewport?.setOthers(views);
     }
 }

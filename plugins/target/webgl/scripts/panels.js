@@ -1,11 +1,13 @@
 import { toHex } from "./colors.js";
 import { element, isolated } from "./elements.js";
+import { followPresets, presetChoice } from "./presets.js";
 import { displayName } from "./scene.js";
+import { formulaLines } from "./typeset.js";
 
 const INITIALLY_OPEN = 2;
 
 /** A <details> whose contents are made when it is first opened, since scenes may have many. */
-function disclosure(summary, isOpen, contents) {
+export function disclosure(summary, isOpen, contents) {
     const body = element("div", { class: "body" });
     const details = element("details", { open: isOpen }, element("summary", {}, ...summary), body);
     const fill = () => {
@@ -27,6 +29,7 @@ export class Panels {
         this.controls = controls;
         this.sections = [];
         settings.listeners.push((path, isFromControl) => this.changed(path, isFromControl));
+        followPresets(settings);
     }
 
     get scene() {
@@ -36,7 +39,7 @@ export class Panels {
     /** After another scene has come: with what was open and where the focus was, as far as that is there still. */
     rebuild() {
         const summaryOf = (details) => details.querySelector("summary").textContent;
-        const panels = [...document.querySelectorAll("aside > section:not(#explanation)")];
+        const panels = [...document.querySelectorAll("aside > section:not(#explanation, #panes, #formula-editor)")];
         const details = () => panels.flatMap((panel) => [...panel.querySelectorAll("details")]);
         const wereOpen = new Map(details().map((one) => [summaryOf(one), one.open]));
         const focused = document.activeElement, path = focused?.closest(".setting")?.dataset.path;
@@ -92,17 +95,12 @@ export class Panels {
     fillFormulas() {
         const formula = (kind, name, isOpen) => {
             const model = this.scene[`${kind}_models`][name];
-            const lines = model.formula.split("\n").map((text) => {
-                const line = element("span", { class: "formula-line" }, text + "\n");
-                line.style.setProperty("--indent", text.search(/\S|$/) + 4);
-                return line;
-            });
             return disclosure(
                 [element("span", { class: "title" }, model.title), element("span", { class: "tag" }, kind)],
                 isOpen,
                 () => [
                     element("p", { class: "about" }, model.summary),
-                    model.formula === "" ? null : element("pre", { class: "formula" }, ...lines),
+                    model.formula === "" ? null : element("div", { class: "formula", tabIndex: 0, role: "group", "aria-label": `Formula of ${model.title}` }, ...formulaLines(model)),
                     model.reference === "" ? null : element("p", { class: "reference" }, model.reference),
                 ].filter((part) => part !== null),
             );
@@ -126,7 +124,10 @@ export class Panels {
                 const of = (kind, model, values) => this.scene[`${kind}_models`][model].parameters.map(({ name }) =>
                     controls.of(`object.${i}.${values}.${model}.${name}`, name));
                 return [
+                    presetChoice(settings, `object.${i}.`, reflection),
                     controls.of(`object.${i}.color`, "color"),
+                    object.texture === null ? null
+                        : element("p", { class: "about" }, `The colour is multiplied with the picture ${this.scene.textures[object.texture].title}.`),
                     ...of("reflection", reflection, "material"),
                     ...of("shading", shading, "shading"),
                 ].filter((control) => control !== null);

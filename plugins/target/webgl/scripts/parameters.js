@@ -15,4 +15,8 @@ export const OBSERVER_PARAMETERS = [
 ];
 
 export const COLOR = makeParameter("color", "color", { meaning: "the object's own colour" });
+/** What can be shown over the picture, and the pictures beside one another: no part of the scene. */
+export const SHOWN = ["lights", "room", "axes", "observer"].map((name) => makeParameter(name, "boolean"));
+export const LAYOUT = makeParameter("panes", "choice", { choices: ["one", "two", "three", "four", "wipe"] });
+
 export const SWITCH = makeParameter("on", "boolean", { meaning: "whether the light is lit" });

@@ -8,7 +8,7 @@ class ShaderError extends Error {
     }
 }
 
-class Program {
+export class Program {
     /** `captured`: the vertex shader's outputs that transform feedback writes. */
     constructor(gl, title, vertexSource, fragmentSource, captured) {
         this.gl = gl;
@@ -91,14 +91,15 @@ export class ProgramCache {
         for (const program of this.bySource.values()) program.release();
     }
 
-    /** The program for a pair of models; it may still be compiling (Program.check waits). */
-    lighting(shading, reflection, isClosed) {
-        const key = `${shading} ${reflection} ${isClosed}`;
+    /** The program for an object of an appearance; it may still be compiling (Program.check waits). */
+    lighting({ shading, reflection, closed, isTextured }) {
+        const key = `${shading} ${reflection} ${closed} ${isTextured}`;
         if (!this.programs.has(key)) {
             const { shaders, shading_models, reflection_models } = this.scene;
             const s = shading_models[shading], r = reflection_models[reflection];
             const common =
-                (isClosed ? "" : "#define TWO_SIDED\n") + [shaders.prelude, shaders.lights, r.glsl, s.glsl, ""].join("\n");
+                (closed ? "" : "#define TWO_SIDED\n") +
+                [shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, r.glsl, s.glsl, ""].join("\n");
             const title = `${r.title} with the shading model ${s.title}`;
             this.programs.set(key, this.compiled(title, common + shaders.vertex, common + shaders.fragment));
         }
@@ -114,6 +115,12 @@ export class ProgramCache {
             this.programs.set(key, this.compiled(`the lobe of ${model.title}`, vertex, "void main() {}", ["reflected"]));
         }
         return this.programs.get(key);
+    }
+
+    /** A program of the page's own, which has its name. */
+    own(name, vertexSource, fragmentSource) {
+        if (!this.programs.has(name)) this.programs.set(name, this.compiled(name, vertexSource, fragmentSource));
+        return this.programs.get(name).check();
     }
 
     /** The program of a pass over all pixels, compiled. */

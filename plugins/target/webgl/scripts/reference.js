@@ -1,4 +1,4 @@
-import { queryOf } from "./options.js";
+import { fetchPicture } from "./core_picture.js";
 import { element } from "./elements.js";
 import { layOver, onMoved } from "./overlay.js";
 import { displayName } from "./scene.js";
@@ -69,10 +69,7 @@ export class Reference {
     async update(request) {
         let picture = null, problem = "";
         try {
-            const query = [queryOf(this.settings), this.shownTerm() === "" ? "" : `terms=${this.shownTerm()}`].filter((part) => part !== "").join("&");
-            const response = await fetch(`reference.png?${query}`);
-            if (response.ok) picture = await createImageBitmap(await response.blob(), { colorSpaceConversion: "none" });
-            else problem = await response.text();
+            picture = await fetchPicture(this.settings, this.shownTerm());
         } catch (error) {
             problem = error.message;
         }

@@ -1,18 +1,20 @@
-import { clippingPlanes, viewAxes, viewProjection } from "./camera.js";
+import { clippingPlanes, pixelSize, viewAxes, viewProjection } from "./camera.js";
 import { Film } from "./film.js";
 import { LightTable } from "./lights.js";
 import { Mesh } from "./mesh.js";
 import { ProgramCache } from "./programs.js";
 import { Tables } from "./tables.js";
+import { Texture } from "./textures.js";
 import { scale } from "./vectors.js";
 
 const POLL_MS = 2;
 const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 const TABLES_UNIT = 3;
+const TEXTURE_UNIT = 4;
 
 /** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
 export class Renderer {
-    /** `previous`: a renderer in the same context, whose programs and meshes are used where they are the same. Both have to be released. */
+    /** `previous`: a renderer in the same context, whose programs, meshes and textures are used where they are the same. Both have to be released. */
     constructor(gl, scene, previous) {
         this.gl = gl;
         this.scene = scene;
@@ -21,6 +23,9 @@ export class Renderer {
         this.programs = new ProgramCache(gl, scene, previous?.programs);
         this.meshes = scene.objects.map(({ mesh }) => previous?.meshes.find((one) => one.isOf(mesh)) ?? new Mesh(gl, mesh));
         for (const mesh of this.meshes) mesh.users += 1;
+        this.textures = scene.textures.map((texture) =>
+            previous?.textures.find((one) => one.isOf(texture, this.isSrgb)) ?? new Texture(gl, texture, this.isSrgb));
+        for (const texture of this.textures) texture.users += 1;
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
         this.lights = new LightTable(gl, scene);
         this.tables = new Tables(gl, scene);
@@ -34,7 +39,7 @@ export class Renderer {
 
     /** The programs that another renderer uses stay. */
     release() {
-        for (const mesh of this.meshes) mesh.release();
+        for (const one of [...this.meshes, ...this.textures]) one.release();
         this.lights.release();
         this.tables.release();
         this.programs.release();
@@ -70,9 +75,16 @@ export class Renderer {
         throw new Error(`This device's graphics memory has no room for a picture of ${width} x ${height} pixels.`);
     }
 
-    /** Compiles all programs that an appearance needs, so that errors come before anything is drawn. */
-    prepare(appearance) {
-        const needed = appearance.objects.map(({ shading, reflection, closed }) => this.programs.lighting(shading, reflection, closed));
+    /**
+     * Compiles all programs that an appearance needs, so that errors come before anything is drawn, and those with models beside them:
+     * `unused` has the kind and the name of each.
+     */
+    prepare(appearance, unused = []) {
+        const { objects } = appearance;
+        const needed = objects.map((object) => this.programs.lighting(object));
+        for (const { kind, name } of objects.length > 0 ? unused : []) {
+            needed.push(this.programs.lighting({ ...objects[0], [kind]: name }));
+        }
         for (const program of needed) program.check();
     }
 
@@ -83,13 +95,16 @@ export class Renderer {
     drawSample(film, appearance, position, rows = [0, film.height]) {
         const { gl } = this, { observer } = appearance;
         const offset = [0.5 - position[0], 0.5 - position[1]];
-        const { near } = clippingPlanes(observer, viewAxes(observer).forward, this.bounds);
+        const axes = viewAxes(observer), pixel = pixelSize(observer, film.height);
+        const { near } = clippingPlanes(observer, axes.forward, this.bounds);
         const frameUniforms = {
             near: { kind: "float", value: near },
             view_projection: { kind: "mat4", value: viewProjection(observer, this.bounds, film.width, film.height, offset) },
             eye: { kind: "vec3", value: observer.position },
             is_orthographic: { kind: "int", value: observer.projection === "orthographic" ? 1 : 0 },
-            towards_observer: { kind: "vec3", value: scale(viewAxes(observer).forward, -1) },
+            towards_observer: { kind: "vec3", value: scale(axes.forward, -1) },
+            pixel_right: { kind: "vec3", value: scale(axes.right, pixel) },
+            pixel_up: { kind: "vec3", value: scale(axes.up, pixel) },
             ...this.lights.bind(LIGHTS_UNIT, appearance.lights),
             ...this.bindTables(),
         };
@@ -101,17 +116,24 @@ export class Renderer {
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         const prepared = new Set();
         appearance.objects.forEach((object, i) => {
-            const program = this.programs.lighting(object.shading, object.reflection, object.closed).check();
+            const program = this.programs.lighting(object).check();
             gl.useProgram(program.handle);
             if (!prepared.has(program)) {
                 prepared.add(program);
                 for (const [name, uniform] of Object.entries(frameUniforms)) program.setUniform(name, uniform);
             }
             for (const [name, uniform] of object.uniforms) program.setUniform(name, uniform);
+            for (const [name, uniform] of this.textureUniforms(i)) program.setUniform(name, uniform);
             object.closed ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
             this.meshes[i].draw(object);
         });
         gl.disable(gl.SCISSOR_TEST);
+    }
+
+    /** Binds the texture of an object that has one; returns the uniforms with which it is read. */
+    textureUniforms(index) {
+        const { texture, texture_repeats } = this.scene.objects[index];
+        return texture === null ? [] : Object.entries(this.textures[texture].bind(TEXTURE_UNIT, texture_repeats));
     }
 
     /** Calls back once the graphics have finished all that they have been given; never if they are lost before. */

@@ -1,10 +1,14 @@
 import { validateObserver } from "./camera.js";
-import { COLOR, OBSERVER_PARAMETERS, SWITCH, makeParameter } from "./parameters.js";
+import { areLightsShown } from "./light_places.js";
+import { COLOR, LAYOUT, OBSERVER_PARAMETERS, SHOWN, SWITCH, makeParameter } from "./parameters.js";
 import { validateValue } from "./validation.js";
 import { areEqual, canonicalValue } from "./values.js";
 
 /** Paths come from links, which anybody can write: names that every object inherits must not be found. */
 const ownMember = (object, name) => (object && Object.hasOwn(object, name) ? object[name] : undefined);
+const PANE = /^pane\.[123]\.((?:shading|reflection)$|(?:object|light)\..*$)/;
+/** Pairs of a path and a value, those of panes last: whether a pane's value is one of its own depends on the first pane's. */
+export const panesLast = (changes) => [...changes].sort(([a], [b]) => Number(PANE.test(a)) - Number(PANE.test(b)));
 const itemAt = (list, index) => (/^\d+$/.test(index) ? ownMember(list, index) : undefined);
 
 /**
@@ -28,10 +32,10 @@ export class Settings {
     /** Settings for another state of the scene: with the changes of these that it has a place for, and whose values it left alone. */
     continuedIn(scene) {
         const result = new Settings(scene);
-        for (const [path, value] of this.changes) {
+        for (const [path, value] of panesLast(this.changes)) {
             if (this.saved.has(path) && areEqual(this.saved.get(path), value)) continue;
             const before = this.find(path), now = result.find(path);
-            const isSame = now !== null && areEqual(canonicalValue(now.parameter, before.initial), now.initial);
+            const isSame = now !== null && (PANE.test(path) || areEqual(canonicalValue(now.parameter, before.initial), now.initial));
             if (isSame && validateValue(now.parameter, value) === null) result.set(path, value);
         }
         if (validateObserver(result.observer()) !== null) {
@@ -53,6 +57,12 @@ export class Settings {
 
     /** The parameter at a path and the scene's own value for it: { parameter, initial }; null if there is none. */
     find(path) {
+        // What a pane has not of its own follows the first one.
+        const ofPane = PANE.exec(path);
+        if (ofPane !== null) {
+            const found = this.find(ofPane[1]);
+            return found && { parameter: found.parameter, initial: this.get(ofPane[1]) };
+        }
         if (!this.cache.has(path)) this.cache.set(path, this.lookUp(path));
         return this.cache.get(path);
     }
@@ -68,6 +78,11 @@ export class Settings {
         if (path === "shading" || path === "reflection") {
             const choices = ["", ...Object.keys(scene[`${kind}_models`])];
             found = { parameter: makeParameter(kind, "choice", { choices }), initial: "" };
+        } else if (path === "panes") {
+            found = { parameter: LAYOUT, initial: "one" };
+        } else if (kind === "show" && rest.length === 1) {
+            const parameter = SHOWN.find((p) => p.name === rest[0]);
+            found = parameter && { parameter, initial: parameter.name === "lights" && areLightsShown(scene) };
         } else if (kind === "observer" && rest.length === 1) {
             const parameter = this.observerParameters().find((p) => p.name === rest[0]);
             found = parameter && { parameter, initial: scene.observer[rest[0]] };
@@ -90,6 +105,19 @@ export class Settings {
 
     get(path) {
         return this.changes.has(path) ? this.changes.get(path) : this.find(path).initial;
+    }
+
+    /** These settings as a pane shows them: 0 is the first one, the others may have values of their own. */
+    inPane(index) {
+        if (index === 0) return this;
+        const own = Object.create(this), prefix = `pane.${index}.`;
+        own.get = (path) => (this.changes.has(prefix + path) ? this.changes.get(prefix + path) : this.get(path));
+        return own;
+    }
+
+    /** The same seen by somebody else, whom `observer` gives. */
+    seenBy(observer) {
+        return Object.assign(Object.create(this), { observer });
     }
 
     isChanged() {
@@ -117,7 +145,10 @@ export class Settings {
      * path's own control made the change, and shows it already.
      */
     notify(path, isFromControl = false) {
-        for (const listener of this.listeners) listener(path, isFromControl);
+        // Some of them come and go with what is shown.
+        for (const listener of [...this.listeners]) {
+            if (this.listeners.includes(listener)) listener(path, isFromControl);
+        }
     }
 
     /** Sets a value that was entered in a control, if it is valid; what is wrong with it, or null. */

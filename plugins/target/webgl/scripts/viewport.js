@@ -4,25 +4,37 @@ import { AdaptiveResolution } from "./resolution.js";
 const REFINEMENT_DELAY_MS = 140;
 const MAX_PIXELS = 2560 * 1600;
 const PIXEL_CENTER = [0.5, 0.5];
+const GAP = 8;  // between pictures, in CSS pixels
 
 /**
- * Keeps the canvas up to date: one sample per pixel, at a lower resolution where frames are slow, while something changes;
+ * Keeps the canvases up to date: one sample per pixel, at a lower resolution where frames are slow, while something changes;
  * all samples once it rests. A frame is begun when the graphics have finished the one before, so that none queue up.
+ *
+ * There may be several views of the scene. All are drawn in one context, whose canvas shows the first of them; the pictures of the
+ * others are copied from it.
  */
 export class Viewport {
-    /** `container`: the element that the canvas is fitted into. `onError` gets an error, or null after a successful frame. */
-    constructor({ canvas, container, renderer, settings, onError }) {
-        Object.assign(this, { canvas, container, renderer, settings, onError });
+    /**
+     * `container`: the element that the pictures are fitted into. `onError` gets an error, or null after a successful frame; `onDraft`
+     * is called with the first view's film when its picture has been drawn.
+     */
+    constructor({ canvas, container, renderer, settings, onError, onDraft = () => {} }) {
+        Object.assign(this, { canvas, container, renderer, settings, onError, onDraft });
         this.resolution = new AdaptiveResolution();
-        this.film = null;
+        this.views = [{ canvas, settings, film: null }];
         this.isDrawing = false;
         this.frameRequest = 0;
         this.refinementTimer = 0;
-        this.nextSample = -1;  // of the refinement; -1: a draft comes first
-        this.nextBand = 0;     // of that sample
         this.resizeObserver = new ResizeObserver(() => this.invalidate());
         this.resizeObserver.observe(container);
         settings.listeners.push(() => this.invalidate());
+        this.invalidate();
+    }
+
+    /** Other views, beside the first or over it: { canvas, settings, isOver } each. */
+    setOthers(others) {
+        for (const { film } of this.views.slice(1)) film?.release();
+        this.views = [this.views[0], ...others.map((view) => ({ ...view, film: null, context: view.canvas.getContext("2d", { alpha: false }) }))];
         this.invalidate();
     }
 
@@ -42,66 +54,106 @@ export class Viewport {
     /** Starts anew with a draft, at the next frame. */
     invalidate() {
         if (this.isStopped) return;
-        this.appearance = null;
-        this.nextSample = -1;
-        this.nextBand = 0;
+        this.startRefinement(false);
         clearTimeout(this.refinementTimer);
         this.requestFrame();
+    }
+
+    /** The first view's picture stays in the context's canvas, so it is the last to be refined. */
+    startRefinement(hasDraft) {
+        this.unfinished = hasDraft ? [...this.views.slice(1), this.views[0]] : null;  // null: a draft comes first
+        this.nextSample = 0;
+        this.nextBand = 0;  // of that sample
     }
 
     requestFrame() {
         if (this.frameRequest === 0 && !this.isDrawing) this.frameRequest = requestAnimationFrame(() => this.drawFrame());
     }
 
-    /** The largest size in CSS pixels that fits into the container with the scene's aspect ratio. */
-    displaySize() {
-        const { width, height } = this.settings.scene.image;
-        const box = this.container.getBoundingClientRect();
-        const ratio = Math.min(box.width / width, box.height / height);
-        return [Math.max(1, Math.floor(width * ratio)), Math.max(1, Math.floor(height * ratio))];
+    /** How many pictures stand in a row, so that they are as large as possible, and how large each is in CSS pixels. */
+    layout() {
+        const { width, height } = this.settings.scene.image, box = this.container.getBoundingClientRect();
+        const count = this.views.filter(({ isOver }) => !isOver).length;
+        let best = { ratio: 0, columns: 1 };
+        for (let columns = 1; columns <= count; ++columns) {
+            const rows = Math.ceil(count / columns);
+            const ratio = Math.min((box.width - GAP * (columns - 1)) / (columns * width), (box.height - GAP * (rows - 1)) / (rows * height));
+            if (ratio > best.ratio) best = { ratio, columns };
+        }
+        return { columns: best.columns, size: [width, height].map((side) => Math.max(1, Math.floor(side * best.ratio))) };
     }
 
-    /** Makes the film match the picture's size on the screen, times `resolutionScale`. */
-    prepareFilm(resolutionScale) {
-        const [width, height] = this.displaySize();
-        this.canvas.style.width = `${width}px`;
-        this.canvas.style.height = `${height}px`;
-        const ratio = Math.min(devicePixelRatio || 1, Math.sqrt(MAX_PIXELS / (width * height))) * resolutionScale;
+    /** What lies over pictures follows them when they move. */
+    tellArrangement() {
+        const arrangement = JSON.stringify([this.layout(), this.views.length]);
+        if (arrangement === this.arrangement) return;
+        this.arrangement = arrangement;
+        this.container.dispatchEvent(new Event("arranged"));
+    }
+
+    /** Makes a view's film match its size on the screen, times `resolutionScale`. */
+    prepareFilm(view, resolutionScale) {
+        const { columns, size: [width, height] } = this.layout();
+        this.container.style.setProperty("--columns", columns);
+        view.canvas.style.width = `${width}px`;
+        view.canvas.style.height = `${height}px`;
+        const most = MAX_PIXELS / this.views.length;
+        const ratio = Math.min(devicePixelRatio || 1, Math.sqrt(most / (width * height))) * resolutionScale;
         const pixels = [width, height].map((size) => Math.max(1, Math.round(size * ratio)));
-        if (this.film && this.film.width === pixels[0] && this.film.height === pixels[1]) return;
-        this.film?.release();
-        this.film = null;
-        this.film = this.renderer.createFilm(...pixels);
+        if (view.film && view.film.width === pixels[0] && view.film.height === pixels[1]) return;
+        view.film?.release();
+        view.film = null;
+        view.film = this.renderer.createFilm(...pixels);
     }
 
-    show(target) {
+    /** Puts a film's target into the context's canvas. */
+    encode({ film }, target) {
         // Resizing clears the canvas, so that it is drawn to in the same frame.
-        if (this.canvas.width !== this.film.width) this.canvas.width = this.film.width;
-        if (this.canvas.height !== this.film.height) this.canvas.height = this.film.height;
+        if (this.canvas.width !== film.width) this.canvas.width = film.width;
+        if (this.canvas.height !== film.height) this.canvas.height = film.height;
         this.renderer.encode(target, null);
+    }
+
+    show(view, target) {
+        view.shown = target;
+        this.encode(view, target);
+        if (!view.context) return;
+        const { width, height } = view.film;
+        if (view.canvas.width !== width) view.canvas.width = width;
+        if (view.canvas.height !== height) view.canvas.height = height;
+        view.context.drawImage(this.canvas, 0, 0);
+        const [first] = this.views;
+        if (first.film && first.shown) this.encode(first, first.shown);
     }
 
     drawFrame() {
         this.frameRequest = 0;
         try {
-            this.nextSample < 0 ? this.drawDraft() : this.refine();
+            this.unfinished === null ? this.drawDraft() : this.refine();
         } catch (error) {
             this.onError(error);
         }
     }
 
     drawDraft() {
-        this.appearance = appearanceOf(this.settings);
-        this.renderer.prepare(this.appearance);
+        for (const view of this.views) {
+            view.appearance = appearanceOf(view.settings);
+            this.renderer.prepare(view.appearance);
+            view.shown = null;
+        }
         const start = performance.now();
-        this.prepareFilm(this.resolution.scale);
-        this.renderer.drawSample(this.film, this.appearance, PIXEL_CENTER);
-        this.show(this.film.picture);
+        for (const view of this.views.toReversed()) {
+            this.prepareFilm(view, this.resolution.scale);
+            this.renderer.drawSample(view.film, view.appearance, PIXEL_CENTER);
+            this.show(view, view.film.picture);
+        }
+        this.tellArrangement();
+        this.onDraft(this.views[0].film);
         this.onError(null);
-        this.nextSample = 0;
+        this.startRefinement(true);
         this.whenFinished(() => {
             this.resolution.adapt(performance.now() - start);
-            if (this.nextSample < 0) this.requestFrame();
+            if (this.unfinished === null) this.requestFrame();
             else this.refinementTimer = setTimeout(() => this.requestFrame(), REFINEMENT_DELAY_MS);
         });
     }
@@ -109,20 +161,24 @@ export class Viewport {
     /** Draws a band of a sample. */
     refine() {
         const { renderer } = this, { bands } = this.resolution, positions = this.settings.scene.image.sample_positions;
-        this.prepareFilm(1);
-        const { height } = this.film, [bottom, top] = [this.nextBand, this.nextBand + 1].map((k) => Math.round((k * height) / bands));
-        if (this.nextSample === 0 && this.nextBand === 0) renderer.clearSum(this.film);
-        renderer.drawSample(this.film, this.appearance, positions[this.nextSample], [bottom, top]);
+        const [view] = this.unfinished;
+        this.prepareFilm(view, 1);
+        const { film } = view, [bottom, top] = [this.nextBand, this.nextBand + 1].map((k) => Math.round((k * film.height) / bands));
+        if (this.nextSample === 0 && this.nextBand === 0) renderer.clearSum(film);
+        renderer.drawSample(film, view.appearance, positions[this.nextSample], [bottom, top]);
         this.nextBand += 1;
         if (this.nextBand === bands) {
-            renderer.accumulate(this.film, 1 / positions.length);
+            renderer.accumulate(film, 1 / positions.length);
             this.nextBand = 0;
             this.nextSample += 1;
         }
-        const isWhole = this.nextSample === positions.length;
-        if (isWhole) this.show(this.film.sum);
+        if (this.nextSample === positions.length) {
+            this.show(view, film.sum);
+            this.unfinished.shift();
+            this.nextSample = 0;
+        }
         this.whenFinished(() => {
-            if (!isWhole || this.nextSample < 0) this.requestFrame();
+            if (this.unfinished === null || this.unfinished.length > 0) this.requestFrame();
         });
     }
 

@@ -1,6 +1,8 @@
 // Files that targets write.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "candela/target.h"
@@ -8,6 +10,24 @@
 namespace candela::target {
 
 void write(FileSink& files, const char* name, std::string_view content);
+
+/// A folder in `parent` that is new, and gone when this is.
+class TemporaryFolder {
+  public:
+    /// Throws std::runtime_error where none can be made.
+    explicit TemporaryFolder(std::string_view name,
+                             const std::filesystem::path& parent = std::filesystem::temp_directory_path());
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder();
+    const std::filesystem::path& path() const noexcept { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// Writes a file of this machine whole, or not at all. Throws std::exception.
+void write_whole(const std::filesystem::path& file, std::string_view content);
 
 /// A part of a C++17 program that writes 8-bit pictures, put_number() to write_picture(): PNG and PPM.
 std::string_view picture_file_source();

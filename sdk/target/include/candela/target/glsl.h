@@ -9,11 +9,12 @@
 
 namespace candela::target {
 
-/// An object's vertex shader is: header, "#define TWO_SIDED" if it is open, prelude, lights, its reflection
-/// model, its shading model, vertex; the fragment shader likewise. The others are of passes over the whole
-/// screen.
+/// An object's vertex shader is: header, "#define TWO_SIDED" if it is open, prelude, texture if it has one,
+/// lights, its reflection model, its shading model, vertex; the fragment shader likewise. The others are of
+/// passes over the whole screen.
 struct GlslParts {
     std::string prelude;
+    std::string texture;  // empty unless an object of the scene has one
     std::string lights;
     std::vector<std::string> reflections, shadings;  // as in the scene
     std::string vertex, fragment;
@@ -22,6 +23,10 @@ struct GlslParts {
 
 /// Throws std::runtime_error where the kernels cannot stand in one program.
 GlslParts glsl_of(const ExportedScene& scene);
+
+/// What GlslParts::prelude has, with all that a kernel may use, whether or not one of a scene does: for texts
+/// that nobody knows yet.
+std::string whole_glsl_prelude();
 
 /// Texels in a row of the texture `light_table`, from which shaders read lights. A texel has four 32-bit
 /// integers (RGBA32I) and holds a member of a light's struct: the bits of a vector's three floats, of one
@@ -42,8 +47,17 @@ struct LightBlock {
     std::size_t size = 0;    // texels per light
 };
 /// Whether a shading model of the scene sees its triangle. If so, shaders read more of each vertex than the
-/// first eight attributes: at locations 8 to 10 the positions of its triangle's vertices, at 11 to 13 their
+/// first nine attributes: at locations 9 to 11 the positions of its triangle's vertices, at 12 to 14 their
 /// unit normals. A target says that it provides them with TargetAbilities::triangle.
+///
+/// Shaders of an object with a texture read it from `color_texels` (RGBA16UI, NEAREST): the picture, and its
+/// mip levels in a row along its longer side, each from `longer - (longer >> (level - 1))` on: below a
+/// picture that is at least as wide as high, right of others. `color_texture` has the `width` and `height` of
+/// the picture, the number of `levels`, and whether it `repeats`. Where light is evaluated for each fragment,
+/// they also read the positions of the triangle's vertices, as above; at location 15 how the texture
+/// coordinates change from its first vertex to the second and to the third (u, v, u, v); and how the line of
+/// sight moves from pixel to pixel, `pixel_right` and `pixel_up`: vectors in metres, at a distance of 1 in
+/// perspective.
 bool sees_triangles(const ExportedScene& scene);
 
 /// Of each light model of the scene.

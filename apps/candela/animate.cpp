@@ -1,0 +1,179 @@
+// candela animate: an animated scene becomes its frames, or a film.
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "animating.h"
+#include "command_line.h"
+#include "exit_code.h"
+#include "film_encoding.h"
+#include "frame_pattern.h"
+#include "frame_record.h"
+#include "frame_writer.h"
+#include "output_folder.h"
+#include "reporting.h"
+#include "stopwatch.h"
+#include "task_journal.h"
+#include "temporary_folder.h"
+#include "terminal.h"
+#include "verbs.h"
+
+import candela.diagnostics;
+import candela.film;
+import candela.render;
+import candela.scene;
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+/// Renders frames, one after the other.
+class FrameRenderer {
+  public:
+    FrameRenderer(candela::SceneFrames& frames, candela::Registry& registry,
+                  const candela::PictureFormat& format, int threads)
+        : frames_(frames),
+          format_(format),
+          threads_(threads),
+          compiler_(registry),
+          fingerprints_(registry, format),
+          writer_(registry, format, threads) {}
+
+    /// Whether the frame had to be rendered: it is not there, or not up to date, or `is_forced`.
+    bool render(int frame, const fs::path& file, bool is_forced) {
+        candela::Diagnostics known;  // reported when all frames were checked
+        const candela::SceneDraft draft = frames_.draft(frame, known);
+        require_no_input(file.string(), candela::input_files(draft), "the files that the scene is made from",
+                         "give the frames another name");
+        const std::string inputs = fingerprints_.of(draft);
+        if (!is_forced && is_up_to_date(file, inputs)) return false;
+        const candela::CompiledScene* const scene = compiler_.compile(draft, known, threads_);
+        if (scene == nullptr) {
+            report(known);
+            throw Error(
+                ErrorCategory::failure,
+                fmt::format("frame {} cannot be rendered any more: a file of the scene has changed", frame));
+        }
+        if (!compiler_.has_kept_triangles()) renderer_.forget();
+        candela::Film& film = film_for(*scene);
+        const auto statistics = renderer_.render(*scene, film, {.threads = threads_});
+        warn_if_dark(*scene, film, statistics, frame);
+        writer_.write(film, file, inputs);
+        return true;
+    }
+
+    /// Waits until all frames are written.
+    void finish() { writer_.finish(); }
+
+  private:
+    candela::Film& film_for(const candela::CompiledScene& scene) {
+        const candela::ImageSettings& image = scene.image;
+        if (!film_ || encoding_ != image.color_management) {
+            film_.emplace(image.width, image.height, format_.pixels, image.color_management);
+            encoding_ = image.color_management;
+        }
+        return *film_;
+    }
+
+    void warn_if_dark(const candela::CompiledScene& scene, const candela::Film& film,
+                      const candela::RenderStatistics& statistics, int frame) {
+        const std::string darkness = candela::why_black(scene, film, statistics);
+        if (!darkness.empty() && said_.insert(darkness).second)
+            warn(fmt::format("nothing in frame {} is lit: {}", frame, darkness));
+    }
+
+    candela::SceneFrames& frames_;
+    candela::PictureFormat format_;
+    int threads_;
+    candela::FrameCompiler compiler_;
+    candela::Renderer renderer_{candela::Renderer::Keep::visibility};
+    InputFingerprints fingerprints_;
+    FrameWriter writer_;
+    std::optional<candela::Film> film_;
+    candela::ColorEncoding encoding_ = candela::ColorEncoding::srgb;
+    std::set<std::string> said_;
+};
+
+int animate(const CommandLine& line) {
+    if (!line.has("scene")) throw Error(ErrorCategory::bad_request, "candela animate needs a scene file");
+    if (line.has("resume") && line.has("force"))
+        throw Error(ErrorCategory::bad_request, "--resume and --force contradict each other");
+
+    const Stopwatch total;
+    const AnimationOutputs outputs = animation_outputs_from(line);
+    const int threads = threads_from(line);
+    candela::Registry registry = registry_from(line);
+    const candela::PictureFormat format = format_of_frames(outputs, registry);
+
+    candela::Diagnostics diagnostics;
+    auto frames = candela::SceneFrames::read(scene_request_from(line, registry), registry, diagnostics);
+    if (frames && !frames->animation() && !frames->is_broken()) {
+        throw Error(ErrorCategory::bad_request,
+                    "the scene has no [animation]: candela render draws it; candela new --animation writes a "
+                    "scene that has one");
+    }
+    std::vector<int> numbers;
+    if (frames) numbers = checked_frames_from(line, *frames, registry, diagnostics, threads);
+    report(diagnostics);
+    if (!frames || diagnostics.has_errors()) return static_cast<int>(exit_code_of(diagnostics));
+    require_no_input_among(outputs, *frames, numbers.front());
+
+    std::optional<TemporaryFolder> temporary;
+    std::optional<FramePattern> pattern = outputs.frames;
+    for (const fs::path& film : outputs.films) make_folder(folder_of(film));
+    if (!pattern) {
+        temporary.emplace(folder_of(outputs.films.front()), ".candela-");
+        pattern.emplace(escaped_for_pattern(temporary->path().string()) + "/%08d.png");
+    }
+    make_folder(folder_of(pattern->file_of(numbers.front())));
+    std::vector<fs::path> files;
+    std::size_t rendered = 0;
+    {
+        ProgressBar bar("rendering", !is_quiet());
+        FrameRenderer renderer(*frames, registry, format, threads);
+        for (const int number : numbers) {
+            files.push_back(pattern->file_of(number));
+            if (renderer.render(number, files.back(), line.has("force"))) ++rendered;
+            bar.update(files.size(), numbers.size());
+        }
+        renderer.finish();
+    }
+    for (const fs::path& film : outputs.films) encode(files, frames->animation()->fps, film);
+
+    say_afterwards([&] {
+        std::string names = outputs.frames ? outputs.frames->text() : "";
+        for (const fs::path& film : outputs.films) names += (names.empty() ? "" : ", ") + film.string();
+        const std::size_t left = files.size() - rendered;
+        return fmt::format("{}: {} frame{}{}, {}\n", names, files.size(), files.size() == 1 ? "" : "s",
+                           left > 0 ? fmt::format(", {} of them left as they were", left) : "",
+                           duration_text(total.milliseconds()));
+    });
+    return 0;
+}
+
+}  // namespace
+
+int run_animate(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela animate SCENE... [options]",
+        "Renders the frames of an animated scene: to numbered pictures, to a film, or both. All frames "
+        "are checked\nbefore the first is rendered. Frames that are there and were made from the same "
+        "scene, files and plugins are\nleft alone, so whatever ended early is carried on by the same "
+        "command.");
+    add_frames_options(line);
+    line.options()("resume", "leave alone frames that are up to date (the default)")(
+        "force", "render all frames again")("threads", po::value<int>()->value_name("N"),
+                                            "threads to use; default: all cores");
+    add_journal_option(line);
+    add_scene_options(line);
+    if (!line.parse(arguments)) return 0;
+    return with_journal(line, [&] { return animate(line); });
+}

@@ -1,0 +1,71 @@
+#include "animating.h"
+
+#include <fmt/format.h>
+
+#include "compiling.h"
+#include "film_encoding.h"
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+void add_frames_options(CommandLine& line) {
+    line.options()("output,o", po::value<std::vector<std::string>>()->value_name("FILE"),
+                   "frames, such as frames/%04d.png (the default), or a film: .mp4, .webm or .gif, made by "
+                   "ffmpeg; may be repeated for both")("frames", po::value<std::string>()->value_name("A..B"),
+                                                       "only these; default: all")(
+        "step", po::value<int>()->value_name("N")->default_value(1), "every N-th frame");
+}
+
+AnimationOutputs animation_outputs_from(const CommandLine& line) {
+    AnimationOutputs outputs;
+    for (const std::string& output : line.all("output")) {
+        if (is_film(output) && output.find('%') == std::string::npos) {
+            outputs.films.emplace_back(output);
+        } else if (outputs.frames) {
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("-o names frames twice: '{}' and '{}'; only films may be added",
+                                    outputs.frames->text(), output));
+        } else {
+            outputs.frames.emplace(output);
+        }
+    }
+    if (!outputs.frames && outputs.films.empty()) outputs.frames.emplace("frames/%04d.png");
+    for (const fs::path& film : outputs.films) require_encoder(film);
+    return outputs;
+}
+
+candela::PictureFormat format_of_frames(const AnimationOutputs& outputs, candela::Registry& registry) {
+    candela::PictureFormat format =
+        candela::format_of(outputs.frames ? outputs.frames->file_of(0) : fs::path("0.png"), registry);
+    // ffmpeg reads 8-bit pictures as people see them.
+    if (outputs.frames && !outputs.films.empty() && format.pixels != candela::PixelType::byte) {
+        throw Error(
+            ErrorCategory::bad_request,
+            fmt::format("a film is made of 8-bit frames, and '{}' holds floats; write -o frames/%04d.png",
+                        outputs.frames->text()));
+    }
+    return format;
+}
+
+std::vector<int> checked_frames_from(const CommandLine& line, candela::SceneFrames& frames,
+                                     candela::Registry& registry, candela::Diagnostics& diagnostics,
+                                     int threads) {
+    if (!frames.animation()) {
+        static_cast<void>(frames.draft(0, diagnostics));
+        return {};
+    }
+    const auto range = line.has("frames") ? std::optional(line.get<std::string>("frames")) : std::nullopt;
+    std::vector<int> numbers = frames_from(range, line.get<int>("step"), frames.count());
+    check_all_frames(frames, numbers, registry, diagnostics, threads);
+    return numbers;
+}
+
+void require_no_input_among(const AnimationOutputs& outputs, candela::SceneFrames& frames, int frame) {
+    candela::Diagnostics known;
+    const auto inputs = candela::input_files(frames.draft(frame, known));
+    for (const fs::path& film : outputs.films)
+        require_no_input(film.string(), inputs, "the files that the scene is made from",
+                         "give the film another name");
+}

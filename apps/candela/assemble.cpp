@@ -1,0 +1,189 @@
+// candela assemble: parts become a picture.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "command_line.h"
+#include "frame_record.h"
+#include "picture_parts.h"
+#include "reporting.h"
+#include "stopwatch.h"
+#include "task_journal.h"
+#include "terminal.h"
+#include "verbs.h"
+
+import candela.diagnostics;
+import candela.film;
+import candela.image;
+import candela.parallel;
+import candela.picture_rows;
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+/// The rows of all parts, one after the other.
+class PartRows final : public candela::PictureRows {
+  public:
+    PartRows(const fs::path& picture, const PartedPicture& parted, ProgressBar& bar)
+        : picture_(picture), parted_(parted), bar_(bar) {}
+
+    candela::PictureView next(int count) override {
+        const bool is_byte = parted_.whole.pixels == candela::PixelType::byte;
+        candela::PictureView rows = parted_.whole;
+        rows.height = std::min(count, parted_.whole.height - done_);
+        const std::size_t size = parted_.row_size() * static_cast<std::size_t>(rows.height);
+        if (is_byte) {
+            bytes_.resize(size);
+            read({reinterpret_cast<char*>(bytes_.data()), size});  // NOLINT: bytes are bytes
+            rows.bytes = bytes_;
+        } else {
+            reals_.resize(size / sizeof(float));
+            read({reinterpret_cast<char*>(reals_.data()), size});  // NOLINT: so they were written
+            rows.reals = reals_;
+        }
+        done_ += rows.height;
+        bar_.update(static_cast<std::size_t>(done_), static_cast<std::size_t>(parted_.whole.height));
+        return rows;
+    }
+
+  private:
+    void read(std::span<char> to) {
+        while (!to.empty()) {
+            if (left_ == 0) open_next();
+            const std::size_t some = std::min(to.size(), left_);
+            file_.read(to.data(), static_cast<std::streamsize>(some));
+            if (!file_) fail();
+            left_ -= some;
+            to = to.subspan(some);
+        }
+    }
+
+    void open_next() {
+        const PartNumber part{++number_, parted_.parts};
+        const fs::path file = file_of_part(picture_, part);
+        if (!is_up_to_date(file, parted_.inputs)) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("'{}' is not as it was rendered; render --part {}/{} makes it again",
+                                    file.string(), part.number, part.of));
+        }
+        file_.close();
+        file_.clear();
+        file_.open(file, std::ios::binary);
+        if (!file_) fail();
+        const candela::RowRange rows = rows_of(part, parted_.whole.height);
+        left_ = parted_.row_size() * static_cast<std::size_t>(rows.end - rows.first);
+    }
+
+    [[noreturn]] void fail() const {
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format("'{}' cannot be read", file_of_part(picture_, {number_, parted_.parts}).string()));
+    }
+
+    const fs::path& picture_;
+    const PartedPicture& parted_;
+    ProgressBar& bar_;
+    std::ifstream file_;
+    int number_ = 0, done_ = 0;
+    std::size_t left_ = 0;  // of the open part, in bytes
+    std::vector<std::uint8_t> bytes_;
+    std::vector<float> reals_;
+};
+
+/// "1, 4-6", of numbers in rising order.
+std::string ranges_of(const std::vector<int>& numbers) {
+    std::vector<std::string> ranges;
+    for (std::size_t i = 0; i < numbers.size();) {
+        std::size_t end = i + 1;
+        while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
+        ranges.push_back(end > i + 1 ? fmt::format("{}-{}", numbers[i], numbers[end - 1])
+                                     : fmt::format("{}", numbers[i]));
+        i = end;
+    }
+    return fmt::format("{}", fmt::join(ranges, ", "));
+}
+
+void require_all_parts(const fs::path& picture, const PartedPicture& parted) {
+    std::vector<int> missing, other;
+    for (int i = 1; i <= parted.parts; ++i) {
+        const Recorded is = recorded(file_of_part(picture, {i, parted.parts}), parted.inputs);
+        if (is == Recorded::missing) missing.push_back(i);
+        if (is == Recorded::other) other.push_back(i);
+    }
+    if (missing.empty() && other.empty()) return;
+    std::string problem;
+    if (!missing.empty()) problem = fmt::format("missing: {}", ranges_of(missing));
+    if (!other.empty())
+        problem += fmt::format("{}made from something else than the part that was rendered last: {}",
+                               problem.empty() ? "" : "; ", ranges_of(other));
+    throw Error(ErrorCategory::failure, fmt::format("'{}' is not complete; of its {} parts are {}",
+                                                    picture.string(), parted.parts, problem));
+}
+
+int assemble(const CommandLine& line) {
+    if (!line.has("picture"))
+        throw Error(ErrorCategory::bad_request,
+                    "candela assemble needs the picture's name, as candela render --part was given it");
+    const Stopwatch total;
+    const fs::path picture = line.all("picture").front();
+    std::error_code problem;
+    if (!fs::exists(folder_of_parts(picture), problem) && is_recorded(picture)) {
+        say(fmt::format("{} is complete; there are no parts\n", picture.string()));
+        return 0;
+    }
+    candela::Registry registry = registry_from(line);
+    const candela::PictureFormat format = candela::format_of(picture, registry);
+    const PartedPicture parted = read_description(picture);
+    if (format.pixels != parted.whole.pixels)
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("the parts of '{}' have pixels of another type than the format has",
+                                picture.string()));
+    require_all_parts(picture, parted);
+    try {
+        ProgressBar bar("assembling", !is_quiet());
+        PartRows rows(picture, parted, bar);
+        candela::with_threads(threads_from(line),
+                              [&] { candela::write_rows(parted.whole, rows, format, picture, registry); });
+        record(picture, parted.inputs);
+    } catch (const Error&) {
+        // Somebody else has assembled it meanwhile, and removed the parts.
+        if (recorded(picture, parted.inputs) != Recorded::made) throw;
+    }
+    if (!line.has("keep-parts")) fs::remove_all(folder_of_parts(picture), problem);
+    say_afterwards([&] {
+        return fmt::format("{}: {} x {}, of {} part{}, {}\n", picture.string(), parted.whole.width,
+                           parted.whole.height, parted.parts, parted.parts == 1 ? "" : "s",
+                           duration_text(total.milliseconds()));
+    });
+    return 0;
+}
+
+}  // namespace
+
+int run_assemble(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela assemble PICTURE [options]",
+        "Puts together a picture of which candela render --part has made the parts, says which are "
+        "missing, and removes\nthem. The result has the bytes of the picture rendered in one go. PICTURE is "
+        "the name that "
+        "-o gave.");
+    line.positional("picture", 1);
+    line.options()("keep-parts", "do not remove the parts")("threads", po::value<int>()->value_name("N"),
+                                                            "threads to use; default: all cores");
+    add_plugin_options(line);
+    add_journal_option(line);
+    if (!line.parse(arguments)) return 0;
+    return with_journal(line, [&] { return assemble(line); });
+}

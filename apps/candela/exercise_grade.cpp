@@ -1,0 +1,259 @@
+// candela exercise grade: answers against what the models give.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "exercise.h"
+#include "exercises.h"
+#include "exit_code.h"
+#include "helper.h"
+#include "kernel_language.h"
+#include "reporting.h"
+#include "temporary_folder.h"
+#include "terminal.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.process;
+import candela.text;
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+using nlohmann::json;
+
+namespace {
+
+enum class Result { matches, differs, does_not_compile, hangs, crashes, is_no_answer };
+
+/// As the JSON has them.
+const char* name_of(Result result) {
+    switch (result) {
+        case Result::matches:
+            return "matches";
+        case Result::differs:
+            return "differs";
+        case Result::does_not_compile:
+            return "does-not-compile";
+        case Result::hangs:
+            return "hangs";
+        case Result::crashes:
+            return "crashes";
+        case Result::is_no_answer:
+            return "no-answer";
+    }
+    return "?";
+}
+
+struct Grade {
+    fs::path file;
+    std::string model, function;  // as the answer says
+    Result result = Result::is_no_answer;
+    std::string message;         // what is wrong, where it is not in the numbers
+    std::size_t line = 0;        // of the answer, where the message is about one
+    json terms = json::array();  // as the conformance kit says them
+};
+
+/// What the compiler says about the first error in the answer's own lines; in other lines, an error is about
+/// where the answer ends.
+void take_refusal(Grade& grade, const std::string& log, const Exercise& exercise, const std::string& body) {
+    grade.result = Result::does_not_compile;
+    static const std::regex k_error(R"(\.kernel:(\d+):\d+: (?:fatal )?error: ([^\n]*))");
+    std::smatch found;
+    if (!std::regex_search(log, found, k_error)) {
+        grade.message = log.substr(0, log.find('\n', log.find('\n') + 1));
+        return;
+    }
+    const std::size_t at = std::stoul(found[1]), first = exercise.first_line();
+    const auto lines = 1 + static_cast<std::size_t>(std::ranges::count(body, '\n'));
+    grade.message = found[2];
+    grade.line = at < first ? 0 : std::min(at - first + 1, lines);
+}
+
+/// What the kit says of the kernel in `text`, with an answer in it.
+json judged_by_kit(const fs::path& kit, const Exercise& exercise, const fs::path& text, double seconds) {
+    const candela::ProgramOutput output =
+        candela::run_program({kit.string(), exercise.plugin->library.string(), "--answer", text.string(),
+                              "--json", "--time-limit", fmt::format("{}", seconds)});
+    const json report = json::parse(output.out, nullptr, false);
+    if (report.is_array() && !report.empty()) {
+        const json& check = report[0]["checks"][0];
+        const std::string outcome = check["outcome"];
+        if (outcome == "timed out") return {{"hangs", true}};
+        for (const json& message : check["messages"]) {
+            const json found = json::parse(message.get<std::string>(), nullptr, false);
+            if (found.is_object()) return found;
+            if (outcome == "failed" || outcome == "skipped" || outcome == "crashed")
+                throw Error(ErrorCategory::failure,
+                            fmt::format("the conformance kit cannot grade: {}", message.get<std::string>()));
+        }
+    }
+    throw Error(ErrorCategory::failure, fmt::format("the conformance kit has failed: {}", output.err));
+}
+
+class Grader {
+  public:
+    Grader(candela::Registry& registry, double seconds)
+        : registry_(registry),
+          seconds_(seconds),
+          kit_(conformance_kit()),
+          folder_(fs::temp_directory_path(), "candela-exercise-") {}
+
+    Grade grade(const fs::path& file) {
+        Grade grade{.file = file, .model = {}, .function = {}, .message = {}};
+        std::optional<Answer> answer;
+        std::optional<Exercise> exercise;
+        try {
+            answer = answer_from(file);
+            grade.model = answer->model;
+            grade.function = answer->function;
+            exercise = exercise_about(answer->model, answer->function, registry_);
+        } catch (const Error& problem) {
+            grade.message = problem.what();
+            return grade;
+        }
+        if (const auto problem = problem_in_body(answer->body)) {
+            grade.result = Result::does_not_compile;
+            grade.line = problem->line;
+            grade.message = problem->message;
+            return grade;
+        }
+        const fs::path text = folder_.path() / "answer.kernel";
+        candela::write_text_file(text, exercise->with(body_for_cpp(answer->body)));
+        const json found = judged_by_kit(kit_, *exercise, text, seconds_);
+        if (found.contains("refused")) {
+            take_refusal(grade, found["refused"], *exercise, answer->body);
+        } else if (found.contains("hangs")) {
+            grade.result = Result::hangs;
+            grade.message = "it does not come to an end";
+        } else if (found.contains("signal")) {
+            grade.result = Result::crashes;
+            grade.message = fmt::format("it ends with SIG{}", found["signal"].get<std::string>());
+        } else {
+            grade.result = found["matches"] ? Result::matches : Result::differs;
+            grade.terms = found["terms"];
+        }
+        return grade;
+    }
+
+  private:
+    candela::Registry& registry_;
+    double seconds_;
+    fs::path kit_;
+    TemporaryFolder folder_;
+};
+
+std::string percent(double share) {
+    const double value = 100 * share;
+    return value > 0 && value < 0.1 ? "< 0.1 %" : fmt::format("{:.{}f} %", value, value < 10 ? 1 : 0);
+}
+
+/// "specular: 3.9 % of the points differ, by up to 100 % of the largest value".
+std::string term_text(const json& term) {
+    const std::string text = fmt::format("{}: {} of the points differ", term["term"].get<std::string>(),
+                                         percent(term["share"].get<double>()));
+    if (!term["largest"].is_number()) return text + "; some are not numbers";
+    return text + fmt::format(", by up to {} of the largest value", percent(term["largest"].get<double>()));
+}
+
+/// What became of it, in a line.
+std::string summary_of(const Grade& grade) {
+    std::string text = grade.result == Result::does_not_compile ? "does not compile" : name_of(grade.result);
+    if (grade.result == Result::is_no_answer) return grade.message;
+    if (grade.line > 0) text += fmt::format(": line {}", grade.line);
+    if (!grade.message.empty()) text += ": " + grade.message;
+    return text;
+}
+
+/// A row per answer, and under those that differ how.
+std::string table(const std::vector<Grade>& grades) {
+    std::vector<std::array<std::string, 2>> cells;
+    std::array<std::size_t, 2> widths{};
+    for (const Grade& grade : grades) {
+        cells.push_back(
+            {candela::printable(grade.file.string()),
+             candela::printable(candela::shortened(fmt::format("{} {}", grade.model, grade.function)))});
+        for (std::size_t i = 0; i < widths.size(); ++i)
+            widths[i] = std::max(widths[i], candela::character_count(cells.back()[i]));
+    }
+    const auto padded = [](const std::string& text, std::size_t width) {
+        return text + std::string(width + 2 - candela::character_count(text), ' ');
+    };
+    std::string text;
+    for (std::size_t row = 0; row < grades.size(); ++row) {
+        const Grade& grade = grades[row];
+        const std::string indent = "    ";
+        text += padded(cells[row][0], widths[0]) + padded(cells[row][1], widths[1]) +
+                candela::printable(summary_of(grade)) + "\n";
+        if (grade.result != Result::differs) continue;
+        for (const json& term : grade.terms) {
+            if (!term.contains("at")) continue;
+            text += fmt::format("{}{}\n", indent, term_text(term));
+            text += fmt::format("{}  most for {}\n{}  with {}\n", indent, term["at"].get<std::string>(),
+                                indent, term["with"].get<std::string>());
+        }
+    }
+    return text;
+}
+
+json json_of(const Grade& grade) {
+    json result = {{"file", grade.file.string()}, {"model", grade.model},
+                   {"function", grade.function},  {"result", name_of(grade.result)},
+                   {"message", grade.message},    {"terms", grade.terms}};
+    result["line"] = grade.line > 0 ? json(grade.line) : json();
+    return result;
+}
+
+}  // namespace
+
+int run_exercise_grade(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela exercise grade FILE|FOLDER... [options]",
+        "Grades answers that the pages of `candela exercise new` have saved: whether the formula gives the "
+        "model's own\nnumbers, as the conformance kit compares them, and if not, how far it is off in which "
+        "term. Of a folder, the\nfiles named *.answer are graded. An answer is compiled and run in a process "
+        "of its own that can do nothing but\ncompute.");
+    line.positional("answer", -1);
+    line.options()("json", "as JSON, with the point at which each term differs most")(
+        "time-limit", po::value<double>()->value_name("SECONDS")->default_value(30, "30"), "for each answer");
+    add_plugin_options(line);
+    if (!line.parse(arguments)) return 0;
+    const auto seconds = line.get<double>("time-limit");
+    if (!(seconds > 0))
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("--time-limit is {}; it has to be above 0", seconds));
+    const std::vector<std::string> named = line.all("answer");
+    if (named.empty())
+        throw Error(ErrorCategory::bad_request,
+                    "candela exercise grade needs answers: files, or folders with *.answer in them");
+    const std::vector<fs::path> files = answers_in(named);
+    candela::Registry registry = registry_from(line);
+    Grader grader(registry, seconds);
+    std::vector<Grade> grades;
+    {
+        ProgressBar bar("grading", !is_quiet());
+        for (const fs::path& file : files) {
+            grades.push_back(grader.grade(file));
+            bar.update(grades.size(), files.size());
+        }
+    }
+    if (line.has("json")) {
+        json all = json::array();
+        for (const Grade& grade : grades) all.push_back(json_of(grade));
+        std::cout << candela::printable_json(all.dump(2, ' ', false, json::error_handler_t::replace)) << '\n';
+    } else {
+        std::cout << table(grades);
+    }
+    const bool all_match =
+        std::ranges::all_of(grades, [](const Grade& grade) { return grade.result == Result::matches; });
+    return static_cast<int>(all_match ? ExitCode::ok : ExitCode::verification_failed);
+}

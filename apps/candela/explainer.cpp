@@ -1,0 +1,111 @@
+#include "explainer.h"
+
+#include <algorithm>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+namespace {
+
+using std::chrono::milliseconds;
+
+// Long enough for the picture to be drawn first, and for a burst of saves to be over.
+constexpr milliseconds k_quiet{200};
+// A scene in memory is of no use to somebody who explains nothing.
+constexpr std::chrono::minutes k_longest_idle{10};
+constexpr std::chrono::minutes k_patience{1};
+
+view::Outcome failed(std::string why) { return {.is_success = false, .content = std::move(why)}; }
+
+}  // namespace
+
+Explainer::Explainer(std::vector<std::string> arguments)
+    : arguments_(std::move(arguments)), latest_(Clock::now()), thread_([this] { get_ready(); }) {}
+
+Explainer::~Explainer() {
+    {
+        const std::lock_guard lock(waiting_);
+        is_ending_ = true;
+    }
+    news_.notify_all();
+    thread_.join();
+}
+
+void Explainer::scene_changed() {
+    {
+        const std::lock_guard lock(waiting_);
+        is_outdated_ = true;
+        latest_ = Clock::now();
+    }
+    news_.notify_all();
+}
+
+void Explainer::start(const std::vector<std::string>& options) {
+    program_.reset();
+    options_ = options;
+    std::vector<std::string> words{"/proc/self/exe", "explain", "--quiet", "--json", "--pixel=-"};
+    for (const auto& some : {arguments_, options}) words.insert(words.end(), some.begin(), some.end());
+    program_ = std::make_unique<candela::AnsweringProgram>(words);
+}
+
+void Explainer::get_ready() {
+    std::unique_lock waiting(waiting_);
+    while (!is_ending_) {
+        const Clock::time_point due = latest_ + (is_outdated_ ? Clock::duration(k_quiet) : k_longest_idle);
+        if (Clock::now() < due) {
+            news_.wait_until(waiting, due);
+            continue;
+        }
+        const bool is_wanted = std::exchange(is_outdated_, false);
+        latest_ = Clock::now();
+        waiting.unlock();
+        {
+            const std::lock_guard lock(using_);
+            try {
+                if (is_wanted)
+                    start(options_);
+                else
+                    program_.reset();
+            } catch (const std::exception&) {
+                program_.reset();  // who asks for a pixel tries again, and is told
+            }
+        }
+        waiting.lock();
+    }
+}
+
+view::Outcome Explainer::explain(const std::vector<view::Change>& changes) try {
+    std::string pixel;
+    std::vector<std::string> options;
+    for (const view::Change& change : changes) {
+        if (change.option == "--pixel")
+            pixel = change.value;
+        else
+            options.push_back(change.option + "=" + change.value);
+    }
+    std::ranges::replace(pixel, '\n', ' ');  // or it would be two questions
+    const std::lock_guard lock(using_);
+    {
+        const std::lock_guard waiting(waiting_);
+        if (std::exchange(is_outdated_, false)) program_.reset();
+        latest_ = Clock::now();
+    }
+    const bool is_new = !program_ || options_ != options;
+    if (is_new) start(options);
+    std::optional<std::string> answer = program_->answer(pixel, k_patience);
+    if (!answer && !is_new) {  // something has ended it while it waited
+        start(options);
+        answer = program_->answer(pixel, k_patience);
+    }
+    if (!answer) {
+        const std::string why = program_->errors();
+        program_.reset();
+        return failed(why.empty() ? "The pixel is not explained: the program that does it has ended.\n"
+                                  : why);
+    }
+    if (answer->starts_with("{\"error\"")) return failed(nlohmann::json::parse(*answer)["error"]);
+    return {.is_success = true, .content = *std::move(answer)};
+} catch (const std::exception& problem) {
+    return failed(problem.what());
+}

@@ -1,0 +1,150 @@
+#include "frame_record.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/uuid_io.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+import candela.diagnostics;
+import candela.files;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+using candela::PluginKind;
+
+namespace {
+
+constexpr std::size_t k_fingerprint = 36;  // characters
+
+/// SHA-1, shortened to a UUID.
+std::string fingerprint(std::string_view bytes) {
+    static const boost::uuids::name_generator_sha1 k_generator{boost::uuids::uuid{}};
+    return boost::uuids::to_string(k_generator(bytes.data(), bytes.size()));
+}
+
+/// The library that Candela itself is.
+fs::path core_library() {
+    Dl_info info{};
+    // The address of a function of the core.
+    if (::dladdr(reinterpret_cast<const void*>(&candela::default_scene_text), &info) == 0 ||  // NOLINT
+        info.dli_fname == nullptr)
+        return "/proc/self/exe";
+    return candela::canonical_path(info.dli_fname);
+}
+
+fs::path record_of(const fs::path& picture) {
+    return picture.parent_path() / ".candela" / picture.filename();
+}
+
+/// The fingerprints of a file's pieces, so that it need not fit into memory.
+std::string fingerprint_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file.string()));
+    constexpr std::size_t k_piece = std::size_t{1} << 24;
+    std::error_code problem;
+    std::string piece(std::min<std::uintmax_t>(fs::file_size(file, problem), k_piece), '\0'), all;
+    do {
+        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        all += fingerprint({piece.data(), static_cast<std::size_t>(in.gcount())});
+    } while (in && in.peek() != std::ifstream::traits_type::eof());
+    if (in.bad()) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file.string()));
+    return all.size() == k_fingerprint ? all : fingerprint(all);
+}
+
+/// The size that its record says that the picture has; nothing if it has another one.
+std::optional<std::uintmax_t> recorded_size(const fs::path& picture, const std::string& record) {
+    std::error_code problem;
+    const auto size = fs::file_size(picture, problem);
+    if (problem || record.find(fmt::format("\nbytes {}\n", size)) == std::string::npos) return std::nullopt;
+    return size;
+}
+
+/// What a record of the picture says.
+std::string record_text(const fs::path& picture, const std::string& inputs) {
+    return fmt::format("inputs {}\nbytes {}\npicture {}\n", inputs, fs::file_size(picture),
+                       fingerprint_of(picture));
+}
+
+}  // namespace
+
+InputFingerprints::InputFingerprints(candela::Registry& registry, const candela::PictureFormat& format)
+    : registry_(registry), format_(format) {}
+
+const std::string& InputFingerprints::of_file(const fs::path& file) {
+    const auto [known, is_new] = files_.try_emplace(file);
+    if (is_new) {
+        const auto bytes = candela::read_text_file(file);
+        if (!bytes) {
+            files_.erase(known);
+            throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file.string()));
+        }
+        known->second = fingerprint(*bytes);
+    }
+    return known->second;
+}
+
+std::string InputFingerprints::of_plugin(PluginKind kind, const std::string& name) {
+    const candela::PluginFile* const plugin = registry_.find(kind, name);
+    return plugin == nullptr ? "" : fmt::format("{} {}\n", plugin->manifest.id(), of_file(plugin->library));
+}
+
+std::string InputFingerprints::of(const candela::SceneDraft& draft) {
+    candela::Scene scene = draft.scene;
+    scene.animation.reset();  // other frames do not matter to this one
+    std::string all = scene_text(scene);
+    // Of these, the values are in the text.
+    const std::set<fs::path> read(draft.files.begin(), draft.files.end());
+    for (const fs::path& file : input_files(draft)) {
+        if (!read.contains(file)) all += fmt::format("{} {}\n", file.string(), of_file(file));
+    }
+    std::set<std::string> plugins{of_plugin(PluginKind::image, format_.plugin)};
+    for (const candela::LightSource& light : scene.lights)
+        plugins.insert(of_plugin(PluginKind::light, light.model.name));
+    for (const candela::Object& object : scene.objects) {
+        plugins.insert(of_plugin(PluginKind::shape, object.shape.name));
+        plugins.insert(of_plugin(PluginKind::shading, object.shading.name));
+        plugins.insert(of_plugin(PluginKind::reflection, object.reflection.name));
+    }
+    for (const std::string& plugin : plugins) all += plugin;
+    all += fmt::format("{} {}\n", format_.extension, of_file(core_library()));
+    return fingerprint(all);
+}
+
+Recorded recorded(const fs::path& picture, const std::string& inputs) {
+    const auto record = candela::read_text_file(record_of(picture));
+    if (!record || !recorded_size(picture, *record)) return Recorded::missing;
+    return record->starts_with(fmt::format("inputs {}\n", inputs)) ? Recorded::made : Recorded::other;
+}
+
+bool is_recorded(const fs::path& picture) {
+    const auto record = candela::read_text_file(record_of(picture));
+    return record && recorded_size(picture, *record);
+}
+
+bool is_up_to_date(const fs::path& picture, const std::string& inputs) {
+    // Another input, another size, or none recorded: the picture need not even be read.
+    if (recorded(picture, inputs) != Recorded::made) return false;
+    return candela::read_text_file(record_of(picture)) == record_text(picture, inputs);
+}
+
+void record(const fs::path& picture, const std::string& inputs) {
+    const fs::path file = record_of(picture);
+    std::error_code problem;
+    fs::create_directories(file.parent_path(), problem);
+    // Not synced: what a crash of the machine leaves of it does not fit the picture, which is then made
+    // again.
+    std::ofstream out(file, std::ios::trunc);
+    out << record_text(picture, inputs) << std::flush;
+    if (!out) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be written", file.string()));
+}

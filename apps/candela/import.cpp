@@ -1,0 +1,120 @@
+// candela import: a model's file becomes a scene.
+#include "import/import.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "command_line.h"
+#include "output_folder.h"
+#include "reporting.h"
+#include "verbs.h"
+
+import candela.files;
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+importing::UpAxis up_from(const CommandLine& line) {
+    if (!line.has("up")) return importing::UpAxis::by_format;
+    const auto up = line.get<std::string>("up");
+    if (up == "y") return importing::UpAxis::y;
+    if (up == "z") return importing::UpAxis::z;
+    throw Error(ErrorCategory::bad_request, fmt::format("--up is '{}'; it can be y or z", up));
+}
+
+/// As a scene in `folder` names a file: relative to it, if they are on one path.
+std::string name_in(const fs::path& folder, const fs::path& file) {
+    const fs::path relative = candela::canonical_path(fs::absolute(file))
+                                  .lexically_relative(candela::canonical_path(fs::absolute(folder)));
+    return relative.empty() ? fs::absolute(file).string() : relative.generic_string();
+}
+
+}  // namespace
+
+int run_import(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela import FILE [options]",
+        "Writes a scene that shows a model from another program: an OBJ file with its materials, a glTF or "
+        "GLB "
+        "file\nwith materials, cameras and lights, a PLY or an STL file. The scene names the model's file; "
+        "what "
+        "the model\ndoes not have, such as a light, is chosen so that all of it is seen. What is left out or "
+        "approximated is said.");
+    line.positional("file", 1);
+    line.options()("output,o", po::value<std::string>()->value_name("FILE"),
+                   "the scene; default: the model's name with .toml; - prints it")(
+        "force", "replace an existing scene")(
+        "up", po::value<std::string>()->value_name("AXIS"),
+        "which axis points up in the file: y or z; default: z in STL files, "
+        "y in others");
+    add_plugin_options(line);
+    if (!line.parse(arguments)) return 0;
+    if (!line.has("file")) throw Error(ErrorCategory::bad_request, "candela import needs a model's file");
+
+    const fs::path file = line.all("file").front();
+    const std::string output =
+        line.has("output") ? line.get<std::string>("output") : file.stem().string() + ".toml";
+    const bool is_printed = output == "-";
+    std::error_code problem;
+    if (!is_printed && !line.has("force") && fs::exists(fs::symlink_status(output, problem)))
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' is there already; --force replaces it", output));
+    const fs::path parent = fs::path(output).parent_path();
+    const fs::path folder = is_printed || parent.empty() ? fs::path(".") : parent;
+    if (!is_printed)
+        require_no_input(output, {file}, "the files that the scene is made from",
+                         "give the scene another name");
+
+    // Pictures that the file contains come to lie beside the scene.
+    const std::string pictures_folder = fs::path(output).stem().string() + "_textures";
+    std::map<std::string, std::string> pictures;
+    candela::Registry registry = registry_from(line);
+    const importing::Imported imported = importing::import_model(
+        {.file = file,
+         .up = up_from(line),
+         .shown_file = name_in(folder, file),
+         .write_picture =
+             [&](const std::string& name, const std::string& content) {
+                 if (is_printed)
+                     throw Error(
+                         ErrorCategory::bad_request,
+                         fmt::format("'{}' contains pictures, which need a place beside the scene; name the "
+                                     "scene with -o",
+                                     file.string()));
+                 pictures.emplace(name, content);
+                 return pictures_folder + "/" + name;
+             },
+         .name_of_picture = [&](const fs::path& picture) { return name_in(folder, picture); }},
+        registry);
+    for (const std::string& note : imported.notes) warn(note);
+    if (is_printed) {
+        std::cout << imported.scene;
+        return 0;
+    }
+    if (!pictures.empty()) {
+        OutputFolder beside(folder / pictures_folder);
+        for (const auto& [name, content] : pictures) beside.write(name, content);
+        beside.finish();
+    }
+    candela::write_text_file(output, imported.scene,
+                             line.has("force") ? candela::Existing::replaced : candela::Existing::kept);
+    say_afterwards([&] {
+        const auto counted = [](std::size_t count, const char* what) {
+            return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+        };
+        return fmt::format("Wrote {}: {}, {}, {}. Next: candela render {}\n", output,
+                           counted(imported.objects, "object"), counted(imported.lights, "light"),
+                           counted(imported.textures, "texture"), output);
+    });
+    return 0;
+}

@@ -1,0 +1,102 @@
+#include "job_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "output_folder.h"
+
+import candela.diagnostics;
+import candela.files;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json as_json(const JobFile& file) { return {{"path", file.path.string()}, {"inputs", file.inputs}}; }
+
+JobFile file_from(const ordered_json& json) {
+    return {json.at("path").get<std::string>(), json.at("inputs")};
+}
+
+ordered_json as_json(const JobPlan& plan) {
+    ordered_json tasks = ordered_json::array();
+    for (const JobTask& task : plan.tasks) {
+        ordered_json files = ordered_json::array();
+        for (const JobFile& file : task.files) files.push_back(as_json(file));
+        tasks.push_back({{"name", task.name}, {"files", std::move(files)}});
+    }
+    ordered_json results = ordered_json::array();
+    for (const fs::path& result : plan.results) results.push_back(result.string());
+    const auto whole = plan.whole.path.empty() ? ordered_json() : as_json(plan.whole);
+    return {{"version", 1},
+            {"directory", plan.directory.string()},
+            {"output", plan.output},
+            {"engine", plan.engine},
+            {"number", plan.number},
+            {"submitted", plan.submitted},
+            {"tasks", std::move(tasks)},
+            {"results", std::move(results)},
+            {"whole", whole}};
+}
+
+JobPlan plan_from(const ordered_json& json) {
+    JobPlan plan{.directory = json.at("directory").get<std::string>(),
+                 .output = json.at("output"),
+                 .engine = json.at("engine"),
+                 .number = json.at("number"),
+                 .submitted = json.at("submitted"),
+                 .tasks = {},
+                 .results = {},
+                 .whole = {}};
+    if (const ordered_json& whole = json.at("whole"); !whole.is_null()) plan.whole = file_from(whole);
+    for (const ordered_json& task : json.at("tasks")) {
+        JobTask& made = plan.tasks.emplace_back(task.at("name").get<std::string>());
+        for (const ordered_json& file : task.at("files")) made.files.push_back(file_from(file));
+    }
+    for (const ordered_json& result : json.at("results"))
+        plan.results.emplace_back(result.get<std::string>());
+    return plan;
+}
+
+}  // namespace
+
+JobFolder JobFolder::of_output(const fs::path& output) {
+    return JobFolder(folder_of(output) / ".candela" / "jobs" / output.filename());
+}
+
+std::vector<JobFolder> JobFolder::all_in(const fs::path& directory) {
+    const fs::path jobs = directory / ".candela" / "jobs";
+    auto names = candela::names_in(jobs);
+    if (!names || names->empty()) {
+        throw Error(ErrorCategory::failure,
+                    fmt::format("no job was submitted for '{}': there is no '{}'; candela submit makes one",
+                                directory.string(), jobs.string()));
+    }
+    std::ranges::sort(*names);
+    std::vector<JobFolder> folders;
+    for (const std::string& name : *names) folders.emplace_back(jobs / name);
+    return folders;
+}
+
+void write_plan(const JobPlan& plan, const JobFolder& folder) {
+    make_folder(folder.path());
+    candela::write_text_file(
+        folder.plan(), as_json(plan).dump(1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
+}
+
+JobPlan read_plan(const JobFolder& folder) {
+    const auto text = candela::read_text_file(folder.plan());
+    if (!text)
+        throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", folder.plan().string()));
+    try {
+        return plan_from(ordered_json::parse(*text));
+    } catch (const ordered_json::exception& problem) {
+        throw Error(ErrorCategory::failure, fmt::format("'{}' is not a job's plan: {}; submit the job again",
+                                                        folder.plan().string(), problem.what()));
+    }
+}

@@ -1,0 +1,43 @@
+// How far a job is, from files alone.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "job_plan.h"
+#include "task_journal.h"
+
+struct TaskState {
+    enum class Kind {
+        done,     // all of its files are whole, and made from what was submitted
+        running,  // and some may be done
+        failed,   // or lost: its process is no longer there
+        waiting   // nobody has begun it, or it went well and its files are gone
+    };
+    std::string name;
+    Kind kind = Kind::waiting;
+    std::size_t files_done = 0;
+    std::size_t files_other = 0;  // made from something else than was submitted
+    std::size_t files = 0;
+    std::optional<JournalEntry> journal;
+    std::string why;  // of a failure
+};
+
+struct JobState {
+    JobPlan plan;
+    std::vector<TaskState> tasks;
+    std::optional<TaskState> last;
+
+    std::size_t count(TaskState::Kind kind) const;
+};
+
+/// The name of a kind, for people and for programs.
+const char* name_of(TaskState::Kind kind);
+
+/// Throws candela::Error (failure) if there is no plan.
+JobState state_of(const JobFolder& folder);
+
+/// Of one task; `number` is counted from 1.
+TaskState state_of(const JobPlan& plan, const JobTask& task, std::size_t number, const JobFolder& folder);

@@ -1,0 +1,84 @@
+// Tasks of a job as processes of this machine.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "descendants.h"
+#include "exit_code.h"
+#include "job_engines.h"
+#include "job_state.h"
+#include "reporting.h"
+#include "task_journal.h"
+#include "terminal.h"
+
+import candela.process;
+
+namespace {
+
+/// Why the task has failed; nothing if it has not.
+std::optional<std::string> failure_of(const Words& command) {
+    try {
+        const candela::ProgramOutput done = candela::run_program(command);
+        constexpr int k_signal = 128;
+        if (done.exit_code > k_signal) {
+            const int signal = done.exit_code - k_signal;
+            return fmt::format("it was ended by signal {} ({})", signal, ::strsignal(signal));
+        }
+        return done.exit_code == 0 ? std::nullopt : std::optional(done.err);
+    } catch (const std::exception& problem) {
+        return problem.what();
+    }
+}
+
+/// Runs one task; says and writes down why it failed, if it has.
+bool run_task(const std::string& name, const Words& command, const JobFolder& folder) {
+    const auto failure = failure_of(command);
+    // The handler of a signal has ended it, and perhaps waited for it, and is about to end this process.
+    while (are_descendants_ending()) ::pause();
+    if (!failure) return true;
+    std::string why = *failure;
+    why.erase(why.find_last_not_of('\n') + 1);
+    const auto said = read_journal(folder.journal_of(name));
+    if (!said || said->state != JournalEntry::State::failed) write_failure(folder.journal_of(name), why);
+    static std::mutex mutex;
+    const std::scoped_lock lock(mutex);
+    fail(ExitCode::failure, fmt::format("task {}: {}", name, why));
+    return false;
+}
+
+}  // namespace
+
+int run_locally(const Submission& job, std::size_t processes) {
+    end_descendants_on_signals();
+    std::atomic<std::size_t> next{0}, done{0}, failed{0};
+    {
+        ProgressBar bar("rendering", !is_quiet());
+        std::vector<std::thread> workers;
+        const auto work = [&] {
+            for (std::size_t i = next++; i < job.open.size(); i = next++) {
+                const std::size_t task = job.open[i];
+                if (!run_task(job.plan.tasks[task].name, job.commands[task], job.folder)) ++failed;
+                bar.update(++done, job.open.size());
+            }
+        };
+        for (std::size_t i = 0; i < std::min(processes, job.open.size()); ++i) workers.emplace_back(work);
+        for (std::thread& worker : workers) worker.join();
+    }
+    if (failed > 0) {
+        return fail(ExitCode::failure,
+                    fmt::format("{} of {} tasks failed; the same command again does what is not done",
+                                failed.load(), job.open.size()));
+    }
+    if (!job.last.empty() && !run_task(k_last_task, job.last, job.folder))
+        return static_cast<int>(ExitCode::failure);
+    return 0;
+}

@@ -1,0 +1,80 @@
+// The parts of a picture as tasks.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "compiling.h"
+#include "frame_record.h"
+#include "picture_parts.h"
+#include "submission.h"
+
+import candela.diagnostics;
+import candela.film;
+import candela.scene;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+/// The one picture that --output names.
+fs::path picture_from(const CommandLine& line) {
+    const std::vector<std::string> outputs = line.all("output");
+    if (outputs.size() != 1 || outputs.front() == "-")
+        throw Error(ErrorCategory::bad_request,
+                    "--parts is for one picture; name it by -o, such as -o poster.tif");
+    for (const char* const option : {"frames", "chunk"}) {
+        if (line.has(option))
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("--{} is for frames, and --parts for one picture", option));
+    }
+    return outputs.front();
+}
+
+}  // namespace
+
+std::optional<Submission> submission_of_parts(const CommandLine& line, int threads,
+                                              candela::Diagnostics& diagnostics) {
+    const fs::path picture = picture_from(line);
+    candela::Registry registry = registry_from(line);
+    const candela::PictureFormat format = candela::format_of(picture, registry);
+    bool has_asked = false;
+    const auto draft =
+        candela::draft_scene(repeatable_request_from(line, registry, has_asked), registry, diagnostics);
+    // For what only triangles tell: each task compiles the scene again.
+    if (!draft || !compile_scene(*draft, registry, diagnostics)) return std::nullopt;
+    require_no_input(picture.string(), candela::input_files(*draft), "the files that the scene is made from",
+                     "give the picture another name");
+
+    const int parts = count_from(line, "parts", 1'000'000);
+    const std::string inputs = InputFingerprints(registry, format).of(*draft);
+    Submission job{.plan = {},
+                   .folder = JobFolder::of_output(picture),
+                   .commands = {},
+                   .last = {},
+                   .open = {},
+                   .queue_options = {}};
+    job.plan.output = picture.string();
+    job.plan.whole = {picture, inputs};
+    job.plan.results = {picture};
+    Words common = common_words(line, "render", has_asked);
+    common.push_back("--output=" + picture.string());
+    if (line.has("frame")) common.push_back(fmt::format("--frame={}", line.get<int>("frame")));
+    common.push_back(fmt::format("--threads={}", threads));
+    for (int i = 1; i <= parts; ++i) {
+        const PartNumber part{i, parts};
+        static_cast<void>(rows_of(part, draft->scene.image.height));  // there are so many
+        job.plan.tasks.push_back({part.name(), {{file_of_part(picture, part), inputs}}});
+        job.commands.push_back(common);
+        job.commands.back().push_back(fmt::format("--part={}/{}", i, parts));
+        job.commands.back().push_back("--journal=" + job.folder.journal_of(part.name()).string());
+    }
+    job.last = {job.commands.front().front(), "assemble", picture.string(), "--quiet",
+                "--journal=" + job.folder.journal_of(k_last_task).string()};
+    for (const std::string& folder : line.all("plugin-dir")) job.last.push_back("--plugin-dir=" + folder);
+    if (line.has("allow-untrusted-plugins")) job.last.emplace_back("--allow-untrusted-plugins");
+    return job;
+}

@@ -1,0 +1,45 @@
+// Pictures in parts: bands of whole rows, each a file of pixels as the picture has them, which are put
+// together in the end.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+import candela.film;
+import candela.image;
+
+/// Part `number`, from 1, of `of`.
+struct PartNumber {
+    int number = 1;
+    int of = 1;
+
+    /// "3-of-16", without what is no good in a file's name.
+    std::string name() const;
+};
+
+/// What "3/16" says. Throws candela::Error (bad_request).
+PartNumber part_from(const std::string& text);
+
+/// The part's rows. Throws candela::Error (bad_request) if the picture has fewer rows than parts.
+candela::RowRange rows_of(PartNumber part, int height);
+
+/// The folder of a picture's parts, beside it.
+std::filesystem::path folder_of_parts(const std::filesystem::path& picture);
+/// The file of a part: its rows from the top, red, green, blue interleaved, as bytes or native floats.
+std::filesystem::path file_of_part(const std::filesystem::path& picture, PartNumber part);
+
+/// What is to be known to put parts together; a file beside them.
+struct PartedPicture {
+    candela::PictureView whole;  // without pixels
+    int parts = 1;
+    std::string inputs;  // fingerprint of what all of them are to be made from
+
+    /// Of one row, in bytes.
+    std::size_t row_size() const;
+};
+
+/// Throws candela::Error (failure).
+void write_description(const PartedPicture& parted, const std::filesystem::path& picture);
+/// Throws candela::Error (failure) if there are no parts.
+PartedPicture read_description(const std::filesystem::path& picture);

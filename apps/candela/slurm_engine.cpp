@@ -1,0 +1,93 @@
+// Tasks of a job as an array job of Slurm.
+#include <fmt/format.h>
+
+#include <string>
+
+#include "frame_pattern.h"
+#include "job_engines.h"
+#include "shell_words.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.process;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+/// "1-3,7": numbers from 1, of indices in rising order.
+std::string array_of(const std::vector<std::size_t>& indices) {
+    std::string text;
+    for (std::size_t i = 0; i < indices.size();) {
+        std::size_t end = i + 1;
+        while (end < indices.size() && indices[end] == indices[end - 1] + 1) ++end;
+        text += fmt::format("{}{}", text.empty() ? "" : ",", indices[i] + 1);
+        if (end > i + 1) text += fmt::format("-{}", indices[end - 1] + 1);
+        i = end;
+    }
+    return text;
+}
+
+fs::path absolute(const Submission& job, const fs::path& path) {
+    return (job.plan.directory / path).lexically_normal();
+}
+
+/// The lines that all scripts begin with. `log`: may hold Slurm's patterns.
+std::string head(const Submission& job, const std::string& log, const std::string& more) {
+    std::string text = "#!/bin/sh\n#SBATCH --job-name=candela\n" + more;
+    text += fmt::format("#SBATCH --cpus-per-task={}\n", job.threads);
+    // A task may be begun again on another machine: what it has done is left alone.
+    text += "#SBATCH --requeue\n";
+    text += fmt::format("#SBATCH --output=\"{}\"\n", log);
+    for (const std::string& option : job.queue_options) text += fmt::format("#SBATCH {}\n", option);
+    return text;
+}
+
+std::string submit(const fs::path& script, const Words& more) {
+    Words words = {"sbatch", "--parsable"};
+    words.insert(words.end(), more.begin(), more.end());
+    words.push_back(script.string());
+    const candela::ProgramOutput done = candela::run_program(words);
+    if (done.exit_code != 0)
+        throw Error(ErrorCategory::failure,
+                    fmt::format("sbatch refuses '{}':\n{}", script.string(), done.err));
+    // "12", or "12;cluster".
+    return done.out.substr(0, done.out.find_first_of(";\n"));
+}
+
+}  // namespace
+
+std::string slurm_script_of_tasks(const Submission& job) {
+    const std::string logs = escaped_for_pattern(absolute(job, job.folder.path()).string());
+    return head(job, logs + "/%a.log", fmt::format("#SBATCH --array={}\n", array_of(job.open))) +
+           fmt::format("eval \"$(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" {})\"\n",
+                       quoted_for_shell(absolute(job, job.folder.commands()).string()));
+}
+
+std::string slurm_script_of_last(const Submission& job) {
+    const fs::path log = absolute(job, job.folder.log_of(k_last_task));
+    return head(job, escaped_for_pattern(log.string()), "") + shell_line(job, job.last) + '\n';
+}
+
+Words after_tasks(const std::string& number) {
+    // Without the second, it would wait for ever for tasks that have failed.
+    return {"--dependency=afterok:" + number, "--kill-on-invalid-dep=yes"};
+}
+
+std::vector<std::string> submit_to_slurm(const Submission& job) {
+    if (!candela::program_called("sbatch")) {
+        throw Error(
+            ErrorCategory::failure,
+            "there is no 'sbatch' on this machine, which hands jobs to Slurm (Debian, Ubuntu: apt install "
+            "slurm-client); --dry-run shows what it would be given");
+    }
+    std::vector<std::string> numbers;
+    if (!job.open.empty()) numbers.push_back(submit(job.folder.script_of_tasks(), {}));
+    if (!job.last.empty()) {
+        numbers.push_back(
+            submit(job.folder.script_of_last(), numbers.empty() ? Words() : after_tasks(numbers.front())));
+    }
+    return numbers;
+}

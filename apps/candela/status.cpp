@@ -1,0 +1,130 @@
+// candela status: how far submitted jobs are.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "job_plan.h"
+#include "job_state.h"
+#include "verbs.h"
+
+using nlohmann::ordered_json;
+using Kind = TaskState::Kind;
+
+namespace {
+
+constexpr std::size_t k_most_shown = 20;
+
+std::string counted(std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string details(const TaskState& task) {
+    std::string text = fmt::format("    {}", task.name);
+    if (task.files > 1) text += fmt::format(", {} of {} done", task.files_done, task.files);
+    if (task.kind == Kind::running)
+        text += fmt::format(", on {} since {}", task.journal->host, task.journal->began);
+    if (!task.why.empty()) {
+        text += ": ";
+        for (const char c : task.why.substr(0, task.why.find_last_not_of('\n') + 1))
+            text += c == '\n' ? "\n      " : std::string(1, c);
+    }
+    return text + '\n';
+}
+
+std::string text_of(const JobState& job) {
+    const JobPlan& plan = job.plan;
+    std::size_t files = 0, done = 0, other = 0;
+    for (const TaskState& task : job.tasks) {
+        files += task.files;
+        done += task.files_done;
+        other += task.files_other;
+    }
+    std::string text = fmt::format("{}: {} of {} done, in {}; {}{}, submitted {}\n", plan.output, done,
+                                   counted(files, "file"), counted(job.tasks.size(), "task"), plan.engine,
+                                   plan.number.empty() ? "" : " job " + plan.number, plan.submitted);
+    if (other > 0) {
+        text += fmt::format(
+            "  {} made from something else than was submitted: the scene, a file or Candela has changed\n",
+            counted(other, "file"));
+    }
+    for (const Kind kind : {Kind::done, Kind::running, Kind::failed, Kind::waiting}) {
+        const std::size_t count = job.count(kind);
+        if (count == 0) continue;
+        text += fmt::format("  {:8} {}\n", name_of(kind), counted(count, "task"));
+        if (kind != Kind::running && kind != Kind::failed) continue;
+        std::size_t shown = 0;
+        for (const TaskState& task : job.tasks) {
+            if (task.kind != kind) continue;
+            if (++shown > k_most_shown) {
+                text += fmt::format("    and {} more\n", count - k_most_shown);
+                break;
+            }
+            text += details(task);
+        }
+    }
+    if (job.last) {
+        std::string results;
+        for (const auto& result : plan.results) results += (results.empty() ? "" : ", ") + result.string();
+        text += fmt::format("  {}: {}{}\n", results, name_of(job.last->kind),
+                            job.last->why.empty() ? "" : ": " + job.last->why);
+    }
+    if (job.count(Kind::failed) > 0 || (job.last && job.last->kind == Kind::failed))
+        text += "  The same candela submit again has done what is not.\n";
+    return text;
+}
+
+ordered_json json_of(const TaskState& task) {
+    ordered_json json{{"name", task.name},
+                      {"state", name_of(task.kind)},
+                      {"files", task.files},
+                      {"files_done", task.files_done},
+                      {"files_made_from_something_else", task.files_other}};
+    if (task.journal) {
+        json["host"] = task.journal->host;
+        json["began"] = task.journal->began;
+        json["seconds"] = task.journal->seconds;
+    }
+    if (!task.why.empty()) json["why"] = task.why;
+    return json;
+}
+
+ordered_json json_of(const JobState& job) {
+    ordered_json tasks = ordered_json::array();
+    for (const TaskState& task : job.tasks) tasks.push_back(json_of(task));
+    ordered_json json{{"output", job.plan.output},
+                      {"engine", job.plan.engine},
+                      {"number", job.plan.number},
+                      {"submitted", job.plan.submitted}};
+    for (const Kind kind : {Kind::done, Kind::running, Kind::failed, Kind::waiting})
+        json[name_of(kind)] = job.count(kind);
+    json["tasks"] = std::move(tasks);
+    if (job.last) json["last"] = json_of(*job.last);
+    return json;
+}
+
+}  // namespace
+
+int run_status(const std::vector<std::string>& arguments) {
+    CommandLine line("candela status [DIR] [options]",
+                     "Says of each job that was submitted for a folder (default: this one) what is done, "
+                     "running, failed and why, and\nwaiting, from the files in it alone.");
+    line.positional("directory", 1);
+    line.options()("json", "print it as JSON");
+    if (!line.parse(arguments)) return 0;
+    const std::vector<std::string> given = line.all("directory");
+    std::vector<JobState> jobs;
+    for (const JobFolder& folder : JobFolder::all_in(given.empty() ? "." : given.front()))
+        jobs.push_back(state_of(folder));
+    if (line.has("json")) {
+        ordered_json json = ordered_json::array();
+        for (const JobState& job : jobs) json.push_back(json_of(job));
+        std::cout << json.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
+    } else {
+        for (const JobState& job : jobs) std::cout << text_of(job);
+    }
+    return 0;
+}

@@ -1,0 +1,202 @@
+// candela submit: tasks that any number of processes work on, on one machine or many.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "animating.h"
+#include "command_line.h"
+#include "exit_code.h"
+#include "job_engines.h"
+#include "job_plan.h"
+#include "job_state.h"
+#include "output_folder.h"
+#include "reporting.h"
+#include "shell_words.h"
+#include "verbs.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.parallel;
+import candela.text;
+
+namespace po = boost::program_options;
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+enum class Engine { local, slurm, print };
+
+struct EngineName {
+    const char* name;
+    Engine engine;
+};
+constexpr std::array k_engines = {EngineName{"local", Engine::local}, EngineName{"slurm", Engine::slurm},
+                                  EngineName{"print", Engine::print}};
+
+Engine engine_from(const CommandLine& line) {
+    const auto name = line.get<std::string>("engine");
+    for (const EngineName& each : k_engines)
+        if (name == each.name) return each.engine;
+    std::vector<std::string> names;
+    for (const EngineName& each : k_engines) names.emplace_back(each.name);
+    const std::string meant = candela::suggestion(name, names);
+    throw Error(ErrorCategory::bad_request, fmt::format("--engine is '{}'; it can be local, slurm or print{}",
+                                                        name, meant.empty() ? "" : "; " + meant));
+}
+
+/// What `status` reads, and what engines run. Journals of an earlier job of the same tasks are removed.
+void write_job(Submission& job, Engine engine) {
+    for (const std::size_t task : job.open) {
+        std::error_code problem;
+        fs::remove(job.folder.journal_of(job.plan.tasks[task].name), problem);
+        fs::remove(job.folder.log_of(std::to_string(task + 1)), problem);
+    }
+    std::error_code problem;
+    fs::remove(job.folder.journal_of(k_last_task), problem);
+    write_plan(job.plan, job.folder);
+    std::string commands;
+    for (const Words& command : job.commands) commands += shell_line(job, command) + '\n';
+    candela::write_text_file(job.folder.commands(), commands);
+    if (engine != Engine::slurm) return;
+    if (!job.open.empty()) candela::write_text_file(job.folder.script_of_tasks(), slurm_script_of_tasks(job));
+    if (!job.last.empty()) candela::write_text_file(job.folder.script_of_last(), slurm_script_of_last(job));
+}
+
+void print_command_lines(const Submission& job) {
+    for (const std::size_t task : job.open) std::cout << shell_line(job, job.commands[task]) << '\n';
+}
+
+void show(const Submission& job, Engine engine) {
+    if (engine != Engine::slurm) {
+        print_command_lines(job);
+        if (engine == Engine::local && !job.last.empty()) std::cout << shell_line(job, job.last) << '\n';
+        return;
+    }
+    if (!job.open.empty()) {
+        std::cout << "# sbatch " << quoted_for_shell(job.folder.script_of_tasks().string()) << '\n'
+                  << slurm_script_of_tasks(job);
+    }
+    if (job.last.empty()) return;
+    std::cout << "\n# sbatch " << (job.open.empty() ? "" : command_line_of(after_tasks("NUMBER")) + ' ')
+              << quoted_for_shell(job.folder.script_of_last().string()) << '\n'
+              << slurm_script_of_last(job);
+}
+
+std::string tasks_text(const Submission& job) {
+    const std::size_t all = job.plan.tasks.size(), done = all - job.open.size();
+    return fmt::format("{} task{}{}", all, all == 1 ? "" : "s",
+                       done > 0 ? fmt::format(", {} of them done already", done) : "");
+}
+
+int hand_over(Submission& job, Engine engine, int processes) {
+    const auto how_to_ask = [&] {
+        return fmt::format("candela status {}", quoted_for_shell(folder_of(job.plan.output).string()));
+    };
+    switch (engine) {
+        case Engine::local: {
+            const int code = run_locally(job, static_cast<std::size_t>(processes));
+            if (code == 0)
+                say_afterwards([&] { return fmt::format("{}: {}\n", job.plan.output, tasks_text(job)); });
+            return code;
+        }
+        case Engine::print:
+            print_command_lines(job);
+            say_afterwards([&] {
+                return fmt::format(
+                    "{}{}; {} says how far they are\n", tasks_text(job),
+                    job.last.empty() ? "" : "; when all are done:\n" + shell_line(job, job.last) + '\n',
+                    how_to_ask());
+            });
+            return 0;
+        case Engine::slurm: {
+            const std::vector<std::string> numbers = submit_to_slurm(job);
+            if (!numbers.empty()) job.plan.number = numbers.front();
+            write_plan(job.plan, job.folder);
+            for (const std::string& number : numbers) std::cout << number << '\n';
+            say_afterwards(
+                [&] { return fmt::format("{}; {} says how far they are\n", tasks_text(job), how_to_ask()); });
+            return 0;
+        }
+    }
+    return 0;
+}
+
+}  // namespace
+
+int run_submit(const std::vector<std::string>& arguments) {
+    CommandLine line(
+        "candela submit SCENE... [options]",
+        "Has the frames of an animated scene, or the parts of a picture, made by tasks, each of which is one "
+        "candela\nanimate or candela render: here, by a queue, or by whoever runs the command lines. The "
+        "scene is "
+        "checked first,\nin all frames. Tasks that are done are left out, so the same command again does "
+        "what is not "
+        "done yet. Tasks need\nthe scene and the folder of the pictures; what they do twice or at once is "
+        "harmless "
+        "(docs/clusters.md).");
+    add_frames_options(line);
+    line.options()(
+        "engine", po::value<std::string>()->value_name("NAME")->default_value("local"),
+        "who does the tasks: local, this machine; slurm, by sbatch; print, whoever runs the command "
+        "lines, one per task")("jobs", po::value<int>()->value_name("N"),
+                               "local: tasks at a time; default: all cores")(
+        "threads", po::value<int>()->value_name("N"),
+        "threads of each task; default: 1, or what the cores allow each of --jobs")(
+        "chunk", po::value<int>()->value_name("N"),
+        "frames per task; default: 10, or more where that makes over 1000 tasks")(
+        "parts", po::value<int>()->value_name("N"),
+        "instead of frames, one picture in so many parts, which the last task assembles")(
+        "slurm", po::value<std::vector<std::string>>()->value_name("OPTION"),
+        "an option for sbatch, such as --slurm=--partition=render; may be repeated")(
+        "dry-run", "print the job scripts or command lines, and do nothing");
+    add_frame_option(line);
+    add_scene_options(line);
+    if (!line.parse(arguments)) return 0;
+    if (!line.has("scene")) throw Error(ErrorCategory::bad_request, "candela submit needs a scene file");
+    const Engine engine = engine_from(line);
+    for (const auto& [option, of] : {std::pair("jobs", Engine::local), std::pair("slurm", Engine::slurm)}) {
+        if (line.has(option) && engine != of)
+            throw Error(ErrorCategory::bad_request, fmt::format("--{} is for --engine {}", option,
+                                                                of == Engine::local ? "local" : "slurm"));
+    }
+    const int cores = candela::available_threads();
+    const int processes = line.has("jobs") ? count_from(line, "jobs", 1024) : cores;
+    const int threads = line.has("threads")       ? threads_from(line)
+                        : engine == Engine::local ? std::max(1, cores / processes)
+                                                  : 1;
+
+    candela::Diagnostics diagnostics;
+    if (line.has("frame") && !line.has("parts"))
+        throw Error(ErrorCategory::bad_request,
+                    "--frame is for --parts; --frames 7 chooses one frame of many");
+    auto job = line.has("parts") ? submission_of_parts(line, threads, diagnostics)
+                                 : submission_of_frames(line, threads, diagnostics);
+    report(diagnostics);
+    if (!job) return static_cast<int>(exit_code_of(diagnostics));
+    job->threads = threads;
+    job->queue_options = line.all("slurm");
+    job->plan.directory = fs::current_path();
+    job->plan.engine = line.get<std::string>("engine");
+    job->plan.submitted = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+    for (std::size_t i = 0; i < job->plan.tasks.size(); ++i) {
+        if (state_of(job->plan, job->plan.tasks[i], i + 1, job->folder).kind != TaskState::Kind::done)
+            job->open.push_back(i);
+    }
+    if (line.has("dry-run")) {
+        show(*job, engine);
+        return 0;
+    }
+    write_job(*job, engine);
+    return hand_over(*job, engine, processes);
+}

@@ -1,0 +1,147 @@
+#include "explanation/kernel_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "explanation/kernel_compiler.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.process;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+using candela::PluginDescriptor;
+
+namespace {
+
+std::string text_of_file(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw Error(ErrorCategory::failure, fmt::format("cannot write '{}'", file.string()));
+}
+
+/// Of all headers, which the programs are compiled with. The modules, a folder beside them once installed,
+/// are not.
+std::size_t hash_of_headers(const fs::path& include) {
+    std::vector<std::string> names =
+        candela::names_in(include / "candela").value_or(std::vector<std::string>());
+    std::ranges::sort(names);
+    std::string all;
+    for (const std::string& name : names) {
+        const fs::path file = include / "candela" / name;
+        std::error_code problem;
+        if (fs::is_regular_file(file, problem)) all += name + text_of_file(file);
+    }
+    return std::hash<std::string>()(all);
+}
+
+}  // namespace
+
+KernelRunner::KernelRunner(std::vector<const PluginDescriptor*> plugins, fs::path kept)
+    : program_(std::move(plugins)),
+      kept_(std::move(kept)),
+      folder_(kept_.empty() ? fs::temp_directory_path() : kept_, "candela-explain-") {}
+
+void KernelRunner::prepare() {
+    if (std::exchange(is_prepared_, true)) return;
+    const fs::path include = kernel_headers();
+    std::error_code problem;
+    if (!fs::exists(include / "candela/kernel.h", problem)) {
+        why_not_ =
+            "the steps of the models' kernels are left out: Candela's headers are not installed (package "
+            "candela-dev)";
+        return;
+    }
+    const std::string prelude = program_.traced_prelude(text_of_file(include / "candela/prelude.kernel"));
+    const std::string text =
+        fmt::format("// with headers {:016x}\n", hash_of_headers(include)) + program_.source();
+    const fs::path kept_program =
+        kept_.empty() ? fs::path() : kept_ / fmt::format("{:016x}", std::hash<std::string>()(prelude + text));
+    const bool is_there = !kept_.empty() && text_of_file(kept_program / "kernels.cpp") == text &&
+                          text_of_file(kept_program / "candela/prelude.kernel") == prelude;
+    const fs::path made = folder_.path() / "program";
+    if (!is_there) {
+        fs::create_directories(made / "candela");
+        write_text(made / "candela/prelude.kernel", prelude);
+        write_text(made / "kernels.cpp", text);
+        if (!compile(made)) return;
+        // Whole or not there; somebody else may have been faster.
+        if (!kept_.empty()) fs::rename(made, kept_program, problem);
+    }
+    executable_ = (fs::exists(made / "kernels", problem) ? made : kept_program) / "kernels";
+}
+
+bool KernelRunner::compile(const fs::path& folder) {
+    const auto program = kernel_compiler();
+    if (!program) {
+        why_not_ = "the steps of the models' kernels are left out: there is no C++ compiler here";
+        return false;
+    }
+    // The folder is found before the one beside kernel.h, which is included as "candela/prelude.kernel".
+    const candela::ProgramOutput compiled = run_kernel_compiler(
+        *program,
+        {"-std=c++20", "-O0", "-w", "-fno-math-errno", "-ffp-contract=off", "-I", folder.string(), "-I",
+         kernel_headers().string(), (folder / "kernels.cpp").string(), "-o", (folder / "kernels").string()},
+        folder_.path());
+    if (compiled.exit_code == 0) return true;
+    why_not_ = fmt::format("the steps of the models' kernels are left out: {} does not compile them: {}",
+                           program->filename().string(), first_error(compiled.err));
+    return false;
+}
+
+KernelValues KernelRunner::run(const std::vector<KernelCall>& calls) {
+    KernelValues values(calls.size());
+    if (calls.empty()) return values;
+    prepare();
+    if (!why_not_.empty()) return values;
+    const std::vector<float> input = program_.input(calls);
+    const fs::path file = folder_.path() / "input";
+    write_text(file, std::string(reinterpret_cast<const char*>(input.data()), sizeof(float) * input.size()));
+    const candela::ProgramOutput run = candela::run_program({executable_.string(), file.string()});
+    if (run.exit_code != 0) {
+        why_not_ = "the steps of the models' kernels are left out: they cannot be run here";
+        return values;
+    }
+    read(run.out, values);
+    return values;
+}
+
+void KernelRunner::read(const std::string& printed, KernelValues& values) const {
+    std::istringstream lines(printed);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+    std::size_t call = 0;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        words.exceptions(std::ios::badbit);  // likewise
+        std::string kind;
+        std::size_t number = 0;
+        words >> kind >> number;
+        if (kind == "call") {
+            call = number;
+            continue;
+        }
+        KernelValue value{.step = &program_.steps().at(number)};
+        words >> value.depth >> value.member;
+        if (value.member == ".") value.member.clear();
+        if (kind == "note") --value.depth;
+        for (std::string word; words >> word;) value.numbers.push_back(std::strtod(word.c_str(), nullptr));
+        values.at(call).push_back(std::move(value));
+    }
+}

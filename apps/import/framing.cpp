@@ -1,0 +1,95 @@
+#include "import/framing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "import/vectors.h"
+
+namespace importing {
+
+namespace {
+
+constexpr double k_fov = 35;
+constexpr double k_margin = 1.08;
+
+}  // namespace
+
+Vector Bounds::center() const { return 0.5 * (low + high); }
+
+double Bounds::radius() const {
+    const double r = 0.5 * length(high - low);
+    return r > 0 ? r : 1;
+}
+
+Camera camera_for(const Bounds& bounds, double aspect) {
+    const Vector back = unit({0.55, 0.42, 1}), right = unit(cross({0, 1, 0}, back));
+    const Vector up = cross(back, right);
+    const double slope = std::tan(0.5 * k_fov * std::numbers::pi / 180) / k_margin;
+    const Vector center = bounds.center();
+    double distance = 0.5 * bounds.radius();
+    for (int corner = 0; corner < 8; ++corner) {
+        Vector p{};
+        for (std::size_t k = 0; k < 3; ++k) p[k] = (corner >> k & 1) != 0 ? bounds.high[k] : bounds.low[k];
+        p = p - center;
+        distance = std::max({distance, dot(p, back) + std::abs(dot(p, up)) / slope,
+                             dot(p, back) + std::abs(dot(p, right)) / (slope * aspect)});
+    }
+    return {.position = center + distance * back,
+            .towards = -1 * back,
+            .up = {0, 1, 0},
+            .extent = k_fov,
+            .aspect = aspect};
+}
+
+std::vector<Light> lights_for(const Camera& camera, double brightness) {
+    const Vector back = -1 * unit(camera.towards);
+    Vector right = unit(cross(camera.up, back));
+    if (length(right) == 0) right = {1, 0, 0};
+    const Vector up = cross(back, right);
+    const auto from = [&](double x, double y, double z) { return -1 * unit(x * right + y * up + z * back); };
+    Light key{.name = "key", .type = "directional"};
+    key.color = {255, 244, 229};
+    key.intensity = 1.6 * brightness;
+    key.direction = from(-0.7, 0.9, 0.8);
+    Light fill{.name = "fill", .type = "directional"};
+    fill.color = {214, 228, 255};
+    fill.intensity = 0.45 * brightness;
+    fill.direction = from(0.9, 0.1, 0.6);
+    Light sky{.name = "sky", .type = "ambient"};
+    sky.color = {230, 238, 255};
+    sky.intensity = 0.6 * brightness;
+    return {key, fill, sky};
+}
+
+double expose(std::vector<Light>& lights, const Bounds& bounds) {
+    double sum = 0;
+    for (const Light& light : lights) {
+        const Vector way = light.position - bounds.center();
+        const double distance = std::max(length(way), 0.5 * bounds.radius());
+        const double strongest = *std::ranges::max_element(light.color) / 255;
+        sum += strongest * light.intensity / (light.type == "directional" ? 1 : distance * distance);
+    }
+    constexpr double k_least = 0.2, k_most = 6, k_good = 1.6;
+    if (!(sum > 0) || !std::isfinite(sum) || (sum >= k_least && sum <= k_most)) return 1;
+    const double factor = k_good / sum;
+    for (Light& light : lights) light.intensity *= factor;
+    return factor;
+}
+
+Vector room_for(const Bounds& bounds, const Camera& camera, const std::vector<Light>& lights) {
+    Vector half{};
+    const auto contain = [&](Vector p) {
+        for (std::size_t k = 0; k < 3; ++k) half[k] = std::max(half[k], std::abs(p[k]));
+    };
+    contain(bounds.low);
+    contain(bounds.high);
+    contain(camera.position);
+    for (const Light& light : lights)
+        if (light.type == "point" || light.type == "spot") contain(light.position);
+    const double least = 0.1 * std::max({half[0], half[1], half[2]});
+    for (double& extent : half) extent = 2.1 * std::max(extent, least);
+    return half;
+}
+
+}  // namespace importing

@@ -1,0 +1,162 @@
+#include "import/gltf_container.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+#include "candela/target/literals.h"
+#include "import/readers.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.text;
+
+namespace fs = std::filesystem;
+
+namespace importing::gltf {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+    throw candela::Error(candela::ErrorCategory::failure, what);
+}
+
+/// A little-endian number of four bytes; zero beyond the end.
+std::size_t word_at(std::string_view bytes, std::size_t at) {
+    if (at > bytes.size() || bytes.size() - at < 4) return 0;
+    std::uint32_t value = 0;
+    for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+}
+
+constexpr std::uint32_t k_json_chunk = 0x4e4f534a, k_binary_chunk = 0x004e4942;
+
+/// The chunk of that type; empty if there is none. Some programs do not count the padding before it.
+std::string_view chunk_of(std::string_view bytes, std::uint32_t type) {
+    for (std::size_t at = 12; at + 8 <= bytes.size();) {
+        const std::size_t size = word_at(bytes, at);
+        if (size > bytes.size() - at - 8) break;
+        if (word_at(bytes, at + 4) == type) return bytes.substr(at + 8, size);
+        const std::size_t end = at + 8 + size;
+        const std::size_t padded = (end + 3) / 4 * 4;
+        at = word_at(bytes, end + 4) == type ? end : padded;
+    }
+    return {};
+}
+
+std::string decoded_percents(std::string_view uri) {
+    std::string result;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const auto digit = [&](std::size_t at) {
+            return at < uri.size()
+                       ? std::string_view("0123456789abcdef").find(static_cast<char>(uri[at] | 0x20))
+                       : std::string_view::npos;
+        };
+        if (uri[i] == '%' && digit(i + 1) < 16 && digit(i + 2) < 16) {
+            result += static_cast<char>(digit(i + 1) * 16 + digit(i + 2));
+            i += 2;
+        } else {
+            result += uri[i];
+        }
+    }
+    return result;
+}
+
+/// What a data: URI holds.
+std::string data_of(std::string_view uri) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64"))
+        fail("its data: URI is not in base64");
+    try {
+        return candela::target::base64_decoded(uri.substr(comma + 1));
+    } catch (const std::invalid_argument&) {
+        fail("its data: URI is not in base64");
+    }
+}
+
+/// What a picture is, by its first bytes.
+const char* extension_of(std::string_view content) {
+    if (content.starts_with("\x89PNG")) return "png";
+    if (content.starts_with("\xff\xd8\xff")) return "jpg";
+    if (content.starts_with("RIFF") && content.substr(8).starts_with("WEBP")) return "webp";
+    if (content.starts_with("\xabKTX")) return "ktx2";
+    if (content.starts_with("DDS ")) return "dds";
+    fail("it is no picture");
+}
+
+/// A name for a file, of the image's own.
+std::string stem_of(const std::string& name, std::size_t number) {
+    std::string stem;
+    for (const char c : name) {
+        const bool is_plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+        stem += is_plain ? c : '_';
+    }
+    constexpr std::size_t k_longest = 60;
+    return fmt::format("{}{}{}", stem.substr(0, k_longest), stem.empty() ? "texture" : "_", number);
+}
+
+}  // namespace
+
+Container::Container(fs::path file) : file_(std::move(file)) {
+    auto text = candela::read_text_file(file_);
+    if (!text) fail(fmt::format("'{}' cannot be read", file_.string()));
+    bytes_ = std::move(*text);
+    std::string_view json = bytes_;
+    if (json.starts_with("glTF")) {
+        binary_ = chunk_of(bytes_, k_binary_chunk);
+        json = chunk_of(bytes_, k_json_chunk);
+        while (json.ends_with('\0')) json.remove_suffix(1);
+    }
+    json_ = Json::parse(json, nullptr, false);
+    if (!json_.is_object()) fail(fmt::format("'{}' is no glTF file: it has no JSON object", file_.string()));
+}
+
+fs::path Container::part_named(const std::string& uri) const {
+    const fs::path path = candela::canonical_path(fs::absolute(file_).parent_path() / decoded_percents(uri));
+    if (!is_beside(path, file_))
+        fail(fmt::format("'{}' is outside the model's folder", candela::shortened(uri)));
+    std::error_code problem;
+    if (!fs::is_regular_file(path, problem))
+        fail(fmt::format("there is no file '{}'", candela::shortened(uri)));
+    return path;
+}
+
+std::string_view Container::buffer(std::size_t index) {
+    const auto known = buffers_.find(index);
+    if (known != buffers_.end()) return known->second;
+    const Json* const buffer = element(array_of(json_, "buffers"), index);
+    if (buffer == nullptr) fail(fmt::format("there is no buffer {}", index));
+    const std::string uri = text(*buffer, "uri");
+    if (uri.empty()) return index == 0 ? binary_ : std::string_view();
+    std::string& content = buffers_[index];
+    if (uri.starts_with("data:")) return content = data_of(uri);
+    auto read = candela::read_text_file(part_named(uri));
+    if (!read) fail(fmt::format("'{}' cannot be read", candela::shortened(uri)));
+    return content = std::move(*read);
+}
+
+std::string_view Container::view(std::size_t index) {
+    const Json* const view = element(array_of(json_, "bufferViews"), index);
+    if (view == nullptr) fail(fmt::format("there is no view {} of a buffer", index));
+    const std::string_view bytes = buffer(index_of(*view, "buffer").value_or(0));
+    const std::size_t first = index_of(*view, "byteOffset").value_or(0),
+                      size = index_of(*view, "byteLength").value_or(0);
+    if (first > bytes.size() || size > bytes.size() - first) fail("its bytes are not in the file");
+    return bytes.substr(first, size);
+}
+
+Picture Container::picture(std::size_t image) {
+    const Json& from = array_of(json_, "images").at(image);
+    const std::string uri = text(from, "uri");
+    if (!uri.empty() && !uri.starts_with("data:")) return {part_named(uri)};
+    const auto index = index_of(from, "bufferView");
+    if (uri.empty() && !index) fail("it has neither a name nor bytes");
+    std::string content = uri.empty() ? std::string(view(*index)) : data_of(uri);
+    const char* const extension = extension_of(content);
+    return {fmt::format("{}.{}", stem_of(text(from, "name"), image), extension), std::move(content)};
+}
+
+}  // namespace importing::gltf

@@ -1,0 +1,38 @@
+// A glTF file, its buffers and the pictures in it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "import/gltf_json.h"
+#include "import/model.h"
+
+namespace importing::gltf {
+
+class Container {
+  public:
+    /// Reads the file, text or binary. Throws candela::Error (failure).
+    explicit Container(std::filesystem::path file);
+
+    const Json& json() const { return json_; }
+
+    /// An image: a file in the model's folder or below it, or what the file has of it. Throws candela::Error
+    /// (failure).
+    Picture picture(std::size_t image);
+
+  private:
+    std::string_view buffer(std::size_t index);
+    std::string_view view(std::size_t index);
+    /// A file beside this one.
+    std::filesystem::path part_named(const std::string& uri) const;
+
+    std::filesystem::path file_;
+    std::string bytes_;
+    std::string_view binary_;  // of a GLB file
+    Json json_;
+    std::map<std::size_t, std::string> buffers_;
+};
+
+}  // namespace importing::gltf

@@ -1,0 +1,178 @@
+#include "import/scene_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "import/vectors.h"
+
+import candela.text;
+import candela.toml;
+
+namespace importing {
+
+namespace {
+
+constexpr int k_height = 600;
+
+/// Six digits are enough for places; a scene's numbers are single precision.
+std::string real(double x) {
+    const std::string text = fmt::format("{:.6g}", x == 0 ? 0.0 : x);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+std::string vector(const Vector& v) {
+    return fmt::format("[{}, {}, {}]", real(v[0]), real(v[1]), real(v[2]));
+}
+std::string color(const Vector& v) { return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v[0], v[1], v[2]); }
+
+/// A vector that is close to zero in some direction is so.
+Vector direction(Vector v) {
+    for (double& x : v) x = std::round(x * 1e5) / 1e5;
+    return v;
+}
+
+class Writer {
+  public:
+    Writer(const Model& model, const Setting& setting) : model_(model), setting_(setting) {}
+
+    std::string write() {
+        text_ = fmt::format("# {}, as candela import made it.\n", candela::printable(setting_.file));
+        for (const std::string& note : model_.notes)
+            text_ += fmt::format("# Note: {}.\n", candela::printable(note));
+        text_ += "version = 1\n";
+        write_view();
+        write_models();
+        for (const Light& light : setting_.lights) write(light);
+        for (const Part& part : model_.parts) write(part);
+        return std::move(text_);
+    }
+
+  private:
+    void begin(std::string_view title) { text_ += fmt::format("\n{}\n", title); }
+    void add(std::string_view key, std::string value) { entries_.emplace_back(key, std::move(value)); }
+    void end() {
+        std::size_t longest = 0;
+        for (const auto& [key, value] : entries_) longest = std::max(longest, key.size());
+        for (const auto& [key, value] : entries_) text_ += fmt::format("{:<{}} = {}\n", key, longest, value);
+        entries_.clear();
+    }
+
+    void write_view() {
+        begin("[room]");
+        add("height", real(setting_.room[1]));
+        add("width", real(setting_.room[0]));
+        add("depth", real(setting_.room[2]));
+        end();
+        const Camera& camera = setting_.camera;
+        begin("[observer]");
+        add("position", vector(camera.position));
+        add("look_at", vector(setting_.look_at));
+        if (const Vector up = direction(camera.up); up != Vector{0, 1, 0}) add("up", vector(up));
+        if (camera.is_orthographic) add("projection", "\"orthographic\"");
+        add(camera.is_orthographic ? "height" : "fov", real(camera.extent));
+        end();
+        begin("[image]");
+        const double aspect = camera.aspect > 0.1 && camera.aspect < 10 ? camera.aspect : 4.0 / 3;
+        add("width", fmt::format("{}", std::lround(k_height * aspect)));
+        add("height", fmt::format("{}", k_height));
+        add("samples", "4");
+        add("background", "[40, 43, 50]");
+        end();
+        begin("[constraints]");
+        add("overlap", "\"allow\"");
+        end();
+    }
+
+    void write_models() {
+        const auto count = [&](const char* name) {
+            return std::ranges::count(model_.materials, name, &Material::reflection);
+        };
+        reflection_ = count("ggx") > 0 ? "ggx" : "phong";
+        begin("[shading]");
+        add("model", "\"phong\"");
+        end();
+        begin("[reflection]");
+        add("model", candela::toml_text(reflection_));
+        end();
+    }
+
+    /// As the file has it, if it has one that no other has.
+    void add_name(std::string name) {
+        if (name.empty()) return;
+        std::string unique = name;
+        for (int i = 2; !names_.insert(unique).second; ++i) unique = fmt::format("{} {}", name, i);
+        add("name", candela::toml_text(unique));
+    }
+
+    void write(const Light& light) {
+        begin("[[light]]");
+        add_name(candela::printable(light.name));
+        add("type", candela::toml_text(light.type));
+        add("color", color(light.color));
+        add("intensity", real(light.intensity));
+        if (light.type == "point" || light.type == "spot") add("position", vector(light.position));
+        if (light.type == "directional" || light.type == "spot")
+            add("direction", vector(direction(light.direction)));
+        if (light.type == "spot") {
+            add("inner_angle", real(light.inner_angle));
+            add("outer_angle", real(light.outer_angle));
+        }
+        end();
+    }
+
+    void write(const Part& part) {
+        const Material* const material = part.material ? &model_.materials[*part.material] : nullptr;
+        const bool is_textured = material != nullptr && material->picture && setting_.is_textured;
+        begin("[[object]]");
+        add_name(candela::printable(material != nullptr && !material->name.empty() ? material->name
+                                    : part.selector.empty()                        ? "model"
+                                                                                   : part.selector));
+        add("type", "\"mesh\"");
+        add("file", candela::toml_text(setting_.file));
+        if (!part.selector.empty()) add("part", candela::toml_text(part.selector));
+        add("appearance_imported", "true");
+        if (model_.is_z_up) add("rotation", "[-90.0, 0.0, 0.0]");
+        // Seen from both sides, and on purpose.
+        if (model_.parts.size() > 1 || !setting_.is_closed) add("encloses", "true");
+        if (material != nullptr) {
+            add("color", color(material->color));
+        } else {
+            add("color", setting_.has_vertex_colors ? "[255, 255, 255]" : "[200, 200, 200]");
+        }
+        if (is_textured) {
+            add("color_texture", candela::toml_text(setting_.pictures[*material->picture]));
+            if (material->clamps) add("color_texture_wrap", "\"clamp\"");
+        }
+        if (material != nullptr && material->reflection != reflection_)
+            add("reflection", candela::toml_text(material->reflection));
+        if (material == nullptr && reflection_ != "phong") add("reflection", "\"phong\"");
+        end();
+        begin_material();
+        if (material == nullptr) {
+            add("ka", "0.3");
+            add("kd", "0.75");
+            add("ks", "0.2");
+            add("shininess", "40.0");
+        } else {
+            for (const auto& [name, value] : material->values)
+                add(name, value.size() == 3 ? vector({value[0], value[1], value[2]}) : real(value[0]));
+        }
+        end();
+    }
+    void begin_material() { text_ += "[object.material]\n"; }
+
+    const Model& model_;
+    const Setting& setting_;
+    std::string text_;
+    std::vector<std::pair<std::string, std::string>> entries_;
+    std::string reflection_;
+    std::set<std::string> names_;
+};
+
+}  // namespace
+
+std::string scene_text(const Model& model, const Setting& setting) { return Writer(model, setting).write(); }
+
+}  // namespace importing

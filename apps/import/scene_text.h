@@ -1,0 +1,26 @@
+// A model as the text of a scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "import/model.h"
+
+namespace importing {
+
+/// What a scene needs beside the model itself.
+struct Setting {
+    std::string file;                   // the model's, as the scene names it
+    std::vector<std::string> pictures;  // likewise, of Model::pictures
+    Camera camera;
+    Vector look_at{};
+    Vector room{};  // width, height, depth
+    std::vector<Light> lights;
+    bool has_vertex_colors = false;
+    bool is_textured = false;  // it has texture coordinates
+    bool is_closed = false;
+};
+
+std::string scene_text(const Model& model, const Setting& setting);
+
+}  // namespace importing

@@ -1,0 +1,94 @@
+// Arrays of NumPy as batches of vectors.
+#pragma once
+
+#include "binding.h"
+
+import candela.math;
+import candela.parallel;
+
+namespace candela::python {
+
+/// Numbers of any strides.
+using Floats = py::array_t<float, py::array::forcecast>;
+
+/// How many points a model is given at a time.
+inline constexpr std::size_t k_batch_size = 256;
+
+struct BatchVectors {
+    alignas(64) float x[k_batch_size], y[k_batch_size], z[k_batch_size];
+    bool has_one_for_all = false;  // all of them are the one vector that an array has
+
+    Vec3Span span() noexcept { return {x, y, z}; }
+    void clear() noexcept;
+};
+
+/// How the vectors of an array lie in memory.
+enum class Layout : bool { interleaved, channels_apart };
+
+/// An array of shape (count, 3), or none. Owns nothing.
+class Vectors {
+  public:
+    Vectors() = default;
+    /// `name` is for ValueError, which it throws for another shape.
+    Vectors(const Floats& array, const char* name);
+    Vectors(const std::optional<Floats>& array, const char* name);
+
+    explicit operator bool() const noexcept { return data_ != nullptr; }
+    std::size_t count() const noexcept { return count_; }
+    Layout layout() const noexcept {
+        return step_ == sizeof(float) ? Layout::channels_apart : Layout::interleaved;
+    }
+    /// Whether all of them are one.
+    bool is_uniform() const noexcept { return step_ == 0; }
+    Vec3 operator[](std::size_t i) const noexcept;
+    /// Those of a batch: where they lie if each channel is contiguous, else in `buffer`. Null if there are
+    /// none.
+    ConstVec3Span read(std::size_t first, std::size_t count, BatchVectors& buffer) const noexcept;
+
+  private:
+    float at(std::size_t i, std::size_t channel) const noexcept;
+
+    const char* data_ = nullptr;
+    std::size_t count_ = 0;
+    py::ssize_t step_ = 0, channel_ = 0;  // bytes
+};
+
+/// Throws ValueError unless all that there are have as many vectors.
+void require_same_count(std::initializer_list<const Vectors*> all);
+
+/// A new array of shape (count, 3).
+class Results {
+  public:
+    explicit Results(std::size_t count, Layout layout = Layout::interleaved);
+
+    void write(std::size_t first, std::size_t count, ConstVec3Span vectors) noexcept;
+    /// The sums.
+    void write(std::size_t first, std::size_t count, ConstVec3Span a, ConstVec3Span b) noexcept;
+    Floats take() { return std::move(array_); }
+
+  private:
+    /// Where the first vector's channel is; the others' are step_ apart.
+    float* channel(std::size_t first, std::size_t c) const noexcept {
+        return data_ + first * step_ + c * apart_;
+    }
+
+    std::size_t step_, apart_;  // numbers
+    Floats array_;
+    float* data_;
+};
+
+/// Calls `body(begin, end)` for ranges of points on as many threads as with_threads() has it. Without
+/// Python's lock.
+void for_ranges(std::size_t count, int threads, FunctionRef<std::size_t, std::size_t> body);
+
+/// Calls `body(buffers, first, size)` for all batches likewise, with buffers that one thread's batches share.
+template <class Buffers, class Body>
+void for_batches(std::size_t count, int threads, const Body& body) {
+    for_ranges(count, threads, [&](std::size_t begin, std::size_t end) {
+        Buffers buffers;
+        for (std::size_t first = begin; first < end; first += k_batch_size)
+            body(buffers, first, std::min(k_batch_size, end - first));
+    });
+}
+
+}  // namespace candela::python

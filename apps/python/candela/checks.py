@@ -1,0 +1,42 @@
+"""The conformance kit's checks of a model."""
+
+from __future__ import annotations
+
+import json
+import pathlib
+import subprocess
+from typing import Any, NamedTuple
+
+from . import _candela
+from .errors import Error
+from .registry import Registry, default_registry
+
+
+class Check(NamedTuple):
+    """What one of the kit's checks found."""
+
+    name: str
+    outcome: str
+    """``"passed"``, ``"warning"``, ``"skipped"``, ``"failed"``, ``"crashed"`` or ``"timed out"``."""
+    messages: list[str]
+
+
+def conformance(name: str, /, *, registry: Registry | None = None, **values: Any) -> list[Check]:
+    """Has the conformance kit check an installed model, by its id, ``"reflection/ggx"``: all that Candela relies on, and what the model
+    declares of itself. It does so in a process of its own, as ``candela plugin test`` does.
+
+    `values` are for parameters that have no default, or that are to be tried. Raises Error if there is no such model, or if the kit, which
+    is in the package candela-dev, is not installed.
+    """
+    registry = registry or default_registry()
+    kind, _, plain = name.partition("/")
+    library = registry.core.library(kind, plain)
+    kit = pathlib.Path(registry.search_path[-1]).parent / "candela-conformance"
+    if not kit.exists():
+        raise Error(f"the conformance kit is not installed: there is no '{kit}' (package candela-dev, or a build with tests)")
+    settings = [f"--set={key}={_candela.value_text(value)}" for key, value in values.items()]
+    ended = subprocess.run([kit, "--json", *settings, library], capture_output=True, text=True)
+    if ended.returncode not in (0, 4):
+        raise Error(ended.stderr.strip() or f"the conformance kit has ended with {ended.returncode}")
+    report, = json.loads(ended.stdout)
+    return [Check(check["check"], check["outcome"], check["messages"]) for check in report["checks"]]

@@ -1,0 +1,114 @@
+"""Reflection models from the text of a kernel, compiled on the spot."""
+
+from __future__ import annotations
+
+import functools
+import pathlib
+import re
+import shutil
+import tempfile
+import weakref
+from typing import Any
+
+from . import _candela
+from .errors import RequestError
+from .instances import Reflection, reflection
+from .registry import Registry
+
+_MEMBER = re.compile(r"^\s*(float|int|vec3)\s+(\w+)\s*;", re.MULTILINE)
+_READS = {"tangent": "reads_tangent", "position": "reads_position", "uv": "reads_uv"}
+
+
+def _without_comments(source: str) -> str:
+    return re.sub(r"/\*.*?\*/", " ", re.sub(r"//[^\n]*", " ", source), flags=re.DOTALL)
+
+
+class _Kernel:
+    """What the text of a kernel declares."""
+
+    def __init__(self, source: str) -> None:
+        text = _without_comments(source)
+        reflect = re.search(r"\bKERNEL\s+Reflected\s+(\w+?)_reflect\s*\(\s*(?:(\w+)\s+\w+\s*,\s*)?Surface\s", text)
+        if not reflect:
+            raise RequestError("a kernel of a reflection model has a function 'KERNEL Reflected NAME_reflect(Material m, Surface s, "
+                               "vec3 to_light)', where Material is its struct of parameters; without parameters, the first "
+                               "argument is left out")
+        self.prefix, self.struct = reflect[1], reflect[2]
+        if not re.fullmatch(r"[a-z][a-z0-9_]*", self.prefix):
+            raise RequestError(f"the name '{self.prefix}' of '{self.prefix}_reflect' is not of lower-case letters, digits and _")
+        self.members: list[tuple[str, str]] = []
+        if self.struct:
+            body = re.search(rf"\bstruct\s+{self.struct}\s*\{{(.*?)\}}", text, re.DOTALL)
+            if not body:
+                raise RequestError(f"{self.prefix}_reflect takes a '{self.struct}', which is no struct of the kernel")
+            self.members = _MEMBER.findall(body[1])
+            rest = _MEMBER.sub("", body[1]).strip()
+            if rest:
+                raise RequestError(f"'{rest.splitlines()[0].strip()}' in struct {self.struct}: members are float, int or vec3, each in "
+                                   "a line of its own")
+        self.has_ambient = re.search(rf"\b{self.prefix}_reflect_ambient\s*\(", text) is not None
+        self.reads = [flag for member, flag in _READS.items() if re.search(rf"\.{member}\b", text)]
+
+    @property
+    def name(self) -> str:
+        return self.prefix.replace("_", "-")
+
+    def field(self, kind: str, name: str) -> str:
+        member = f"&{self.struct}::{name}, "
+        if kind == "vec3":
+            return f'three({member}ParamType::rgb, "{name}", vec3(0.0f), "of the kernel").required()'
+        return f'{"real" if kind == "float" else "integer"}({member}"{name}", 0, "of the kernel").required()'
+
+    def kernel(self, source: str) -> str:
+        """With what it may leave out."""
+        if self.has_ambient:
+            return source
+        material = f"{self.struct} m, " if self.struct else ""
+        return f"{source}\nKERNEL vec3 {self.prefix}_reflect_ambient({material}Surface s) {{\n    return vec3(0.0f);\n}}\n"
+
+    def plugin(self) -> str:
+        struct = f"candela::kernel::{self.struct}" if self.struct else "NoParams"
+        fields = f"fields({', '.join(self.field(*member) for member in self.members)})" if self.members else "k_no_fields"
+        using = f"using {struct};\n" if self.struct else ""
+        reads = " | ".join(["reads_no_more", *self.reads])
+        return (f'#include "candela/reflection_plugin.h"\n\nnamespace candela::kernel {{\n#include "{self.name}.kernel"\n}}\n\n'
+                f"using namespace candela;\nusing namespace candela::sdk;\n{using}\n"
+                f"static constexpr auto k_the_fields = {fields};\n\n"
+                f"CANDELA_REFLECTION_PLUGIN_READING({reads}, {self.prefix}, {self.struct or 'NoParams'}, k_the_fields,\n"
+                f'    {{.title = "{self.name}", .summary = "A kernel compiled on the spot."}})\n')
+
+
+@functools.lru_cache(maxsize=64)
+def _compiled(source: str) -> tuple[str, Registry]:
+    """The name of a kernel's model, and a registry that has it."""
+    kernel = _Kernel(source)
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="candela-kernel-"))
+    try:
+        (folder / f"{kernel.name}.kernel").write_text(kernel.kernel(source), encoding="utf-8")
+        (folder / f"{kernel.name}.cpp").write_text(kernel.plugin(), encoding="utf-8")
+        (folder / "plugin.map").write_text("{ global: candela_*; local: *; };\n", encoding="utf-8")
+        _candela.compile_plugin(kernel.name, folder)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+    registry = Registry([folder])
+    weakref.finalize(registry, shutil.rmtree, folder, ignore_errors=True)
+    return kernel.name, registry
+
+
+def kernel_reflection(source: str, **values: Any) -> Reflection:
+    """A reflection model from the text of a kernel, compiled at once by a compiler of this machine.
+
+    source
+        A struct of parameters (``float``, ``int``, ``vec3``), a function ``KERNEL Reflected NAME_reflect(Material m, Surface s, vec3
+        to_light)``, and, if it reflects ambient light, ``KERNEL vec3 NAME_reflect_ambient(Material m, Surface s)``, in the language of
+        docs/adding-a-model.md. It is what the ``.kernel`` file of a plugin has.
+    values
+        Of all parameters.
+
+    It is as fast as an installed model, and its `registry` is for scenes that name it. Raises RequestError, with the line and what the
+    compiler says, and Error where there is no compiler, or where Candela's headers (the package candela-dev) are not installed. Texts
+    that were compiled before are not compiled again. A kernel is code that runs with all your rights.
+    """
+    name, registry = _compiled(source)
+    return reflection(name, registry=registry, **values)

@@ -1,0 +1,124 @@
+"""The plugins that are installed, and what they say about themselves."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import warnings
+from typing import Any, NamedTuple, Sequence
+
+from . import _candela
+from .errors import RequestError, diagnostics_from
+
+
+class Parameter(NamedTuple):
+    """A parameter of a model, as its manifest declares it."""
+
+    name: str
+    type: str
+    """``"real"``, ``"integer"``, ``"boolean"``, ``"choice"``, ``"text"``, ``"file"``, ``"vector"``, ``"point"``,
+    ``"direction"``, ``"color"`` (three integers 0 to 255), ``"rgb"`` (a number, or one per channel), ``"matrix"``,
+    ``"numbers"``."""
+    unit: str
+    """``"m"``, ``"deg"``, or empty."""
+    default: Any
+    """None: it has to be given."""
+    minimum: float | None
+    maximum: float | None
+    choices: tuple[str, ...]
+    meaning: str
+
+
+class Model(NamedTuple):
+    """What a plugin says about itself: a light, a reflection or shading model, a shape, a picture format, a target."""
+
+    kind: str
+    name: str
+    title: str
+    summary: str
+    formula: str
+    reference: str
+    """Where it was published."""
+    parameters: tuple[Parameter, ...]
+    properties: dict[str, str]
+    """Declared facts, such as ``{"reciprocal": "true"}``."""
+    presets: dict[str, dict[str, Any]]
+    """Values that belong together, such as those of a material, by name."""
+
+    @property
+    def id(self) -> str:
+        """``"reflection/ggx"``."""
+        return f"{self.kind}/{self.name}"
+
+
+def _parameter(manifest: dict[str, Any]) -> Parameter:
+    return Parameter(
+        manifest["name"], manifest["type"], manifest.get("unit", ""), manifest.get("default"), manifest.get("minimum"),
+        manifest.get("maximum"), tuple(manifest.get("choices", ())), manifest.get("meaning", ""))
+
+
+def _model(manifest: dict[str, Any]) -> Model:
+    return Model(
+        manifest["kind"], manifest["name"], manifest["title"], manifest["summary"], manifest["formula"],
+        manifest["reference"], tuple(_parameter(parameter) for parameter in manifest["parameters"]),
+        dict(manifest.get("properties", {})),
+        {preset["name"]: preset["values"] for preset in manifest.get("presets", ())})
+
+
+class Registry:
+    """The plugins of a search path: `folders`, then ``CANDELA_PLUGIN_PATH``, the user's own and the installed ones.
+
+    Functions that take a registry use one for all without it. Any thread.
+    """
+
+    core: _candela.Registry
+    """For the package's own use."""
+
+    def __init__(self, folders: Sequence[str | os.PathLike[str]] = ()) -> None:
+        self.core = _candela.Registry([os.fspath(folder) for folder in folders])
+        self._warned = 0
+
+    @property
+    def search_path(self) -> list[str]:
+        """Folders, in the order in which they are searched."""
+        return [str(folder) for folder in self.core.search_path]
+
+    def models(self, kind: str | None = None) -> list[Model]:
+        """All models of a kind (``"light"``, ``"reflection"``, ``"shading"``, ``"shape"``, ``"image"``, ``"target"``),
+        or of all kinds, by kind and name. Loads no plugin."""
+        found = json.loads(self.core.manifests(kind or ""))
+        self.warn_of_replaced()
+        return [_model(manifest) for manifest in found]
+
+    def model(self, name: str) -> Model:
+        """One model, by its id: ``"reflection/ggx"``. Raises Error, with a suggestion, if there is none."""
+        kind, slash, plain = name.partition("/")
+        if not slash:
+            raise RequestError(f"'{name}' is no model's id; one is 'reflection/ggx'")
+        found = _model(json.loads(self.core.manifest(kind, plain)))
+        self.warn_of_replaced()
+        return found
+
+    def warn_of_replaced(self) -> None:
+        """Warns, once, of plugins that are used instead of refused ones."""
+        replaced = diagnostics_from(self.core.replaced)
+        for diagnostic in replaced[self._warned:]:
+            warnings.warn(f"{diagnostic.message}; {diagnostic.suggestion}", stacklevel=3)
+        self._warned = len(replaced)
+
+
+@functools.lru_cache(maxsize=None)
+def default_registry() -> Registry:
+    """The one that is used where none is given."""
+    return Registry()
+
+
+def models(kind: str | None = None, registry: Registry | None = None) -> list[Model]:
+    """All installed models of a kind, or of all: see `Registry.models`."""
+    return (registry or default_registry()).models(kind)
+
+
+def model(name: str, registry: Registry | None = None) -> Model:
+    """One installed model by its id, ``"reflection/ggx"``: see `Registry.model`."""
+    return (registry or default_registry()).model(name)

@@ -1,0 +1,35 @@
+// The core's errors as exceptions of Python.
+#pragma once
+
+#include "binding.h"
+
+import candela.diagnostics;
+
+namespace candela::python {
+
+/// One entry of an exception's `diagnostics`, or a warning: see candela.Diagnostic.
+struct Problem {
+    std::string severity, file;
+    int line = 0, column = 0, length = 0;
+    std::string message, suggestion, text;
+};
+
+std::vector<Problem> problems_of(const Diagnostics& diagnostics);
+
+/// Something is wrong with what Python has said: a scene, or the values of a model.
+class InvalidInput : public std::runtime_error {
+  public:
+    enum class What { scene, request };
+    InvalidInput(What what, const Diagnostics& diagnostics);
+    What what_is_wrong() const noexcept { return what_; }
+    const std::vector<Problem>& problems() const noexcept { return problems_; }
+
+  private:
+    What what_;
+    std::vector<Problem> problems_;
+};
+
+/// For somebody who writes Python.
+std::string python_message(const Error& error);
+
+}  // namespace candela::python

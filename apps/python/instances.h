@@ -1,0 +1,59 @@
+// Models with values, made by Python.
+#pragma once
+
+#include "binding.h"
+#include "registry.h"
+
+import candela.library;
+import candela.parameters;
+import candela.registry;
+
+namespace candela::python {
+
+/// A model's values: `given`, by parameter, and its defaults. Throws InvalidInput, with all that is wrong, as
+/// a scene has it.
+ParamSet values_from(SharedRegistry& registry, PluginKind kind, const std::string& name,
+                     const py::dict& given);
+
+/// By parameter.
+py::dict dictionary_of(const ParamSet& values);
+
+/// "srgb", "none". Throws Error (bad_request).
+ColorEncoding encoding_named(const std::string& name);
+
+/// One instance of a model, and where it comes from. Immutable; any thread.
+template <class Interface>
+class ModelInstance {
+  public:
+    ModelInstance(RegistryPointer registry, std::string name, const py::dict& given,
+                  const std::string& color_management)
+        : registry_(std::move(registry)),
+          name_(std::move(name)),
+          values_(values_from(*registry_, k_kind_of<Interface>, name_, given)) {
+        const ColorEncoding encoding = encoding_named(color_management);
+        const py::gil_scoped_release unlocked;
+        instance_ = registry_->registry().create<Interface>(name_, values_, encoding);
+    }
+
+    const std::string& name() const noexcept { return name_; }
+    py::dict values() const { return dictionary_of(values_); }
+    const Interface& instance() const noexcept { return *instance_; }
+
+    /// Calls it; what a plugin throws becomes an Error that names it.
+    template <class Call>
+    void guarded(const Call& call) const {
+        try {
+            call(*instance_);
+        } catch (...) {
+            rethrow_as_plugin_error(k_kind_of<Interface>, name_);
+        }
+    }
+
+  private:
+    RegistryPointer registry_;  // outlives what its plugins have made
+    std::string name_;
+    ParamSet values_;
+    std::unique_ptr<Interface> instance_;
+};
+
+}  // namespace candela::python

@@ -1,0 +1,86 @@
+// Plugins that are compiled on the spot.
+#include "binding.h"
+
+#include "explanation/kernel_compiler.h"
+#include "module.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.library;
+import candela.manifest;
+import candela.registry;
+
+namespace candela::python {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> options_for(const std::string& name, const fs::path& folder) {
+    const fs::path core = plugin_search_path({}).back().parent_path().parent_path() / CANDELA_CORE_FILE;
+    std::vector<std::string> options{
+        "-std=c++20",
+        "-O3",
+        "-fPIC",
+        "-shared",
+        "-fvisibility=hidden",
+        "-fno-math-errno",
+        "-fno-trapping-math",
+#ifdef __x86_64__
+        "-mprefer-vector-width=512",
+#endif
+        "-w",
+        fmt::format("-DCANDELA_PLUGIN_NAME=\"{}\"", name),
+        "-DCANDELA_PLUGIN_VERSION=\"0\"",
+        fmt::format("-DCANDELA_KERNEL_FILE=\"{}\"", (folder / (name + ".kernel")).string()),
+        "-I",
+        kernel_headers().string(),
+        "-I",
+        folder.string()};
+    options.push_back((folder / (name + ".cpp")).string());
+    options.push_back(core.string());
+    options.push_back("-Wl,--version-script=" + (folder / "plugin.map").string());
+    options.insert(options.end(), {"-o", (folder / fmt::format("reflection-{}.so", name)).string()});
+    return options;
+}
+
+/// A compiler's message about a file of a folder that nobody knows of.
+std::string without(const fs::path& folder, std::string message) {
+    const std::string path = folder.string() + "/";
+    for (std::size_t at = message.find(path); at != std::string::npos; at = message.find(path, at))
+        message.erase(at, path.size());
+    return message;
+}
+
+/// Compiles <folder>/<name>.cpp, with <folder>/plugin.map for what it exports, to a plugin in that folder,
+/// and writes its manifest.
+void compile_plugin(const std::string& name, const fs::path& folder) {
+    const auto compiler = kernel_compiler();
+    if (!compiler)
+        throw Error(ErrorCategory::failure,
+                    "a kernel needs a C++ compiler, and there is none here (packages g++ or clang)");
+    std::error_code problem;
+    if (!fs::exists(kernel_headers() / "candela/reflection_plugin.h", problem))
+        throw Error(ErrorCategory::failure,
+                    "a kernel needs Candela's headers, which are not installed (package candela-dev)");
+    const ProgramOutput compiled = run_kernel_compiler(*compiler, options_for(name, folder), folder);
+    if (compiled.exit_code != 0) {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("{} does not compile the kernel: {}", compiler->filename().string(),
+                                without(folder, first_error(compiled.err))));
+    }
+    const fs::path library = folder / fmt::format("reflection-{}.so", name);
+    const Manifest manifest = manifest_of(load_plugin(library, nullptr), host_abi());
+    OutputFile file(fs::path(library).replace_extension(".json"), Existing::replaced);
+    file.write(to_json(manifest));
+    file.finish();
+}
+
+}  // namespace
+
+void add_kernel(py::module_& module) {
+    module.def("compile_plugin", &compile_plugin, py::arg("name"), py::arg("folder"),
+               py::call_guard<py::gil_scoped_release>(), "Makes a plugin of what is in a folder.");
+}
+
+}  // namespace candela::python

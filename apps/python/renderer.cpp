@@ -1,0 +1,91 @@
+// Pictures of one scene again and again, with changes between them.
+
+#include "module.h"
+#include "pictures.h"
+#include "scene.h"
+
+import candela.color;
+import candela.diagnostics;
+import candela.film;
+
+namespace candela::python {
+
+namespace {
+
+/// Keeps what a change leaves as it is: triangles, and what is visible where. Any thread, one at a time.
+class KeepingRenderer {
+  public:
+    KeepingRenderer(const ReadScene& scene, int threads)
+        : registry_(scene.registry()),
+          request_(scene.request()),
+          threads_(threads),
+          compiler_(registry_->registry()) {
+        compile(request_);
+    }
+
+    void set(const Settings& settings) {
+        const std::lock_guard lock(mutex_);
+        SceneRequest changed = with_settings(request_, settings);
+        compile(changed);
+        request_ = std::move(changed);
+    }
+
+    Film render(bool floats) {
+        const std::lock_guard lock(mutex_);
+        if (compiled_ == nullptr) compile(request_);  // the latest change was refused
+        const ImageSettings& image = compiled_->image;
+        Film film(image.width, image.height, floats ? PixelType::real : PixelType::byte,
+                  image.color_management);
+        renderer_.render(*compiled_, film, {.threads = threads_});
+        return film;
+    }
+
+    std::vector<Problem> warnings() {
+        const std::lock_guard lock(mutex_);
+        return warnings_;
+    }
+
+  private:
+    void compile(const SceneRequest& request) {
+        Diagnostics diagnostics;
+        const SceneDraft draft = valid_draft(request, registry_->registry(), diagnostics);
+        // What it returned before is gone from here on.
+        compiled_ = nullptr;
+        const CompiledScene* const compiled = compiler_.compile(draft, diagnostics, threads_);
+        if (compiled == nullptr || !compiler_.has_kept_triangles()) renderer_.forget();
+        if (compiled == nullptr) throw InvalidInput(InvalidInput::What::scene, diagnostics);
+        compiled_ = compiled;
+        warnings_ = problems_of(diagnostics);
+    }
+
+    std::mutex mutex_;
+    RegistryPointer registry_;
+    SceneRequest request_;
+    int threads_;
+    FrameCompiler compiler_;
+    candela::Renderer renderer_{candela::Renderer::Keep::visibility};
+    const CompiledScene* compiled_ = nullptr;
+    std::vector<Problem> warnings_;
+};
+
+py::array rendered(KeepingRenderer& renderer, bool floats) {
+    std::optional<Film> film;
+    {
+        const py::gil_scoped_release unlocked;
+        film.emplace(renderer.render(floats));
+    }
+    return array_of(*std::move(film));
+}
+
+}  // namespace
+
+void add_renderer(py::module_& module) {
+    using Unlocked = py::call_guard<py::gil_scoped_release>;
+    py::class_<KeepingRenderer>(module, "Renderer", "Renders a scene again and again.")
+        .def(py::init<const ReadScene&, int>(), py::arg("scene"), py::arg("threads"), Unlocked())
+        .def("set", &KeepingRenderer::set, py::arg("settings"), Unlocked())
+        .def("render", &rendered, py::arg("floats"))
+        .def_property_readonly("warnings", &KeepingRenderer::warnings, Unlocked());
+}
+
+}  // namespace candela::python

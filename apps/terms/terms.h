@@ -1,0 +1,64 @@
+// The terms of a picture's intensity, and what it was computed from, as layers of the picture or as files.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+import candela.files;
+import candela.film;
+import candela.registry;
+import candela.render;
+import candela.scene;
+import candela.shade;
+
+/// One term that is asked for.
+struct NamedTerm {
+    std::string name;  // "diffuse", "light.lamp"
+    candela::Term term;
+    std::optional<std::size_t> light{};  // index among the scene's
+};
+
+/// What words mean: "diffuse", "light.lamp", "light.0", "light" (each light), "all". Each once, in their
+/// order. Throws candela::Error (bad_request) for what is none, with a suggestion; `origin` is who says so.
+std::vector<NamedTerm> terms_from(const std::vector<std::string>& words, const candela::Scene& scene,
+                                  const std::string& origin);
+
+/// How many of the three channels of TermRenderer::values() the term has; the others are the same, or empty.
+int channel_count(const NamedTerm& term);
+
+/// The file that a term of that name is written to, beside the picture: "scene.diffuse.png" for "scene.png".
+std::filesystem::path file_of_term(const std::string& name, const std::filesystem::path& picture);
+
+/// The files of all terms. Throws candela::Error (bad_request) if two are one.
+std::vector<std::filesystem::path> files_of(const std::vector<NamedTerm>& terms,
+                                            const std::filesystem::path& picture);
+
+/// Renders terms of one scene, one after another.
+class TermRenderer {
+  public:
+    explicit TermRenderer(const candela::CompiledScene& scene, int threads)
+        : scene_(scene), threads_(threads) {}
+
+    /// The term's values, as they are.
+    candela::Film values(const NamedTerm& term);
+
+    /// The same to be looked at: what is no intensity is mapped to colours (docs/terms.md), unless the
+    /// format's pixels are floats.
+    candela::Film picture(const NamedTerm& term, candela::PixelType pixels);
+
+  private:
+    const candela::CompiledScene& scene_;
+    int threads_;
+    // Each remembers what is visible: with the picture's samples, and in the middle of each pixel.
+    candela::Renderer lit_{candela::Renderer::Keep::visibility};
+    candela::Renderer geometric_{candela::Renderer::Keep::visibility};
+    std::vector<float> facing_;  // a pixel each, once a term has needed them
+};
+
+/// Writes the picture, whose pixels are floats, and the terms as layers of one file.
+void write_with_layers(const candela::Film& film, const std::vector<NamedTerm>& terms, TermRenderer& renderer,
+                       const candela::PictureFormat& format, const std::filesystem::path& path,
+                       candela::Registry& registry, candela::Existing existing);

@@ -1,0 +1,14 @@
+module;
+
+#include "candela/picture_rows.h"
+
+export module candela.picture_rows;
+
+export import candela.image;
+
+export namespace candela {
+using candela::PictureRows;
+using candela::RandomAccessSink;
+using candela::RowFormat;
+using candela::ViewedRows;
+}  // namespace candela

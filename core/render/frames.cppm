@@ -1,0 +1,44 @@
+// The frames of an animated scene, compiled one after the other.
+module;
+
+#include "candela/api.h"
+
+#include <functional>
+#include <memory>
+#include <span>
+
+export module candela.render:frames;
+
+import :compiled_scene;
+import candela.diagnostics;
+import candela.registry;
+import candela.scene;
+
+export namespace candela {
+
+/// Compiles one frame after the other, as compile() does, and keeps from each to the next what has not
+/// changed: triangles, lights, models, the environment; constraints are checked again only if something has
+/// moved. One thread at a time.
+class CANDELA_API FrameCompiler {
+  public:
+    explicit FrameCompiler(Registry& registry);
+    FrameCompiler(FrameCompiler&&) noexcept;
+    FrameCompiler& operator=(FrameCompiler&&) noexcept;
+    ~FrameCompiler();
+
+    /// Valid until the next call; null if there were errors. `threads`: as in RenderOptions.
+    const CompiledScene* compile(const SceneDraft& draft, Diagnostics& diagnostics, int threads = 0);
+    /// Whether all triangles are where they were in the frame before: a Renderer must forget() otherwise.
+    bool has_kept_triangles() const noexcept;
+
+  private:
+    struct Kept;
+    std::unique_ptr<Kept> kept_;
+};
+
+/// Validates frames as compile() does, and reports every problem once: with the number of the first frame
+/// that has it, unless all of them have it, and with the track that says so. `progress` counts frames.
+CANDELA_API void check_frames(SceneFrames& frames, std::span<const int> numbers, Registry& registry,
+                              Diagnostics& diagnostics, int threads = 0, const Progress& progress = {});
+
+}  // namespace candela

@@ -1,0 +1,52 @@
+// A picture that need not fit into memory.
+module;
+
+#include "candela/api.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+export module candela.render:rendered_rows;
+
+import :compiled_scene;
+import :renderer;
+import candela.film;
+import candela.image;
+import candela.picture_rows;
+
+export namespace candela {
+
+/// Renders rows of a picture when they are asked for, a band at a time: the pixels that candela::render()
+/// gives them, in memory for two bands of some 64 MB. One thread at a time.
+class CANDELA_API RenderedRows final : public PictureRows {
+  public:
+    /// The scene must outlive this. `options.progress` counts rows.
+    RenderedRows(const CompiledScene& scene, PixelType pixels, RowRange rows, RenderOptions options);
+    ~RenderedRows() override;
+
+    PictureView next(int count) override;
+
+    /// Of all rows so far.
+    const RenderStatistics& statistics() const noexcept { return statistics_; }
+    /// What candela::why_black() says of them.
+    std::string why_black() const;
+
+  private:
+    void render_band(int first);
+
+    const CompiledScene& scene_;
+    PixelType pixels_;
+    RowRange rows_;
+    RenderOptions options_;
+    int next_;
+    int rows_per_band_;
+    Renderer renderer_;
+    std::optional<Film> band_;
+    std::vector<std::uint8_t> bytes_;  // of rows from more than one band
+    std::vector<float> reals_;
+    RenderStatistics statistics_;
+};
+
+}  // namespace candela

@@ -1,0 +1,10 @@
+// Sets the models' formulas, as pages do that show a scene.
+import { formulaLines } from "../../plugins/target/webgl/scripts/typeset.js";
+
+for (const element of document.querySelectorAll("pre.formula")) {
+    const parameters = element.dataset.parameters.split(" ").map((name) => ({ name }));
+    const set = document.createElement("div");
+    set.className = "formula";
+    set.append(...formulaLines({ formula: element.textContent, parameters }));
+    element.replaceWith(set);
+}

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""site.py CANDELA OUT: the documentation as a site, OUT/html/index.html, which needs no server.
+
+The documents as they are, a page for each installed model with its picture and lobe, and one of all commands' help. Every link is
+checked: those between documents by mkdocs, those of the finished pages here."""
+import html.parser
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import urllib.parse
+from pathlib import Path
+
+from models import Models
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+
+
+def copy_documents(sources):
+    for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE"):
+        shutil.copy(ROOT / name, sources / name)
+    shutil.copytree(ROOT / "docs", sources / "docs", ignore=shutil.ignore_patterns("site", "__pycache__"))
+    shutil.copy(HERE / "site.css", sources / "site.css")
+    subprocess.run(["esbuild", HERE / "formulas.js", "--bundle", "--minify", "--log-level=error", f"--outfile={sources}/formulas.js"],
+                   check=True)
+    # A link to a folder is one to the list of what is in it.
+    for folder in ("docs/adr", "docs/examples", "docs/examples/plugins"):
+        names = sorted(entry.name for entry in (sources / folder).iterdir() if entry.name != "README.md")
+        links = [f"- [{name}]({name}{'/README.md' if (sources / folder / name).is_dir() else ''})" for name in names
+                 if (sources / folder / name).is_file() or (sources / folder / name / "README.md").exists()]
+        if not (sources / folder / "README.md").exists():
+            (sources / folder / "README.md").write_text(f"# {Path(folder).name}\n\n" + "\n".join(links) + "\n")
+
+
+def link_folders(sources):
+    """Links to folders lead to their README.md, as they do where the repository is browsed."""
+    for document in sources.rglob("*.md"):
+        text = document.read_text()
+
+        def to_readme(match):
+            path = urllib.parse.unquote(match[2])
+            is_folder = path and not re.match(r"[a-z]+:", path) and (document.parent / path).is_dir()
+            return f"{match[1]}{path.rstrip('/')}/README.md{match[3]}" if is_folder else match[0]
+        document.write_text(re.sub(r"(\]\()([^)#\s]+)((?:#[^)]*)?\))", to_readme, text))
+
+
+def commands_page(candela):
+    def output(*words):
+        return subprocess.run([candela, *words], check=True, capture_output=True, text=True,
+                              env={**os.environ, "COLUMNS": "100", "CANDELA_COMPLETE": ""}).stdout
+
+    listed = subprocess.run([candela, ""], check=True, capture_output=True, text=True,
+                            env={**os.environ, "CANDELA_COMPLETE": "1"}).stdout
+    verbs = dict(line.split("\t") for line in listed.splitlines())
+    text = ["# Commands\n", "What `candela VERB --help` prints. The same is in the manual pages: `man candela-render`.\n"]
+    for verb, summary in verbs.items():
+        text.append(f"## candela {verb}\n\n{summary[0].upper()}{summary[1:]}.\n\n```text\n{output(verb, '--help').strip()}\n```\n")
+    return "\n".join(text)
+
+
+class Links(html.parser.HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attributes):
+        for name, value in attributes:
+            if name in ("href", "src") and value:
+                self.found.append(value)
+
+
+def broken_links(site):
+    for page in sorted(site.rglob("*.html")):
+        if page.name == "404.html":  # its links are absolute, for a server
+            continue
+        links = Links()
+        links.feed(page.read_text())
+        for link in links.found:
+            parts = urllib.parse.urlsplit(link)
+            is_relative = not parts.scheme and not parts.netloc and parts.path
+            if is_relative and not (page.parent / urllib.parse.unquote(parts.path)).exists():
+                yield f"{page.relative_to(site)}: {link}"
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    candela, out = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    sources, site = out / "sources", out / "html"
+    shutil.rmtree(sources, ignore_errors=True)
+    sources.mkdir(parents=True)
+    copy_documents(sources)
+    link_folders(sources)
+    (sources / "commands.md").write_text(commands_page(candela))
+    navigation = Models(candela, sources / "models", out / "scenes").write()
+    settings = (HERE / "mkdocs.yml").read_text()
+    # JSON is YAML.
+    for word, value in (("SOURCES", str(sources)), ("SITE", str(site)), ("MODELS", navigation)):
+        settings = settings.replace(f": {word}\n", f": {json.dumps(value)}\n")
+    (out / "mkdocs.yml").write_text(settings)
+    built = subprocess.run(["mkdocs", "build", "--quiet", "--clean", "--strict", "-f", out / "mkdocs.yml"], check=False)
+    if built.returncode != 0:
+        sys.exit("site: mkdocs has found what is wrong above")
+    wrong = list(broken_links(site))
+    for line in wrong:
+        print(f"site: {line} leads nowhere", file=sys.stderr)
+    if wrong:
+        sys.exit(1)
+    print(site / "index.html")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,40 @@
+#include "textures.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+#include "candela/embed.h"
+#include "candela/target/text_template.h"
+#include "candela/target/textures.h"
+
+CANDELA_EMBED(candela_cpp_textures, CANDELA_SOURCE_DIR "/templates/textures.h");
+CANDELA_EMBED(candela_cpp_texture_seen, CANDELA_SOURCE_DIR "/templates/texture_seen.h");
+
+namespace candela::cpp_target {
+
+using namespace target;
+
+TextureTexts textures_of(const ExportedScene& scene) {
+    if (scene.textures.empty()) return {};
+    std::string pictures;
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        pictures += fmt::format(
+            "const std::vector<TextureLevel>& texture_{}() {{  // {}\n"
+            "    static const std::vector<TextureLevel> levels = texture_levels(\"{}\");\n"
+            "    return levels;\n}}\n\n",
+            i, title_of(scene.textures[i]), texture_file(i));
+    }
+    return {filled(candela_cpp_textures, {{"FILE", std::string(texture_file_source())},
+                                          {"KERNEL", std::string(texture_kernel())},
+                                          {"PICTURES", pictures}}),
+            candela_cpp_texture_seen};
+}
+
+const char* readme_of_textures() {
+    return "The pictures of textures lie beside `scene.cpp` as PPM files, which many programs show and edit: "
+           "of 8 bits a channel as colours, of 16\nbits as intensities. They have to stay beside "
+           "`scene.cpp`, or beside the program.\n\n";
+}
+
+}  // namespace candela::cpp_target

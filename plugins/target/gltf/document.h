@@ -1,0 +1,48 @@
+// A glTF document and its one buffer, as a GLB file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "candela/math.h"
+
+namespace candela::gltf_target {
+
+using Json = nlohmann::ordered_json;
+
+/// glTF 2.0, section 3.6: what a view of the buffer is for.
+enum class ViewUse : int { image = 0, vertices = 34962, indices = 34963 };
+
+class Document {
+  public:
+    /// Everything but `buffers`, `bufferViews` and `accessors`, which are added to by the functions below.
+    Json root = Json::object();
+
+    /// Appends to a list of the root, such as "nodes"; the index of what was added.
+    std::size_t add(const char* list, Json element);
+    /// Names the extension among those used.
+    void use_extension(const char* name);
+
+    /// Each returns the index of an accessor.
+    std::size_t add_positions(ConstVec3Span positions, std::size_t count);  // with their bounds
+    std::size_t add_vectors(ConstVec3Span vectors, std::size_t count);
+    std::size_t add_texture_coordinates(ConstVec2Span coordinates, std::size_t count);  // v from the bottom
+    std::size_t add_indices(std::span<const std::uint32_t> indices);
+
+    /// The index of the view of bytes that are added.
+    std::size_t add_bytes(std::string_view bytes, ViewUse use);
+
+    /// The file. Names that are not UTF-8 have replacement characters.
+    std::string glb() const;
+
+  private:
+    std::size_t add_floats(std::span<const float> numbers, std::size_t per_element);
+
+    std::string buffer_;
+};
+
+}  // namespace candela::gltf_target

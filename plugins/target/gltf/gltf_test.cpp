@@ -1,0 +1,326 @@
+// GLB files, read back by hand and by `candela import`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::json;
+
+struct Glb {
+    Json json;
+    std::string buffer;
+};
+
+std::uint32_t number_at(const std::string& bytes, std::size_t at) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    return number;
+}
+
+/// By section 4.4 of the specification.
+Glb read_glb(const fs::path& file) {
+    const std::string bytes = read_file(file);
+    REQUIRE(bytes.starts_with("glTF"));
+    REQUIRE(number_at(bytes, 4) == 2);
+    REQUIRE(number_at(bytes, 8) == bytes.size());
+    const std::size_t json = number_at(bytes, 12);
+    REQUIRE(json % 4 == 0);
+    REQUIRE(bytes.substr(16, 4) == "JSON");
+    Glb glb{Json::parse(bytes.substr(20, json)), {}};
+    if (20 + json == bytes.size()) return glb;
+    REQUIRE(bytes.substr(24 + json, 4) == std::string("BIN\0", 4));
+    glb.buffer = bytes.substr(28 + json);
+    REQUIRE(glb.buffer.size() == number_at(bytes, 20 + json));
+    return glb;
+}
+
+template <class T>
+std::vector<T> numbers(const Glb& glb, const Json& accessor_index) {
+    const Json& accessor = glb.json["accessors"][accessor_index.get<std::size_t>()];
+    const Json& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const std::string type = accessor["type"];
+    const std::size_t per_element = type == "VEC3" ? 3 : type == "VEC2" ? 2 : 1;
+    std::vector<T> result(accessor["count"].get<std::size_t>() * per_element);
+    REQUIRE(view["byteLength"] == result.size() * sizeof(T));
+    std::memcpy(result.data(), glb.buffer.data() + view["byteOffset"].get<std::size_t>(),
+                result.size() * sizeof(T));
+    return result;
+}
+
+CommandResult generate(const fs::path& folder, const std::string& scene,
+                       const std::vector<std::string>& more = {}) {
+    const fs::path file = write_file(folder / "scene.toml", scene);
+    std::vector<std::string> words{"generate", file.string(), "--target", "gltf", "-o", folder.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_candela(words);
+}
+
+Glb generated(const fs::path& folder, const std::string& scene, const std::vector<std::string>& more = {}) {
+    const CommandResult result = generate(folder, scene, more);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return read_glb(folder / "scene.glb");
+}
+
+/// The scene that `candela import` makes of it.
+std::string imported(const fs::path& folder) {
+    const CommandResult result = run_candela(
+        {"import", (folder / "scene.glb").string(), "-o", (folder / "back.toml").string(), "--force"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return read_file(folder / "back.toml");
+}
+
+bool is_near(const Json& a, double b) {
+    return std::abs(a.get<double>() - b) <= 1e-6 * std::max(1.0, std::abs(b));
+}
+
+/// sRGB, IEC 61966-2-1.
+double linear(double byte) {
+    const double c = byte / 255;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+const std::string k_view = R"(version = 1
+shading = {model = "phong"}
+reflection = {model = "lambert"}
+[observer]
+position = [1, 2, 4]
+look_at = [0, 0.5, 0]
+fov = 40
+[image]
+width = 200
+height = 100
+background = [40, 43, 50]
+[[light]]
+name = "lamp"
+type = "point"
+color = [255, 200, 100]
+intensity = 12
+position = [1.5, 3, 2]
+[[light]]
+name = "sun"
+type = "directional"
+color = [250, 240, 230]
+intensity = 0.5
+direction = [1, -2, -2]
+)";
+
+const std::string k_scene = k_view + R"([[object]]
+name = "leaf"
+type = "mesh"
+file = "leaf.obj"
+color = [200, 100, 50]
+material = {kd = [0.5, 1, 0.25], ka = 0}
+)";
+
+fs::path folder_with_leaf() {
+    fs::path folder = scratch_directory();
+    write_file(folder / "leaf.obj",
+               "v -0.1 0.2 0.3\nv 1.1 0 0.7\nv 0.4 1.3 -0.2\nvn 0 0 1\nvn 0.6 0 0.8\nvn 0 0.6 0.8\nf 1//1 "
+               "2//2 3//3\n");
+    return folder;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "target/gltf: positions and normals are the mesh's own floats, base colour is kd times the colour") {
+    const Glb glb = generated(folder_with_leaf(), k_scene);
+    const Json& primitive = glb.json["meshes"][0]["primitives"][0];
+    CHECK(numbers<float>(glb, primitive["attributes"]["POSITION"]) ==
+          std::vector<float>{-0.1f, 0.2f, 0.3f, 1.1f, 0, 0.7f, 0.4f, 1.3f, -0.2f});
+    CHECK(numbers<std::uint32_t>(glb, primitive["indices"]) == std::vector<std::uint32_t>{0, 1, 2});
+    const std::vector<float> normals = numbers<float>(glb, primitive["attributes"]["NORMAL"]);
+    const std::vector<float> expected{0, 0, 1, 0.6f, 0, 0.8f, 0, 0.6f, 0.8f};
+    for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::abs(normals[i] - expected[i]) < 1e-6f);
+    const Json& accessor = glb.json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+    CHECK(is_near(accessor["min"][0], -0.1));
+    CHECK(is_near(accessor["max"][1], 1.3));
+
+    const Json& material = glb.json["materials"][0];
+    CHECK(material["name"] == "leaf");
+    CHECK(material["doubleSided"] == true);
+    const Json& base = material["pbrMetallicRoughness"]["baseColorFactor"];
+    CHECK(is_near(base[0], 0.5 * linear(200)));
+    CHECK(is_near(base[1], linear(100)));
+    CHECK(is_near(base[2], 0.25 * linear(50)));
+    // Without what is mirrored, glTF's diffuse light is Lambert's.
+    CHECK(material["extensions"]["KHR_materials_specular"]["specularFactor"] == 0);
+}
+
+TEST_CASE(
+    "target/gltf: lights are KHR_lights_punctual's, in candela and lux, and the camera looks where the "
+    "observer does") {
+    const Glb glb = generated(folder_with_leaf(), k_scene);
+    const Json& lights = glb.json["extensions"]["KHR_lights_punctual"]["lights"];
+    REQUIRE(lights.size() == 2);
+    CHECK(lights[0]["name"] == "lamp");
+    CHECK(lights[0]["type"] == "point");
+    CHECK(is_near(lights[0]["color"][1], linear(200)));
+    CHECK(is_near(lights[0]["intensity"], 12 * std::numbers::pi));
+    CHECK(lights[1]["type"] == "directional");
+    CHECK(is_near(lights[1]["intensity"], 0.5 * std::numbers::pi));
+    for (const Json& node : glb.json["nodes"]) {
+        if (node["name"] == "lamp") CHECK(node["translation"] == Json{1.5, 3, 2});
+        // Light travels along -z of its node: (1, -2, -2) / 3.
+        if (node["name"] == "sun") {
+            CHECK(is_near(node["matrix"][8], -1.0 / 3));
+            CHECK(is_near(node["matrix"][9], 2.0 / 3));
+            CHECK(is_near(node["matrix"][10], 2.0 / 3));
+        }
+        if (node["name"] == "observer") {
+            const double length = std::sqrt(1 + 1.5 * 1.5 + 16);
+            CHECK(is_near(node["matrix"][8], 1 / length));
+            CHECK(is_near(node["matrix"][9], 1.5 / length));
+            CHECK(is_near(node["matrix"][10], 4 / length));
+            CHECK(is_near(node["matrix"][13], 2));
+        }
+    }
+    const Json& camera = glb.json["cameras"][0]["perspective"];
+    CHECK(is_near(camera["yfov"], 40 * std::numbers::pi / 180));
+    CHECK(is_near(camera["aspectRatio"], 2));
+}
+
+TEST_CASE("target/gltf: read back by candela import, it is the same scene, and the same picture") {
+    const fs::path folder = scratch_directory();
+    const std::string scene = k_view + R"([[object]]
+name = "ball"
+type = "sphere"
+radius = 0.6
+position = [-0.7, 0, 0]
+color = [200, 100, 50]
+material = {kd = 1, ka = 0}
+[[object]]
+name = "box"
+type = "cube"
+size = 0.8
+rotation = [0, 30, 0]
+position = [0.7, 0, 0]
+color = [90, 160, 220]
+material = {kd = 1, ka = 0}
+)";
+    generated(folder, scene);
+    const std::string back = imported(folder);
+    INFO(back);
+    const auto has = [&](const std::string& line) {
+        INFO(line);
+        CHECK(back.find(line + "\n") != std::string::npos);
+    };
+    has("position = [1.0, 2.0, 4.0]");
+    has("fov      = 40.0");
+    has("color     = [255, 200, 100]");
+    has("intensity = 12.0");
+    has("position  = [1.5, 3.0, 2.0]");
+    has("color     = [250, 240, 230]");
+    has("intensity = 0.5");
+    has("direction = [0.33333, -0.66667, -0.66667]");
+    CHECK(back.find("[200, 100, 50]") != std::string::npos);
+    CHECK(back.find("[90, 160, 220]") != std::string::npos);
+    CHECK(back.find("\"ball\"") != std::string::npos);
+
+    const std::string a = (folder / "a.png").string(), b = (folder / "b.png").string();
+    REQUIRE(run_candela({"render", (folder / "scene.toml").string(), "-o", a}).exit_code == 0);
+    REQUIRE(run_candela({"render", (folder / "back.toml").string(), "-o", b, "--width", "200", "--height",
+                         "100", "--samples", "1"})
+                .exit_code == 0);
+    const CommandResult difference = run_candela({"diff", a, b, "--tolerance", "1"});
+    INFO(difference.out);
+    CHECK(difference.exit_code == 0);
+}
+
+TEST_CASE("target/gltf: a material of metallic-roughness that was imported is the same after a round") {
+    const fs::path folder = folder_with_leaf();
+    // metallic 0.6 and roughness 0.5 of a base colour, as candela import has them.
+    const double m = 0.6, dielectric = 0.04;
+    const auto specular = [&](double byte) { return dielectric * (1 - m) + m * linear(byte); };
+    const std::string scene = std::string(k_scene).replace(
+        k_scene.find("material ="), std::string::npos,
+        fmt::format("reflection = \"ggx\"\nmaterial = {{ka = 0, kd = {}, ks = [{}, {}, {}], "
+                    "roughness = 0.25, ior = 100}}\n",
+                    (1 - m) * (1 - dielectric), specular(200), specular(100), specular(50)));
+    const Glb glb = generated(folder, scene, {"--approximate"});
+    const Json& pbr = glb.json["materials"][0]["pbrMetallicRoughness"];
+    CHECK(is_near(pbr["metallicFactor"], m));
+    CHECK(is_near(pbr["roughnessFactor"], 0.5));
+    CHECK(is_near(pbr["baseColorFactor"][0], linear(200)));
+    CHECK_FALSE(glb.json["materials"][0].contains("extensions"));
+}
+
+TEST_CASE("target/gltf: textures are in the file as they are, with v from the top, and read back") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "quad.obj",
+               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\nvt 0 0.75\n"
+               "f 1/1 2/2 3/3 4/4\n");
+    REQUIRE(run_candela({"render", "-o", (folder / "picture.png").string(), "--width", "8", "--height", "8"})
+                .exit_code == 0);
+    const std::string picture = read_file(folder / "picture.png");
+    const std::string scene = std::string(k_scene).replace(
+        k_scene.find("file ="), std::string::npos,
+        "file = \"quad.obj\"\ncolor_texture = \"picture.png\"\ncolor_texture_wrap = "
+        "\"clamp\"\n");
+    const Glb glb = generated(folder, scene);
+    const Json& image = glb.json["images"][0];
+    CHECK(image["mimeType"] == "image/png");
+    const Json& view = glb.json["bufferViews"][image["bufferView"].get<std::size_t>()];
+    CHECK(glb.buffer.substr(view["byteOffset"], view["byteLength"]) == picture);
+    CHECK(glb.json["samplers"][0]["wrapS"] == 33071);
+    const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+    std::vector<float> uv = numbers<float>(glb, attributes["TEXCOORD_0"]);
+    std::vector<float> v;
+    for (std::size_t i = 1; i < uv.size(); i += 2) v.push_back(uv[i]);
+    CHECK(*std::ranges::min_element(v) == 0.25f);
+    CHECK(*std::ranges::max_element(v) == 1);
+    const std::string back = imported(folder);
+    CHECK(back.find("color_texture_wrap") != std::string::npos);
+
+    fs::rename(folder / "picture.png", folder / "kept.png");
+    REQUIRE(run_candela({"render", "-o", (folder / "picture.ppm").string(), "--width", "8", "--height", "8"})
+                .exit_code == 0);
+    const CommandResult refused =
+        generate(folder, std::string(scene).replace(scene.find("picture.png"), 11, "picture.ppm"));
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.err.find("neither a PNG nor a JPEG") != std::string::npos);
+}
+
+TEST_CASE("target/gltf: what glTF does not have is refused by name, and said once each with --approximate") {
+    const fs::path folder = folder_with_leaf();
+    const std::string scene = k_scene + R"([[object]]
+type = "sphere"
+radius = 0.2
+position = [-2, 0, 0]
+reflection = "phong"
+shading = "flat"
+[[light]]
+type = "ambient"
+[[light]]
+type = "spot"
+position = [0, 4, 0]
+direction = [0, -1, 0]
+)";
+    const CommandResult refused = generate(folder, scene);
+    CHECK(refused.exit_code == 1);
+    CHECK_FALSE(fs::exists(folder / "scene.glb"));
+    const CommandResult accepted = generate(folder, scene, {"--approximate"});
+    CHECK(accepted.exit_code == 0);
+    for (const std::string& name : {"reflection/phong", "light/ambient", "light/spot", "shading/flat"}) {
+        INFO(name);
+        CHECK(refused.err.find(name) != std::string::npos);
+        const std::size_t first = accepted.err.find(name);
+        CHECK(first != std::string::npos);
+        CHECK(accepted.err.find(name, first + 1) == std::string::npos);
+    }
+}

@@ -1,0 +1,143 @@
+#include "materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "candela/color.h"
+#include "candela/target/renderers.h"
+
+namespace candela::gltf_target {
+
+namespace {
+
+constexpr const char* k_specular = "KHR_materials_specular";
+constexpr float k_dielectric = 0.04f;  // what glTF's materials mirror at normal incidence: an index of 1.5
+
+float largest(Vec3 v) { return std::max({v.x, v.y, v.z}); }
+float distance(Vec3 a, Vec3 b) {
+    return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+}
+Vec3 at_most_one(Vec3 v) { return {std::min(v.x, 1.0f), std::min(v.y, 1.0f), std::min(v.z, 1.0f)}; }
+Json json_of(Vec3 v) { return {v.x, v.y, v.z}; }
+
+/// glTF 2.0, appendix B: the diffuse light of a dielectric and its mirrored share, blended with a metal.
+struct Surface {
+    Vec3 base{};
+    float metallic = 0;
+    float roughness = 1;
+    Vec3 mirrored{k_dielectric, k_dielectric, k_dielectric};  // of the dielectric, at normal incidence
+    bool has_specular = true;
+};
+
+/// The metal that this is, if it is one or in part: then its highlights have the object's colour in part.
+std::optional<float> metalness_of(Vec3 color, Vec3 diffuse, Vec3 mirrored) {
+    const float metallic = 1 - diffuse.x / (1 - k_dielectric);
+    const float dielectric = (1 - metallic) * k_dielectric;
+    const Vec3 expected = metallic * color + Vec3{dielectric, dielectric, dielectric};
+    constexpr float k_near = 2e-3f;
+    const bool is_metal = diffuse.x == diffuse.y && diffuse.y == diffuse.z && metallic > k_near &&
+                          metallic <= 1 && distance(expected, mirrored) < k_near;
+    return is_metal ? std::optional(metallic) : std::nullopt;
+}
+
+Surface surface_of(const ExportedReflection& model, const ExportedValues& values, Vec3 color,
+                   FileSink& files) {
+    const std::string_view name = model.plugin->name;
+    const Vec3 diffuse = target::rgb_value(model, values, "kd").value_or(Vec3{1, 1, 1});
+    const auto highlight = target::highlight_of(model, values);
+    if (!highlight || highlight->specular == Vec3{}) {
+        // Without what is mirrored, glTF's diffuse light is Lambert's.
+        if (name != "lambert" && name != "phong" && name != "blinn-phong")
+            files.approximate(fmt::format("reflection/{} becomes Lambert's diffuse light", name).c_str());
+        return {.base = target::times(diffuse, color), .mirrored = {}, .has_specular = false};
+    }
+    files.approximate(
+        fmt::format("reflection/{} becomes metallic-roughness, whose highlights rise towards grazing angles",
+                    name)
+            .c_str());
+    const float alpha = highlight->alpha;
+    Surface result{.roughness = std::sqrt(alpha)};
+    // At normal incidence facets send back F D / 4, where D is 1 / alpha^2.
+    const float facets = highlight->facets > 0 ? highlight->facets : 4 * alpha * alpha;
+    const Vec3 mirrored = at_most_one(facets * highlight->specular);
+    if (const auto metallic = metalness_of(color, diffuse, highlight->specular)) {
+        result.metallic = *metallic;
+        result.base = color;
+    } else if (diffuse == Vec3{}) {
+        result.metallic = 1;
+        result.base = mirrored;
+    } else {
+        result.mirrored = mirrored;
+        // What is mirrored is not there for diffuse light.
+        result.base =
+            at_most_one((1 / std::max(1 - largest(mirrored), 1e-3f)) * target::times(diffuse, color));
+    }
+    return result;
+}
+
+std::string bytes_of(const char* file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw std::runtime_error(fmt::format("the texture '{}' cannot be read", file));
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+const char* media_type(std::string_view content, const char* file) {
+    if (content.starts_with("\x89PNG\r\n")) return "image/png";
+    if (content.starts_with("\xff\xd8\xff")) return "image/jpeg";
+    throw std::runtime_error(
+        fmt::format("the texture '{}' is neither a PNG nor a JPEG file, and glTF has no others", file));
+}
+
+}  // namespace
+
+std::size_t Materials::texture_of(const ExportedObject& object) {
+    auto image = images_.find(object.color_texture);
+    if (image == images_.end()) {
+        const char* const file = scene_.textures[object.color_texture].file;
+        const std::string content = bytes_of(file);
+        const std::size_t view = document_.add_bytes(content, ViewUse::image);
+        const std::size_t index =
+            document_.add("images", {{"bufferView", view}, {"mimeType", media_type(content, file)}});
+        image = images_.emplace(object.color_texture, index).first;
+    }
+    constexpr int k_linear = 9729, k_trilinear = 9987, k_clamp = 33071, k_repeat = 10497;
+    const int wrap = object.color_texture_repeats ? k_repeat : k_clamp;
+    const std::size_t sampler = document_.add(
+        "samplers", {{"magFilter", k_linear}, {"minFilter", k_trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
+    return document_.add("textures", {{"sampler", sampler}, {"source", image->second}});
+}
+
+std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
+    const Rgb color = decoded(object.color, scene_.image.color_management);
+    const Surface surface =
+        surface_of(scene_.reflections[object.reflection], object.materials[object.reflection],
+                   {color.r, color.g, color.b}, files_);
+    Json pbr = {{"baseColorFactor", {surface.base.x, surface.base.y, surface.base.z, 1}},
+                {"metallicFactor", surface.metallic},
+                {"roughnessFactor", surface.roughness}};
+    if (object.color_texture != ExportedObject::k_no_texture)
+        pbr["baseColorTexture"]["index"] = texture_of(object);
+    Json material = {{"name", object.label}, {"pbrMetallicRoughness", std::move(pbr)}};
+    if (!is_closed) material["doubleSided"] = true;
+    const Vec3 usual{k_dielectric, k_dielectric, k_dielectric};
+    if (!surface.has_specular) {
+        material["extensions"][k_specular]["specularFactor"] = 0;
+    } else if (surface.metallic == 0 && distance(surface.mirrored, usual) > 1e-6f) {
+        material["extensions"][k_specular]["specularColorFactor"] =
+            json_of((1 / k_dielectric) * surface.mirrored);
+    }
+    if (material.contains("extensions")) document_.use_extension(k_specular);
+    return document_.add("materials", std::move(material));
+}
+
+}  // namespace candela::gltf_target

@@ -1,0 +1,31 @@
+// Materials as glTF has them: metallic-roughness, and KHR_materials_specular.
+#pragma once
+
+#include <cstddef>
+#include <map>
+
+#include "candela/target.h"
+#include "document.h"
+
+namespace candela::gltf_target {
+
+/// Adds the materials of objects, and the textures that they have.
+class Materials {
+  public:
+    Materials(const ExportedScene& scene, Document& document, FileSink& files)
+        : scene_(scene), document_(document), files_(files) {}
+
+    /// The index of the material of an object. Throws std::runtime_error where its texture is neither a PNG
+    /// nor a JPEG file.
+    std::size_t add(const ExportedObject& object, bool is_closed);
+
+  private:
+    std::size_t texture_of(const ExportedObject& object);
+
+    const ExportedScene& scene_;
+    Document& document_;
+    FileSink& files_;
+    std::map<std::size_t, std::size_t> images_;  // by the scene's texture
+};
+
+}  // namespace candela::gltf_target

@@ -1,0 +1,61 @@
+// From a colour to an intensity: IEC 61966-2-1 (sRGB), or as it is.
+float decoded(float c) {
+    if (!k_is_srgb) return c;
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+@FILE@
+// The pictures that the colours of surfaces are multiplied with: files in this program's folder.
+const std::vector<const char*> k_textures = {
+@FILES@};
+
+struct Texture {
+    GLuint name = 0;
+    int width = 0, height = 0, levels = 0;
+};
+
+// A picture, and its levels in a row along its longer side, as a texture of whole numbers, which the shaders filter themselves.
+Texture make_texture(const std::string& file) {
+    const std::vector<TextureLevel> levels = texture_levels(file);
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    Texture texture;
+    texture.width = levels[0].width;
+    texture.height = levels[0].height;
+    texture.levels = static_cast<int>(levels.size());
+    const bool is_wide = texture.width >= texture.height;
+    const int width = texture.width + (is_wide ? 0 : std::max(texture.width / 2, 1));
+    const int height = texture.height + (is_wide ? std::max(texture.height / 2, 1) : 0);
+    if (std::max(width, height) > largest)
+        throw std::runtime_error("the texture " + file + " is too large: with its levels it has " + std::to_string(width) + " x " + std::to_string(height) +
+                                 " pixels; this OpenGL takes " + std::to_string(largest) + " a side");
+    glGenTextures(1, &texture.name);
+    glBindTexture(GL_TEXTURE_2D, texture.name);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16UI, width, height, 0, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, nullptr);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const int longer = std::max(texture.width, texture.height), along = i == 0 ? 0 : longer - (longer >> (i - 1));
+        const int x = is_wide || i == 0 ? along : texture.width, y = !is_wide || i == 0 ? along : texture.height;
+        glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, levels[i].width, levels[i].height, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT,
+                        levels[i].texels.data());
+    }
+    return texture;
+}
+
+// Has a program's shaders read a texture.
+void bind(const Texture& texture, bool repeats, GLuint program, const Observer& observer, const View& view, int height) {
+    glActiveTexture(GL_TEXTURE4);
+    glBindTexture(GL_TEXTURE_2D, texture.name);
+    const auto set_whole = [&](const char* name, int value) { set(program, {name, Uniform::whole, {static_cast<float>(value), 0, 0}}); };
+    set_whole("color_texels", 4);
+    set_whole("color_texture.width", texture.width);
+    set_whole("color_texture.height", texture.height);
+    set_whole("color_texture.levels", texture.levels);
+    set_whole("color_texture.repeats", repeats ? 1 : 0);
+    const float all = observer.is_perspective ? 2 * std::tan(0.5f * observer.size * 0.0174532925f) : observer.size;
+    const float pixel = all / static_cast<float>(height);
+    set(program, {"pixel_right", Uniform::vector, pixel * view.right});
+    set(program, {"pixel_up", Uniform::vector, pixel * view.top});
+}
+

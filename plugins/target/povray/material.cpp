@@ -1,0 +1,145 @@
+#include "material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "candela/color.h"
+#include "candela/target/renderers.h"
+#include "text.h"
+
+namespace candela::povray_target {
+
+namespace {
+
+/// Where a factor would be divided by.
+constexpr float k_tiny = 1e-6f;
+
+Vec3 at_least_tiny(Vec3 v) { return {std::max(v.x, k_tiny), std::max(v.y, k_tiny), std::max(v.z, k_tiny)}; }
+Vec3 over(Vec3 a, Vec3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+
+enum class HighlightKind : int { none, phong, blinn };
+
+/// ka, kd and ks of POV-Ray's own models: kd N.L, and where N.L > 0 ks (R.V)^n or ks (N.H)^n.
+struct Finish {
+    Vec3 ambient{}, diffuse{}, specular{};
+    HighlightKind kind = HighlightKind::none;
+    float exponent = 0;
+};
+
+std::string highlight_text(const Finish& finish, float brightness) {
+    switch (finish.kind) {
+        case HighlightKind::phong:
+            return fmt::format(" phong {} phong_size {}", brightness, finish.exponent);
+        case HighlightKind::blinn:  // roughness is the reciprocal of the exponent, and 0 an exponent of 0
+            return fmt::format(" specular {} roughness {}", brightness,
+                               finish.exponent > 0 ? 1 / finish.exponent : 0);
+        default:
+            return "";
+    }
+}
+
+std::string named(const ExportedReflection& model) {
+    return fmt::format("reflection/{}", model.plugin->name);
+}
+
+/// A model that POV-Ray does not have: its diffuse part as Lambert's, its highlight as Blinn's.
+void approximate(const ExportedReflection& model, const ExportedValues& values, Finish& finish,
+                 FileSink& files) {
+    const auto highlight = target::highlight_of(model, values);
+    if (!highlight) {
+        files.approximate(fmt::format("{} becomes Lambert's diffuse light", named(model)).c_str());
+        return;
+    }
+    const float a2 = highlight->alpha * highlight->alpha;
+    // At normal incidence facets send back F D / 4, where D is 1 / alpha^2.
+    finish.specular =
+        highlight->facets > 0 ? highlight->facets / (4 * a2) * highlight->specular : highlight->specular;
+    finish.kind = HighlightKind::blinn;
+    finish.exponent = 2 / a2 - 2;
+    files.approximate(
+        fmt::format("{} becomes Lambert's diffuse light and Blinn's highlight of about the same width",
+                    named(model))
+            .c_str());
+}
+
+Finish finish_of(const ExportedReflection& model, const ExportedValues& values, FileSink& files) {
+    const std::string_view name = model.plugin->name;
+    const auto rgb = [&](const char* parameter, float otherwise) {
+        return target::rgb_value(model, values, parameter).value_or(Vec3{otherwise, otherwise, otherwise});
+    };
+    Finish finish{.ambient = rgb("ka", 0), .diffuse = rgb("kd", 1)};
+    if (name == "lambert") return finish;
+    const auto exponent = target::real_value(model, values, "shininess");
+    if (!exponent || (name != "phong" && name != "blinn-phong")) {
+        approximate(model, values, finish, files);
+        return finish;
+    }
+    finish.specular = rgb("ks", 0);
+    if (finish.specular == Vec3{}) return finish;
+    finish.kind = name == "phong" ? HighlightKind::phong : HighlightKind::blinn;
+    finish.exponent = *exponent;
+    if (finish.kind == HighlightKind::phong && finish.exponent == 0)
+        files.approximate("reflection/phong with a shininess of 0 has no highlight where R.V is negative");
+    return finish;
+}
+
+struct Layer {
+    Vec3 pigment{};
+    float diffuse = 0;
+    Vec3 ambient{};
+    std::string highlight{};
+};
+
+std::string layer_text(const Layer& layer, bool is_lit_from_behind) {
+    return fmt::format("texture {{ pigment {{ {} }} finish {{ ambient {} diffuse {}{}{} }} }}",
+                       rgb_text(layer.pigment), rgb_text(layer.ambient), is_lit_from_behind ? "0, " : "",
+                       layer.diffuse, is_lit_from_behind ? "" : layer.highlight);
+}
+
+}  // namespace
+
+std::string material_text(const ExportedScene& scene, const ExportedObject& object, bool turns_away,
+                          FileSink& files) {
+    const Finish finish =
+        finish_of(scene.reflections[object.reflection], object.materials[object.reflection], files);
+    const Rgb color = decoded(object.color, scene.image.color_management);
+    Layer layer{
+        .pigment = {color.r, color.g, color.b}, .diffuse = finish.diffuse.x, .ambient = finish.ambient};
+    if (!is_grey(finish.diffuse)) {
+        const Vec3 share = at_least_tiny(finish.diffuse);
+        layer.pigment = target::times(layer.pigment, share);
+        layer.diffuse = 1;
+        layer.ambient = over(finish.ambient, share);
+    }
+    std::string filter;
+    if (finish.kind != HighlightKind::none) {
+        const bool is_white = is_grey(finish.specular);
+        layer.highlight = highlight_text(finish, is_white ? finish.specular.x : 1);
+        if (!is_white) {
+            // POV-Ray's highlights have the light's colour; one of another is seen through a layer of it.
+            const Vec3 tint = at_least_tiny(finish.specular);
+            layer.pigment = over(layer.pigment, tint);
+            filter = fmt::format(
+                "    // A layer whose colour filters what lies below, whose pigment is divided by it: so the "
+                "highlight alone has it.\n"
+                "    texture {{ pigment {{ rgbf <{}, {}, {}, 1> }} finish {{ ambient 0 diffuse 0 }} }}\n",
+                tint.x, tint.y, tint.z);
+        }
+    }
+    std::string text = fmt::format("    {}\n{}", layer_text(layer, false), filter);
+    if (turns_away) {
+        if (!filter.empty()) layer.pigment = target::times(layer.pigment, at_least_tiny(finish.specular));
+        text += fmt::format(
+            "    // Where the normal points away from the observer, POV-Ray turns it around: what it calls "
+            "lit from "
+            "behind is the front.\n    interior_{}\n",
+            layer_text(layer, true));
+    }
+    return text;
+}
+
+}  // namespace candela::povray_target

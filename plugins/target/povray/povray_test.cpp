@@ -1,0 +1,241 @@
+// Scenes of POV-Ray's, drawn by POV-Ray.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+CommandResult generate(const fs::path& folder, const std::string& scene,
+                       const std::vector<std::string>& more = {}) {
+    const fs::path file = write_file(folder / "scene.toml", scene);
+    std::vector<std::string> words{"generate", file.string(), "--target",
+                                   "povray",   "-o",          (folder / "made").string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_candela(words);
+}
+
+std::string generated(const fs::path& folder, const std::string& scene) {
+    const CommandResult result = generate(folder, scene);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return read_file(folder / "made/scene.pov");
+}
+
+/// The pixel in the middle of what POV-Ray draws, in levels.
+std::array<int, 3> drawn_in_the_middle(const fs::path& folder, const std::string& scene) {
+    generated(folder, scene);
+    CommandSetup setup;
+    setup.directory = folder / "made";
+    const CommandResult result = run_program({"povray", "scene.ini", "+FP", "+Opicture.ppm"}, setup);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const std::string ppm = read_file(folder / "made/picture.ppm");
+    constexpr std::size_t k_size = 9;  // pixels each way
+    const std::size_t pixels = ppm.size() - 3 * k_size * k_size, middle = pixels + 3 * (k_size * k_size / 2);
+    const auto level = [&](std::size_t k) {
+        return static_cast<int>(static_cast<unsigned char>(ppm[middle + k]));
+    };
+    return {level(0), level(1), level(2)};
+}
+
+std::array<int, 3> levels(double r, double g, double b) {
+    const auto level = [](double x) { return static_cast<int>(std::lround(255 * x)); };
+    return {level(r), level(g), level(b)};
+}
+
+const std::string k_head = "version = 1\nshading = {model = \"phong\"}\n";
+
+/// RE example 2: a floor with N = (0, 1, 0), seen from (20, 5, 0), lit from (-10, 10, 0).
+std::string example_2(const std::string& reflection, const std::string& material) {
+    return k_head + R"(room = {width = 50, height = 50, depth = 50}
+observer = {position = [20, 5, 0], look_at = [0, 0, 0], fov = 0.01}
+image = {width = 9, height = 9, color_management = "none"}
+reflection = {model = ")" +
+           reflection + R"("}
+[[light]]
+type = "point"
+position = [-10, 10, 0]
+attenuation = "none"
+[[object]]
+type = "mesh"
+file = "floor.obj"
+color = [255, 255, 255]
+[object.material]
+)" + material;
+}
+
+/// What `candela verify` says of a scene, with a tolerance of one level.
+CommandResult verify(const fs::path& folder, const std::string& scene) {
+    const fs::path file = write_file(folder / "scene.toml", scene);
+    return run_candela({"verify", file.string(), "--target", "povray", "--tolerance", "1"});
+}
+
+}  // namespace
+
+TEST_CASE("target/povray: POV-Ray draws RE example 2: cos theta is 0.7071, cos alpha 0.8575") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
+    CHECK(drawn_in_the_middle(folder, example_2("lambert", "ka = 0\nkd = 1\n")) ==
+          levels(0.7071, 0.7071, 0.7071));
+    CHECK(drawn_in_the_middle(folder, example_2("phong", "ka = 0\nkd = 0\nks = 1\nshininess = 1\n")) ==
+          levels(0.8575, 0.8575, 0.8575));
+    // Half of the angle between R and V is that between N and H: cos(arccos(0.8575) / 2) = 0.9637.
+    CHECK(drawn_in_the_middle(folder, example_2("blinn-phong", "ka = 0\nkd = 0\nks = 1\nshininess = 1\n")) ==
+          levels(0.9637, 0.9637, 0.9637));
+}
+
+TEST_CASE(
+    "target/povray: POV-Ray draws RE example 3, corrected, with coefficients that differ between channels") {
+    const fs::path folder = scratch_directory();
+    // With the note's normal, which is not quite that of its face.
+    write_file(folder / "face.obj",
+               "v .7 .1 .4\nv .1 .2 .2\nv .3 .5 .5\nvn .33333333 .66666667 -.66666667\nf 1//1 2//1 3//1\n");
+    // A millimetre within the face beside V1, seen along z from the side of -z.
+    const std::string scene =
+        k_head +
+        R"(observer = {position = [0.699, 0.1005, -3], look_at = [0.699, 0.1005, 0], projection = "orthographic", height = 1e-4}
+image = {width = 9, height = 9, color_management = "none"}
+reflection = {model = "phong"}
+[[light]]
+type = "point"
+position = [0.3, 0.8, 0.4]
+attenuation = "offset-linear"
+attenuation_offset = 0.01
+[[light]]
+type = "ambient"
+color = [255, 170, 85]
+intensity = 0.3
+[[object]]
+type = "mesh"
+file = "face.obj"
+color = [255, 255, 255]
+[object.material]
+ka = 0.1
+kd = [0.8, 0.8, 0.9]
+ks = [0.2, 0.2, 0.1]
+shininess = 10
+)";
+    // kd 0.4135 / 0.8162 + ka I_a, and ks 0.5514^10 / 0.8162; a millimetre aside it is the same to a level.
+    const std::array<int, 3> drawn = drawn_in_the_middle(folder, scene);
+    const std::array<int, 3> expected = levels(0.4353 + 0.0006, 0.4253 + 0.0006, 0.4660 + 0.0003);
+    INFO(fmt::format("{} {} {}", drawn[0], drawn[1], drawn[2]));
+    for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(drawn[k] - expected[k]) <= 1);
+}
+
+TEST_CASE("target/povray: camera, spot and background are the figures worked out by hand") {
+    const std::string text = generated(
+        scratch_directory(), k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0], fov = 90}
+image = {width = 200, height = 100, background = [255, 0, 255]}
+reflection = {model = "lambert"}
+[[light]]
+type = "spot"
+position = [0, 4, 0]
+direction = [0, -2, 0]
+inner_angle = 15
+outer_angle = 30
+intensity = 7
+[[object]]
+type = "sphere"
+)");
+    // 2 tan 45 degrees high, and twice as wide.
+    CHECK(text.find("location <0, 0, 4>") != std::string::npos);
+    CHECK(text.find("direction <-0, -0, -1>") != std::string::npos);
+    CHECK(text.find("right <4, 0, 0>") != std::string::npos);
+    CHECK(text.find("up <0, 2, 0>") != std::string::npos);
+    CHECK(text.find("background { rgb <1, 0, 1> }") != std::string::npos);
+    CHECK(
+        text.find("rgb 7 / (2 * Near * Near) fade_distance Near fade_power 2 spotlight point_at <0, 3, 0>") !=
+        std::string::npos);
+    const std::size_t radius = text.find("radius ") + 7, falloff = text.find("falloff ") + 8;
+    CHECK(std::abs(std::stod(text.substr(radius)) - 15) < 1e-4);
+    CHECK(std::abs(std::stod(text.substr(falloff)) - 30) < 1e-4);
+}
+
+TEST_CASE("target/povray: a coarse ball is right where its normals point away from the observer") {
+    const CommandResult result =
+        verify(scratch_directory(), k_head + R"(observer = {position = [0, 0, 2.5], look_at = [0, 0, 0]}
+image = {width = 200, height = 150, background = [0, 0, 90]}
+reflection = {model = "lambert"}
+[[light]]
+type = "directional"
+direction = [1, -0.5, 0.8]
+[[object]]
+type = "sphere"
+segments = 6
+radius = 0.8
+)");
+    INFO(result.out);
+    CHECK(result.err.empty());
+    CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("target/povray: a triangle keeps normals that are equal to each other, but not the face's") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "leaning.obj",
+               "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0.6 0 0.8\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
+    const CommandResult result =
+        verify(folder, k_head + R"(observer = {position = [0, 0, 3], look_at = [0, 0, 0]}
+image = {width = 100, height = 80}
+reflection = {model = "blinn-phong"}
+[[light]]
+type = "point"
+position = [2, 1, 3]
+intensity = 9
+[[object]]
+type = "mesh"
+file = "leaning.obj"
+)");
+    INFO(result.out);
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+}
+
+TEST_CASE(
+    "target/povray: what POV-Ray does not have is refused by name, and said once each with --approximate") {
+    const std::string scene = k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0]}
+image = {width = 64, height = 48}
+reflection = {model = "ggx"}
+[[light]]
+type = "hemisphere"
+[[light]]
+type = "spot"
+position = [0, 3, 0]
+direction = [0, -1, 0]
+falloff = "linear"
+[[object]]
+type = "sphere"
+position = [-1, 0, 0]
+[[object]]
+type = "sphere"
+position = [1, 0, 0]
+[[object]]
+type = "cube"
+size = 0.3
+shading = "flat"
+)";
+    const fs::path folder = scratch_directory();
+    const CommandResult refused = generate(folder, scene);
+    CHECK(refused.exit_code == 1);
+    CHECK_FALSE(fs::exists(folder / "made"));
+    const CommandResult accepted = generate(folder, scene, {"--approximate"});
+    CHECK(accepted.exit_code == 0);
+    CHECK(fs::exists(folder / "made/scene.pov"));
+    for (const std::string& name : {"reflection/ggx", "light/hemisphere", "light/spot", "shading/flat"}) {
+        INFO(name);
+        CHECK(refused.err.find(name) != std::string::npos);
+        const std::size_t first = accepted.err.find(name);
+        CHECK(first != std::string::npos);
+        CHECK(accepted.err.find(name, first + 1) == std::string::npos);
+    }
+    CHECK(refused.err.find("--approximate") != std::string::npos);
+}

@@ -1,0 +1,93 @@
+#include "triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace candela::povray_target {
+
+namespace {
+
+float largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// What POV-Ray takes for equal differs by 3e-5 at most.
+constexpr float k_equal = 1e-4f;
+
+Vec3 turned(Vec3 n) {
+    Vec3 other = n;
+    float& smallest = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z) ? other.x
+                      : std::abs(n.y) <= std::abs(n.z)                                 ? other.y
+                                                                                       : other.z;
+    smallest += k_equal;
+    return normalized(other);
+}
+
+Vec3 face_normal(const Triangles& t, std::size_t first) {
+    const Vec3 a = t.positions[t.indices[first]];
+    return normalized(cross(t.positions[t.indices[first + 1]] - a, t.positions[t.indices[first + 2]] - a));
+}
+
+/// Towards the observer, of any length.
+Vec3 to_observer(Vec3 from, const ExportedObserver& observer) {
+    return observer.projection == Projection::perspective ? observer.position - from
+                                                          : observer.position - observer.look_at;
+}
+
+bool is_on_outline(const Triangles& t, std::size_t first, bool is_front, const ExportedObserver& observer) {
+    return std::ranges::any_of(std::array<std::size_t, 3>{0, 1, 2}, [&](std::size_t k) {
+        const std::uint32_t vertex = t.indices[first + k];
+        const float cosine = dot(t.normals[vertex], to_observer(t.positions[vertex], observer));
+        return is_front ? cosine < 0 : cosine > 0;
+    });
+}
+
+}  // namespace
+
+Triangles triangles_of(const ExportedMesh& mesh, ConstVec3Span normal) {
+    Triangles result;
+    for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
+        result.positions.push_back(mesh.position[v]);
+        if (normal) result.normals.push_back(normal[v]);
+    }
+    result.indices.assign(mesh.indices.begin(), mesh.indices.end());
+    return result;
+}
+
+void keep_equal_normals(Triangles& t) {
+    if (t.normals.empty()) return;
+    for (std::size_t first = 0; first < t.indices.size(); first += 3) {
+        const Vec3 a = t.normals[t.indices[first]];
+        const bool are_equal = largest(a - t.normals[t.indices[first + 1]]) < k_equal &&
+                               largest(a - t.normals[t.indices[first + 2]]) < k_equal;
+        if (!are_equal || largest(face_normal(t, first) - a) < k_equal) continue;
+        if (t.normal_indices.empty()) t.normal_indices = t.indices;
+        t.normal_indices[first] = static_cast<std::uint32_t>(t.normals.size());
+        t.normals.push_back(turned(a));
+    }
+}
+
+Triangles split_off_outline(Triangles& t, const ExportedObserver& observer) {
+    Triangles outline;
+    std::vector<std::uint32_t> others;
+    for (std::size_t first = 0; first < t.indices.size(); first += 3) {
+        const Vec3 to_eye = to_observer(t.positions[t.indices[first]], observer);
+        const bool is_front = dot(face_normal(t, first), to_eye) >= 0;
+        if (!is_on_outline(t, first, is_front, observer)) {
+            for (std::size_t k = 0; k < 3; ++k) others.push_back(t.indices[first + k]);
+            continue;
+        }
+        for (const std::size_t k :
+             {std::size_t{0}, is_front ? std::size_t{1} : 2, is_front ? std::size_t{2} : 1}) {
+            const std::uint32_t vertex = t.indices[first + k];
+            outline.indices.push_back(static_cast<std::uint32_t>(outline.positions.size()));
+            outline.positions.push_back(t.positions[vertex]);
+            outline.normals.push_back(is_front ? t.normals[vertex] : -t.normals[vertex]);
+        }
+    }
+    t.indices = std::move(others);
+    return outline;
+}
+
+}  // namespace candela::povray_target

@@ -1,0 +1,30 @@
+# Scripts of pages: modules, bundled into one text each, which the sources embed.
+find_program(CANDELA_ESBUILD esbuild)
+if(NOT CANDELA_ESBUILD)
+    message(FATAL_ERROR "there is no esbuild, which bundles the scripts of pages; scripts/setup.sh installs it")
+endif()
+find_path(CANDELA_CODEMIRROR lib/codemirror.js PATHS /usr/share/javascript/codemirror /usr/share/nodejs/codemirror)
+if(NOT CANDELA_CODEMIRROR)
+    message(FATAL_ERROR "there is no CodeMirror 5, in which formulas are edited in pages; scripts/setup.sh installs it")
+endif()
+set(CANDELA_PAGE_SOURCES ${CMAKE_CURRENT_LIST_DIR})
+
+# candela_bundle_scripts(<output> <main.js> <scripts>...): the module, and what it imports. Readable.
+function(candela_bundle_scripts output main)
+    cmake_path(GET main PARENT_PATH folder)
+    cmake_path(GET main FILENAME name)
+    add_custom_command(OUTPUT ${output}
+        COMMAND ${CANDELA_ESBUILD} ${name} --bundle --format=esm --charset=utf8 --legal-comments=inline --log-level=warning
+                --outfile=${output}
+        WORKING_DIRECTORY ${folder} DEPENDS ${ARGN} COMMENT "Bundling a page's scripts" VERBATIM)
+endfunction()
+
+# candela_bundle_codemirror(<output>): the editor with its style, minified, as a script that defines CodeMirror.
+function(candela_bundle_codemirror output)
+    set(entry ${CANDELA_PAGE_SOURCES}/scripts/editor/codemirror_bundle.js)
+    add_custom_command(OUTPUT ${output}
+        COMMAND ${CANDELA_ESBUILD} ${entry} --bundle --minify --format=iife --charset=utf8 --log-level=warning
+                --alias:codemirror=${CANDELA_CODEMIRROR} --loader:.css=text
+                "--banner:js=/* CodeMirror 5, copyright (c) by Marijn Haverbeke and others, MIT license */" --outfile=${output}
+        DEPENDS ${entry} ${CANDELA_CODEMIRROR}/lib/codemirror.js COMMENT "Bundling CodeMirror" VERBATIM)
+endfunction()

@@ -1,0 +1,93 @@
+#include "at_once.h"
+
+#include <sys/select.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <barrier>
+#include <cerrno>
+#include <csignal>
+#include <ctime>
+#include <thread>
+#include <vector>
+
+namespace {
+
+constexpr int k_meetings = 40;
+constexpr long k_work = 100'000, k_pause = 50'000;  // nanoseconds
+
+/// Of this thread; null while it is not to be interrupted.
+thread_local timer_t* volatile timer_of_this_thread = nullptr;
+
+/// Once: a signal that already waits when the thread gets its turn again would stop it before it has done
+/// anything.
+void interrupt_later(timer_t timer) {
+    const itimerspec once{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = k_work}};
+    ::timer_settime(timer, 0, &once, nullptr);
+}
+
+void pause_here(int) {
+    timer_t* const timer = timer_of_this_thread;
+    if (timer == nullptr) return;
+    const int error = errno;
+    const timespec pause{.tv_sec = 0, .tv_nsec = k_pause};
+    ::pselect(0, nullptr, nullptr, nullptr, &pause, nullptr);
+    interrupt_later(*timer);
+    errno = error;
+}
+
+/// While it exists, the thread that made it pauses again and again, wherever it is.
+class Interruptions {
+  public:
+    /// Without timers from the system there are no interruptions.
+    Interruptions() {
+        sigevent event{};
+        event.sigev_notify = SIGEV_THREAD_ID;
+        event.sigev_signo = SIGALRM;
+        event._sigev_un._tid = ::gettid();
+        has_timer_ = ::timer_create(CLOCK_MONOTONIC, &event, &timer_) == 0;
+        if (!has_timer_) return;
+        timer_of_this_thread = &timer_;
+        interrupt_later(timer_);
+    }
+    Interruptions(const Interruptions&) = delete;
+    Interruptions& operator=(const Interruptions&) = delete;
+    ~Interruptions() {
+        timer_of_this_thread = nullptr;
+        if (has_timer_) ::timer_delete(timer_);
+    }
+
+  private:
+    timer_t timer_{};
+    bool has_timer_ = false;
+};
+
+}  // namespace
+
+bool hold_at_once(std::size_t threads, int rounds, std::chrono::steady_clock::time_point latest,
+                  const std::function<bool(std::size_t thread)>& is_as_alone) {
+    struct sigaction action{};
+    action.sa_handler = pause_here;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(SIGALRM, &action, nullptr);
+    std::atomic<bool> all_hold = true;
+    std::atomic<int> calls = 0, meetings = 0;
+    const auto is_enough = [&](int done) {
+        return done >= rounds && (meetings >= k_meetings || std::chrono::steady_clock::now() > latest);
+    };
+    std::barrier all_are_here(static_cast<std::ptrdiff_t>(threads));
+    std::vector<std::thread> running;
+    for (std::size_t thread = 0; thread < threads; ++thread) {
+        running.emplace_back([&, thread] {
+            all_are_here.arrive_and_wait();
+            const Interruptions interruptions;
+            for (int done = 0; !is_enough(done) && all_hold; ++done) {
+                const int before = calls;
+                if (!is_as_alone(thread)) all_hold = false;
+                if (calls++ != before) ++meetings;
+            }
+        });
+    }
+    for (std::thread& thread : running) thread.join();
+    return all_hold;
+}

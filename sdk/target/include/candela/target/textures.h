@@ -1,0 +1,44 @@
+// Textures, as programs keep them and look them up.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "candela/color.h"
+#include "candela/target.h"
+
+namespace candela::target {
+
+/// A texture's picture without the levels that programs make of it, in as few bytes as hold it exactly.
+struct TexturePixels {
+    int width = 0;
+    int height = 0;
+    bool is_encoded = false;  // as colours are, 8 bits a channel; else intensities, 65535 for 1, big-endian
+    std::vector<std::byte> bytes;  // red, green, blue; rows from the top
+};
+
+/// `encoding`: the scene's.
+TexturePixels pixels_of(const ExportedTexture& texture, ColorEncoding encoding);
+
+/// Writes the pictures of the scene's textures, as PPM (P6) of 8 or of 16 bits, for programs with
+/// texture_file_source().
+void write_textures(const ExportedScene& scene, FileSink& files);
+
+/// The name of the file that the scene's texture of that number is written to.
+std::string texture_file(std::size_t number);
+
+/// A texture's own file name without folders, for comments.
+std::string title_of(const ExportedTexture& texture);
+
+/// How textures are looked up, in the kernel language: the exact footprint, bilinear, trilinear. What uses it
+/// declares before it a struct ColorTexture, with a member `repeats`, and color_texture_levels(), _width(),
+/// _height() and _texel().
+std::string_view texture_kernel();
+
+/// A part of a C++17 program that has decoded(): it reads pictures from its source's folder and makes their
+/// levels, texture_levels().
+std::string_view texture_file_source();
+
+}  // namespace candela::target

@@ -1,0 +1,19 @@
+
+#if defined(TEXTURED) && defined(LIT_AT_FRAGMENT)
+#ifndef NEEDS_TRIANGLE
+layout(location = 9) in vec3 p0;
+layout(location = 10) in vec3 p1;
+layout(location = 11) in vec3 p2;
+flat out vec3 at_p0;
+flat out vec3 at_p1;
+flat out vec3 at_p2;
+#endif
+layout(location = 15) in vec4 uv_edges;
+flat out vec4 at_uv_edges;
+void pass_texture() {
+    at_p0 = p0;
+    at_p1 = p1;
+    at_p2 = p2;
+    at_uv_edges = uv_edges;
+}
+#endif

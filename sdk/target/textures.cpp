@@ -1,0 +1,76 @@
+#include "candela/target/textures.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "candela/embed.h"
+#include "candela/target/files.h"
+#include "candela/target/literals.h"
+
+CANDELA_EMBED(candela_target_texture_kernel, CANDELA_TARGET_TEMPLATES "/texture.kernel");
+CANDELA_EMBED(candela_target_texture_file, CANDELA_TARGET_TEMPLATES "/texture_file.h");
+
+namespace candela::target {
+
+namespace {
+
+constexpr int k_not_encoded = -1;
+
+/// For each intensity the byte that is decoded to it.
+std::vector<int> encoded_bytes(ColorEncoding encoding) {
+    std::vector<int> bytes(65536, k_not_encoded);
+    for (int i = 0; i < 256; ++i) {
+        const auto color = static_cast<float>(i);
+        const float intensity = decoded({color, color, color}, encoding).r;
+        bytes[static_cast<std::size_t>(std::lround(65535 * intensity))] = i;
+    }
+    return bytes;
+}
+
+std::string ppm_of(const TexturePixels& pixels) {
+    std::string file =
+        fmt::format("P6\n{} {}\n{}\n", pixels.width, pixels.height, pixels.is_encoded ? 255 : 65535);
+    file.append(reinterpret_cast<const char*>(pixels.bytes.data()), pixels.bytes.size());
+    return file;
+}
+
+}  // namespace
+
+TexturePixels pixels_of(const ExportedTexture& texture, ColorEncoding encoding) {
+    const ExportedTextureLevel& level = texture.levels.front();
+    const std::vector<int> encoded = encoded_bytes(encoding);
+    TexturePixels pixels{.width = level.width, .height = level.height, .is_encoded = true, .bytes = {}};
+    const std::span<const std::uint16_t> texels = level.texels;
+    for (std::size_t i = 0; i < texels.size() && pixels.is_encoded; ++i)
+        pixels.is_encoded = i % 4 == 3 || encoded[texels[i]] != k_not_encoded;
+    pixels.bytes.reserve(texels.size() / 4 * (pixels.is_encoded ? 3 : 6));
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        if (i % 4 == 3) continue;
+        if (!pixels.is_encoded) pixels.bytes.push_back(static_cast<std::byte>(texels[i] >> 8));
+        pixels.bytes.push_back(
+            static_cast<std::byte>(pixels.is_encoded ? encoded[texels[i]] : texels[i] & 255));
+    }
+    return pixels;
+}
+
+void write_textures(const ExportedScene& scene, FileSink& files) {
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const TexturePixels pixels = pixels_of(scene.textures[i], scene.image.color_management);
+        write(files, texture_file(i).c_str(), ppm_of(pixels));
+    }
+}
+
+std::string texture_file(std::size_t number) { return fmt::format("texture_{}.ppm", number); }
+
+std::string title_of(const ExportedTexture& texture) {
+    const std::string_view file = texture.file;
+    return tame(file.substr(file.find_last_of('/') + 1));
+}
+
+std::string_view texture_kernel() { return candela_target_texture_kernel; }
+std::string_view texture_file_source() { return candela_target_texture_file; }
+
+}  // namespace candela::target

@@ -1,0 +1,15 @@
+"""How long programs take."""
+import resource
+import time
+
+
+def processor_seconds():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def seconds(work):
+    """What `work` takes by the clock, and the programs that it waits for by processor time."""
+    begin, begin_processor = time.perf_counter(), processor_seconds()
+    work()
+    return time.perf_counter() - begin, processor_seconds() - begin_processor

@@ -1,0 +1,233 @@
+// candela animate: frames against those that `render` draws one by one, and what is left alone.
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/box_scene.h"
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string scene_text() {
+    return box_scene(33, 21) + R"([animation]
+frames = 6
+fps = 12
+[animation.orbit]
+[[animation.track]]
+path = "light.lamp.intensity"
+keys = [[0.0, 9.0], [0.5, 20.0]]
+)";
+}
+
+CommandSetup in(const fs::path& directory) {
+    return {.input = "", .environment = {}, .directory = directory};
+}
+
+fs::path with_scene() {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "scene.toml", scene_text());
+    return directory;
+}
+
+CommandResult animate(const fs::path& directory, std::vector<std::string> more = {}) {
+    std::vector<std::string> words = {"animate", "scene.toml"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_candela(words, in(directory));
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Says when a file was last written, and by which name of the file system.
+auto stamp(const fs::path& file) { return fs::last_write_time(file); }
+
+/// The names in a folder, sorted.
+std::vector<std::string> names(const fs::path& folder) {
+    std::vector<std::string> result;
+    for (const auto& entry : fs::directory_iterator(folder))
+        result.push_back(entry.path().filename().string());
+    std::ranges::sort(result);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("every frame is the picture that render --frame draws") {
+    const fs::path directory = with_scene();
+    const CommandResult result = animate(directory, {"-o", "frames/%03d.png"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(holds(result.err, "6 frames"));
+    CHECK(names(directory / "frames") == std::vector<std::string>{".candela", "000.png", "001.png", "002.png",
+                                                                  "003.png", "004.png", "005.png"});
+    for (int i = 0; i < 6; ++i) {
+        REQUIRE(run_candela({"render", "scene.toml", "--frame", std::to_string(i), "-o", "one.png"},
+                            in(directory))
+                    .exit_code == 0);
+        CHECK(read_file(directory / "one.png") ==
+              read_file(directory / "frames" / ("00" + std::to_string(i) + ".png")));
+    }
+    CHECK(read_file(directory / "frames/000.png") != read_file(directory / "frames/001.png"));
+}
+
+TEST_CASE("frames that are whole and made from the same inputs are left alone, and others are not") {
+    const fs::path directory = with_scene();
+    REQUIRE(animate(directory, {"--frames", "0..2"}).exit_code == 0);
+    const std::string whole = read_file(directory / "frames/0001.png");
+    // Cut short, lost, and written by somebody else.
+    write_file(directory / "frames/0001.png", whole.substr(0, whole.size() / 2));
+    fs::remove(directory / "frames/0002.png");
+    const auto before = stamp(directory / "frames/0000.png");
+    CommandResult result = animate(directory, {"--frames", "0..2"});
+    CHECK(holds(result.err, "3 frames, 1 of them left as they were"));
+    CHECK(stamp(directory / "frames/0000.png") == before);
+    CHECK(read_file(directory / "frames/0001.png") == whole);
+    CHECK(fs::exists(directory / "frames/0002.png"));
+
+    // The light gets brighter in frames 1 to 5; frame 0 is what it was.
+    std::string scene = scene_text();
+    scene.replace(scene.find("20.0"), 4, "30.0");
+    write_file(directory / "scene.toml", scene);
+    result = animate(directory, {"--frames", "0..2"});
+    CHECK(holds(result.err, "1 of them left as they were"));
+    CHECK(read_file(directory / "frames/0001.png") != whole);
+
+    result = animate(directory, {"--frames", "0..2", "--force"});
+    CHECK_FALSE(holds(result.err, "left as they were"));
+    result = animate(directory, {"--frames", "0..2", "--samples", "4"});
+    CHECK_FALSE(holds(result.err, "left as they were"));
+}
+
+TEST_CASE("a mesh that has changed makes its frames anew") {
+    const fs::path directory = with_scene();
+    const auto tetrahedron = [](const std::string& height) {
+        return "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 " + height + " 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n";
+    };
+    write_file(directory / "t.obj", tetrahedron("1"));
+    write_file(directory / "scene.toml",
+               scene_text() + "[[object]]\ntype = \"mesh\"\nfile = \"t.obj\"\nposition = [1, 1, 0]\n");
+    REQUIRE(animate(directory, {"--frames", "3"}).exit_code == 0);
+    CHECK(holds(animate(directory, {"--frames", "3"}).err, "1 of them left as they were"));
+    write_file(directory / "t.obj", tetrahedron("2"));
+    CHECK_FALSE(holds(animate(directory, {"--frames", "3"}).err, "left as they were"));
+}
+
+TEST_CASE("frames are chosen by --frames and --step") {
+    const fs::path directory = with_scene();
+    REQUIRE(animate(directory, {"-o", "%d.ppm", "--frames", "1..5", "--step", "3"}).exit_code == 0);
+    CHECK(names(directory) == std::vector<std::string>{".candela", "1.ppm", "4.ppm", "scene.toml"});
+}
+
+TEST_CASE("two processes that write the same frames at once are harmless") {
+    const fs::path directory = with_scene();
+    RunningProgram one({CANDELA_TEST_COMMAND, "animate", "scene.toml", "--force"}, in(directory));
+    RunningProgram other({CANDELA_TEST_COMMAND, "animate", "scene.toml", "--force"}, in(directory));
+    CHECK(one.wait().exit_code == 0);
+    CHECK(other.wait().exit_code == 0);
+    CHECK(names(directory / "frames").size() == 7);
+    CHECK(names(directory / "frames/.candela").size() == 6);
+    CHECK(holds(animate(directory).err, "6 of them left as they were"));
+}
+
+TEST_CASE("patterns, ranges and scenes that make no frames are explained") {
+    const fs::path directory = with_scene();
+    write_file(directory / "still.toml", box_scene(33, 21));
+    const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
+        {{"scene.toml", "-o", "frames/a.png"}, "write where their numbers go: frames/a%04d.png"},
+        {{"scene.toml", "-o", "%04d-%d.png"}, "two places for a frame's number"},
+        {{"scene.toml", "-o", "%s.png"}, "'%s' in '%s.png' is no place for a frame's number; write %04d"},
+        {{"scene.toml", "-o", "%4d.png"}, "no place for a frame's number"},
+        {{"scene.toml", "-o", "%04d/a.png"}, "in the name of a folder"},
+        {{"scene.toml", "-o", "%099d.png"}, "99 digits"},
+        {{"scene.toml", "-o", "-"}, "cannot go to standard output"},
+        {{"scene.toml", "-o", "%d.png", "-o", "%d.ppm"}, "-o names frames twice"},
+        {{"scene.toml", "-o", "%d.exr", "-o", "a.gif"}, "a film is made of 8-bit frames"},
+        {{"scene.toml", "-o", "%d.pmg"}, ".pmg"},
+        {{"scene.toml", "--frames", "3..9"}, "there is no frame 9; the animation has the frames 0 to 5"},
+        {{"scene.toml", "--frames", "4..2"}, "4 comes after 2"},
+        {{"scene.toml", "--frames", "all"}, "neither a frame nor a range"},
+        {{"scene.toml", "--frames", "-1"}, "-1"},
+        {{"scene.toml", "--step", "0"}, "--step is 0"},
+        {{"scene.toml", "--force", "--resume"}, "contradict"},
+        {{"still.toml"}, "the scene has no [animation]"},
+        {{}, "needs a scene file"},
+    };
+    for (const auto& [words, part] : mistakes) {
+        std::vector<std::string> all = {"animate"};
+        all.insert(all.end(), words.begin(), words.end());
+        const CommandResult result = run_candela(all, in(directory));
+        INFO(result.err);
+        CHECK(result.exit_code == 2);
+        CHECK(holds(result.err, part));
+    }
+    CHECK(names(directory) == std::vector<std::string>{"scene.toml", "still.toml"});
+    const CommandResult beyond = run_candela({"render", "scene.toml", "--frame", "6"}, in(directory));
+    CHECK(beyond.exit_code == 2);
+    CHECK(holds(beyond.err, "there is no frame 6"));
+}
+
+TEST_CASE("a mistake in a late frame is found before the first is rendered") {
+    const fs::path directory = with_scene();
+    write_file(directory / "scene.toml", scene_text() +
+                                             "[[animation.track]]\npath = \"object.box.position\"\nkeys = "
+                                             "[[0, [0, 0, 0]], [0.4, [5, 0, 0]]]\n");
+    for (const char* const verb : {"animate", "check"}) {
+        const CommandResult result = run_candela({verb, "scene.toml"}, in(directory));
+        CHECK(result.exit_code == 3);
+        CHECK(holds(result.err, "scene.toml:29:"));
+        CHECK(holds(result.err, "in frame 5, by the track of 'object.box.position'"));
+    }
+    CHECK_FALSE(fs::exists(directory / "frames"));
+    // The frames before it are as good as ever.
+    CHECK(animate(directory, {"--frames", "0..3"}).exit_code == 0);
+}
+
+TEST_CASE("check sums up the animation") {
+    const fs::path directory = with_scene();
+    const CommandResult text = run_candela({"check", "scene.toml"}, in(directory));
+    CHECK(holds(text.out,
+                "film      6 frames, 12 per second, 0.5 s (the observer's orbit, light.lamp.intensity)"));
+    const CommandResult json = run_candela({"check", "scene.toml", "--json"}, in(directory));
+    CHECK(holds(json.out, "\"frames\": 6"));
+}
+
+TEST_CASE("films are made by ffmpeg, of all frames, and nothing else is left") {
+    const fs::path directory = with_scene();
+    const CommandResult result = animate(directory, {"-o", "film.mp4", "-o", "out/film.gif"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(names(directory) == std::vector<std::string>{"film.mp4", "out", "scene.toml"});
+    CHECK(names(directory / "out") == std::vector<std::string>{"film.gif"});
+    CHECK(read_file(directory / "film.mp4").substr(4, 4) == "ftyp");
+    CHECK(read_file(directory / "out/film.gif").starts_with("GIF89a"));
+    const CommandResult probe =
+        run_program({"ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                     "stream=width,height,nb_read_frames,r_frame_rate", "-of", "csv=p=0", "film.mp4"},
+                    in(directory));
+    CHECK(probe.out == "34,22,12/1,6\n");
+}
+
+TEST_CASE("a film without ffmpeg is an error that names it, before anything is rendered") {
+    const fs::path directory = with_scene();
+    const CommandResult result = run_candela(
+        {"animate", "scene.toml", "-o", "film.mp4"},
+        {.input = "", .environment = {{"PATH", (directory / "nothing").string()}}, .directory = directory});
+    CHECK(result.exit_code == 1);
+    CHECK(holds(result.err, "apt install ffmpeg"));
+    CHECK(names(directory) == std::vector<std::string>{"scene.toml"});
+}
+
+TEST_CASE("new --animation writes a film that is valid in all frames") {
+    const fs::path directory = scratch_directory();
+    const CommandResult result = run_candela({"new", "--animation"}, in(directory));
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.err, "candela animate scene.toml"));
+    const CommandResult check = run_candela({"check", "scene.toml"}, in(directory));
+    CHECK(check.exit_code == 0);
+    CHECK(check.err.empty());
+    CHECK(holds(check.out, "96 frames"));
+}

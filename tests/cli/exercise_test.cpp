@@ -1,0 +1,337 @@
+// candela exercise: answers by RE's equations match, RE's own mistakes are found in the term that they are
+// in, and what is hostile is refused.
+#include <algorithm>
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+using Catch::Approx;
+using nlohmann::json;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Phong's model as RE and SPEC §4 write it: R = 2 N (N.L) - L, I_d = kd C_o max(N.L, 0), I_s = ks max(R.V,
+/// 0)^n.
+constexpr const char* k_phong =
+    "vec3 N = s.normal;\n"
+    "vec3 R = 2.0 * N * dot(N, to_light) - to_light;\n"
+    "float lit = dot(N, to_light) > 0.0 ? 1.0 : 0.0;\n"
+    "float highlight = dot(R, s.to_observer) > 0.0 ? pow(dot(R, s.to_observer), m.shininess) : 0.0;\n"
+    "if (m.shininess == 0.0) highlight = 1.0;\n"
+    "return Reflected(m.kd * s.color * max(dot(N, to_light), 0.0), m.ks * lit * highlight);";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+json lines_of(const std::string& text) {
+    json lines = json::array();
+    for (std::size_t begin = 0;;) {
+        const std::size_t end = text.find('\n', begin);
+        lines.push_back(text.substr(begin, end - begin));
+        if (end == std::string::npos) return lines;
+        begin = end + 1;
+    }
+}
+
+fs::path answer(const fs::path& file, const std::string& body, const std::string& model = "reflection/phong",
+                const std::string& function = "phong_reflect") {
+    const json content = {
+        {"candela_exercise", 1}, {"model", model}, {"function", function}, {"answer", lines_of(body)}};
+    return write_file(file, content.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+struct Graded {
+    int exit_code;
+    json grades;
+};
+
+Graded graded(std::vector<std::string> words) {
+    words.insert(words.begin(), {"exercise", "grade"});
+    words.emplace_back("--json");
+    const CommandResult result = run_candela(words);
+    INFO(result.err);
+    INFO(result.out);
+    const json grades = json::parse(result.out, nullptr, false);
+    REQUIRE(grades.is_array());
+    return {result.exit_code, grades};
+}
+
+json grade_of(const std::string& body, const std::string& model = "reflection/phong",
+              const std::string& function = "phong_reflect") {
+    return graded({answer(scratch_directory() / "one.answer", body, model, function).string()}).grades.at(0);
+}
+
+double share_of(const json& grade, const std::string& name) {
+    for (const json& term : grade["terms"])
+        if (term["term"] == name) return term["share"];
+    FAIL("there is no term " << name);
+    return 0;
+}
+
+json term_of(const json& grade, const std::string& name) {
+    for (const json& term : grade["terms"])
+        if (term["term"] == name) return term;
+    FAIL("there is no term " << name);
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("exercise: Phong's equations as RE writes them give what the model gives") {
+    const Graded result = graded({answer(scratch_directory() / "one.answer", k_phong).string()});
+    CHECK(result.exit_code == 0);
+    CHECK(result.grades.at(0)["result"] == "matches");
+    CHECK(result.grades.at(0)["model"] == "reflection/phong");
+}
+
+TEST_CASE("exercise: RE's mistake, an even power of a negative R.V, is found in the highlight alone") {
+    // RE's third worked example: R.V = -0.5514, and 10 is even, so that there would be a highlight of 0.0026.
+    const std::string mistaken =
+        replaced(k_phong, "dot(R, s.to_observer) > 0.0 ? pow(dot(R, s.to_observer), m.shininess) : 0.0",
+                 "pow(abs(dot(R, s.to_observer)), m.shininess)");
+    const json grade = grade_of(mistaken);
+    CHECK(grade["result"] == "differs");
+    const json specular = term_of(grade, "specular");
+    CHECK(specular["share"].get<double>() > 0);
+    CHECK(specular["expected"].get<double>() == 0);
+    CHECK(specular["actual"].get<double>() > 0);
+    CHECK(share_of(grade, "diffuse") == 0);
+    CHECK(share_of(grade, "ambient") == 0);
+}
+
+TEST_CASE("exercise: half of the diffuse light is half of it off, wherever there is any") {
+    const json grade = grade_of(replaced(k_phong, "m.kd * s.color", "0.5 * m.kd * s.color"));
+    CHECK(grade["result"] == "differs");
+    const json diffuse = term_of(grade, "diffuse");
+    CHECK(diffuse["largest"].get<double>() == Approx(0.5).epsilon(1e-5));
+    CHECK(diffuse["actual"].get<double>() == Approx(0.5 * diffuse["expected"].get<double>()).epsilon(1e-5));
+    // Half of all directions to the light are above the surface; where kd is 0 there is nothing to differ.
+    CHECK(diffuse["share"].get<double>() < 0.55);
+    CHECK(diffuse["share"].get<double>() > 0.35);
+    CHECK(share_of(grade, "specular") == 0);
+}
+
+TEST_CASE("exercise: ambient light is a function, and a term, of its own") {
+    CHECK(grade_of("return m.ka * s.color;", "reflection/phong", "phong_reflect_ambient")["result"] ==
+          "matches");
+    const json grade = grade_of("return s.color;", "phong", "reflect_ambient");
+    CHECK(grade["result"] == "differs");
+    CHECK(share_of(grade, "ambient") > 0.5);
+    CHECK(share_of(grade, "diffuse") == 0);
+}
+
+TEST_CASE(
+    "exercise: a folder is graded file by file, as a table, and nothing that is wrong in one disturbs the "
+    "others") {
+    const fs::path folder = scratch_directory();
+    answer(folder / "a.answer", k_phong);
+    answer(folder / "b.answer", replaced(k_phong, "2.0 * N", "N"));
+    answer(folder / "c.answer", replaced(k_phong, "vec3 N = s.normal;", "vec3 N = s.normal"));
+    write_file(folder / "d.answer", "not JSON");
+    write_file(folder / "notes.txt", "not an answer, and not asked for");
+    const CommandResult result = run_candela({"exercise", "grade", folder.string()});
+    INFO(result.out);
+    INFO(result.err);
+    CHECK(result.exit_code == 4);
+    CHECK(holds(result.out, "a.answer  reflection/phong phong_reflect  matches\n"));
+    CHECK(holds(result.out, "b.answer  reflection/phong phong_reflect  differs\n"));
+    CHECK(holds(result.out, "specular: "));
+    // What is missing at the end of line 1 is missed by the compiler there.
+    CHECK(holds(result.out, "does not compile: line 1: "));
+    CHECK(holds(result.out, "it is no JSON object"));
+    CHECK(!holds(result.out, "notes.txt"));
+}
+
+TEST_CASE("exercise: what is not in the kernel language is refused before it is compiled, at its line") {
+    struct Hostile {
+        const char* text;
+        const char* message;
+    };
+    const fs::path folder = scratch_directory();
+    const std::vector<Hostile> texts = {
+        {"#include \"/etc/passwd\"", "no preprocessor"},
+        {"%:include </etc/passwd>", "no preprocessor"},
+        {"_Pragma(\"GCC poison pow\")", "no texts"},
+        {"__asm__(\"syscall\");", "no texts"},
+        {"asm volatile(1);", "no 'asm'"},
+        {"__builtin_trap();", "reserved name"},
+        {"[[gnu::noreturn]] int x = 0;", "neither arrays nor attributes"},
+        {"<: :> int x = 0;", "neither arrays nor attributes"},
+        {"float a[1000000000];", "neither arrays nor attributes"},
+        {"auto f = 1;", "no 'auto'"},
+        {"template <int n> int f();", "no 'template'"},
+        {"struct A {};", "no 'struct'"},
+        {"static int x = 0;", "no 'static'"},
+        {"extern int x;", "no 'extern'"},
+        {"int* p = &n; *p = 1;", "neither pointers nor references"},
+        {"int n = 0; *(int*)8 = n;", "neither pointers nor references"},
+        {"std::exit(0);", "no '::'"},
+        {"::exit(0);", "no '::'"},
+        {"throw 1;", "no 'throw'"},
+        {"goto x;", "no 'goto'"},
+        {"int x = sizeof(int);", "no 'sizeof'"},
+        {"}\nvoid f() {", "closes nothing"},
+        {"{", "not closed"},
+        {"\\", "no '\\'"},
+        {"int x = 'a';", "no texts"},
+        {"int x = 0x7f;", "no number"},
+        {"// a comment that goes on \\\n#include <x>", "no preprocessor"},
+        {"float \xd0\xb0 = 1.0;", "kernel language has no"},
+    };
+    for (std::size_t i = 0; i < texts.size(); ++i)
+        answer(folder / (std::to_string(100 + i) + ".answer"), std::string(texts[i].text) + "\n" + k_phong);
+    answer(folder / "deep.answer", "float x = " + std::string(5000, '(') + "1.0" + std::string(5000, ')') +
+                                       ";\nreturn Reflected(s.color, s.color);");
+    answer(folder / "long.answer", std::string(50000, ' ') + k_phong);
+    answer(folder / "nothing.answer", "");
+    const Graded result = graded({folder.string()});
+    CHECK(result.exit_code == 4);
+    REQUIRE(result.grades.size() == texts.size() + 3);
+    for (std::size_t i = 0; i < result.grades.size(); ++i) {
+        const json& grade = result.grades[i];
+        INFO(grade.dump(-1, ' ', false, json::error_handler_t::replace));
+        CHECK(grade["result"] == "does-not-compile");
+        if (i < texts.size()) CHECK(holds(grade["message"], texts[i].message));
+        CHECK(grade["line"].is_number());
+    }
+}
+
+TEST_CASE(
+    "exercise: an answer that does not end is said to hang, and one that calls itself does not compile") {
+    const fs::path folder = scratch_directory();
+    answer(folder / "hangs.answer",
+           "float x = 1.0;\nwhile (x > 0.0) { x = x * 0.5 + 1.0; }\nreturn Reflected(s.color * x, s.color);");
+    answer(folder / "nothing-but-a-loop.answer", "while (true) { }\nreturn Reflected(s.color, s.color);");
+    answer(folder / "recursion.answer", "return phong_reflect(m, s, to_light);");
+    const json grades = graded({folder.string()}).grades;
+    CHECK(grades.at(0)["result"] == "hangs");
+    CHECK(grades.at(1)["result"] == "hangs");
+    CHECK(grades.at(2)["result"] != "matches");
+}
+
+TEST_CASE("exercise: files that are no answers say why, and do not stand in the way of those that are") {
+    const fs::path folder = scratch_directory();
+    answer(folder / "a.answer", k_phong);
+    answer(folder / "b.answer", k_phong, "reflection/phnog");
+    answer(folder / "c.answer", k_phong, "reflection/phong", "phong_reflekt");
+    answer(folder / "d.answer", k_phong, "target/cpp");
+    answer(folder / "e.answer", k_phong, "reflection/../../../etc/passwd");
+    write_file(folder / "f.answer", R"({"candela_exercise": 2})");
+    write_file(folder / "g.answer",
+               R"({"candela_exercise": 1, "model": "phong", "function": "reflect", "answer": ["a\nb"]})");
+    write_file(folder / "h.answer", std::string(200000, '['));
+    const json grades = graded({folder.string()}).grades;
+    REQUIRE(grades.size() == 8);
+    CHECK(grades[0]["result"] == "matches");
+    const std::vector<const char*> messages = {
+        "",       "did you mean 'phong'", "did you mean 'phong_reflect'", "is no reflection model",
+        "passwd", "'candela_exercise'",   "not a line of text",           "larger than"};
+    for (std::size_t i = 1; i < grades.size(); ++i) {
+        INFO(grades[i].dump());
+        CHECK(grades[i]["result"] == "no-answer");
+        CHECK(holds(grades[i]["message"], messages[i]));
+    }
+}
+
+#if defined(__x86_64__)
+TEST_CASE("exercise: where the language does not stop it, a system call ends the process that computes") {
+    // Past the language check, which candela exercise grade makes: straight to the conformance kit.
+    const fs::path command = CANDELA_TEST_COMMAND, root = command.parent_path().parent_path();
+    const std::string kernel =
+        "struct PhongMaterial { vec3 ka; vec3 kd; vec3 ks; float shininess; };\n"
+        "KERNEL vec3 phong_reflect_ambient(PhongMaterial m, Surface s) { return m.ka * s.color; }\n"
+        "KERNEL Reflected phong_reflect(PhongMaterial m, Surface s, vec3 to_light) { STATEMENT return "
+        "Reflected(s.color, s.color); }\n";
+    struct Statement {
+        const char* text;
+        const char* found;
+    };
+    for (const Statement& statement : {
+             Statement{"long r = 57; asm volatile(\"syscall\" : \"+a\"(r) : : \"rcx\", \"r11\", \"memory\");",
+                       "SYS"},  // fork
+             Statement{"long r = 41; asm volatile(\"syscall\" : \"+a\"(r) : : \"rcx\", \"r11\", \"memory\");",
+                       "SYS"},  // socket
+             Statement{"long r = 2; asm volatile(\"syscall\" : \"+a\"(r) : : \"rcx\", \"r11\", \"memory\");",
+                       "SYS"},  // open
+             Statement{"*(volatile int*)8 = 1;", "SEGV"},
+         }) {
+        const fs::path file =
+            write_file(scratch_directory() / "answer.kernel", replaced(kernel, "STATEMENT", statement.text));
+        const CommandResult result = run_program({(root / "lib/candela/candela-conformance").string(),
+                                                  (root / "lib/candela/plugins/reflection-phong.so").string(),
+                                                  "--answer", file.string(), "--json"});
+        INFO(result.out);
+        CHECK(holds(result.out, std::string("{\\\"signal\\\":\\\"") + statement.found));
+    }
+}
+#endif
+
+TEST_CASE("exercise: the page holds numbers of the model, and not the formula") {
+    const fs::path page = scratch_directory() / "phong.html";
+    const CommandResult result =
+        run_candela({"exercise", "new", "reflection/phong", "--blank", "reflect", "-o", page.string()});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const std::string text = read_file(page);
+    // Of phong.kernel, and of what candela describe says.
+    for (const char* const part :
+         {"n_dot_l * s.normal", "clamped_power(dot", "R = 2 N", "max(R.V", "kd C_o I_L", "m.ks *"})
+        CHECK(!holds(text, part));
+    // What is not blank is there.
+    CHECK(holds(text, "return m.ka * s.color;"));
+    CHECK(holds(text, "\"function\":\"phong_reflect\""));
+    CHECK(!holds(text, "http://127"));
+    CHECK(!holds(text, " src="));
+}
+
+TEST_CASE("exercise: there is one about every model whose kernel reads no table") {
+    const fs::path folder = scratch_directory();
+    for (const char* const model :
+         {"lambert", "half-lambert", "oren-nayar", "minnaert", "phong", "blinn-phong", "cook-torrance", "ggx",
+          "ward", "ashikhmin-shirley", "toon", "gooch"}) {
+        const CommandResult result = run_candela({"exercise", "new", model, "--blank", "reflect"},
+                                                 {.input = {}, .environment = {}, .directory = folder});
+        INFO(model << ": " << result.err);
+        CHECK(result.exit_code == 0);
+        CHECK(fs::exists(folder / (std::string(model) + "-reflect.html")));
+    }
+}
+
+TEST_CASE("exercise: what there is no exercise about is said, with what there is") {
+    struct Wrong {
+        std::vector<std::string> words;
+        const char* message;
+    };
+    for (const Wrong& wrong : {
+             Wrong{{"new"}, "needs a model"},
+             Wrong{{"new", "phong"}, "--blank is missing"},
+             Wrong{{"new", "phong", "--blank", "reflcet"}, "did you mean 'reflect'"},
+             Wrong{{"new", "light/point", "--blank", "illuminate"}, "no reflection model"},
+             Wrong{{"grade"}, "needs answers"},
+             Wrong{{"grade", ".", "--time-limit", "0"}, "has to be above 0"},
+             Wrong{{"grad"}, "did you mean 'grade'"},
+         }) {
+        std::vector<std::string> words = wrong.words;
+        words.insert(words.begin(), "exercise");
+        const fs::path folder = scratch_directory();
+        const CommandResult result =
+            run_candela(words, {.input = {}, .environment = {}, .directory = folder});
+        INFO(result.err);
+        CHECK(result.exit_code == 2);
+        CHECK(holds(result.err, wrong.message));
+        CHECK(fs::is_empty(folder));
+    }
+    CHECK(run_candela({"exercise", "grade", "/nonexistent"}).exit_code == 1);
+    CHECK(run_candela({"exercise", "new", "phnog", "--blank", "reflect"}).exit_code == 1);
+}

@@ -1,0 +1,414 @@
+// Models in place of scenes, and the scenes that candela import makes of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+CommandResult candela(const fs::path& folder, const std::vector<std::string>& words) {
+    return run_candela(words, {.input = "", .environment = {}, .directory = folder});
+}
+
+/// Two squares side by side that face +z, each two metres wide: at x = -1 with the material "left", at x = 1
+/// with "right side".
+constexpr const char* k_squares =
+    "mtllib two.mtl\nv -2 -1 0\nv 0 -1 0\nv 0 1 0\nv -2 1 0\nv 2 -1 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 "
+    "1\n"
+    "vn 0 0 1\nusemtl left\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl right side\nf 2/1/1 5/2/1 6/3/1 3/4/1\n";
+constexpr const char* k_two_materials =
+    "newmtl left\nKa 0.1 0.2 0.3\nKd 0.8 0.4 0.2\nKs 0.2 0.2 0.2\nNs 25\nillum 2\n"
+    "newmtl right side\nKd 0.1 0.6 0.1\nillum 1\nd 0.5\n";
+
+std::string grey_ppm(std::uint8_t value) {
+    return std::string("P6\n1 1\n255\n") + std::string(3, static_cast<char>(value));
+}
+
+struct Pixels {
+    int width = 0, height = 0;
+    std::string bytes;
+
+    std::array<int, 3> at(int x, int y) const {
+        const std::size_t i =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        return {static_cast<unsigned char>(bytes[i]), static_cast<unsigned char>(bytes[i + 1]),
+                static_cast<unsigned char>(bytes[i + 2])};
+    }
+    /// The share of pixels that differ from the first, the background.
+    double covered() const {
+        int count = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) count += at(x, y) != at(0, 0);
+        return static_cast<double>(count) / (width * height);
+    }
+};
+
+Pixels read_ppm(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    Pixels pixels;
+    std::string magic;
+    int most = 0;
+    in >> magic >> pixels.width >> pixels.height >> most;
+    in.get();
+    pixels.bytes.resize(3 * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+    in.read(pixels.bytes.data(), static_cast<std::streamsize>(pixels.bytes.size()));
+    return pixels;
+}
+
+std::string base64(const std::string& bytes) {
+    constexpr const char* k_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t word = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k > bytes.size() ? '=' : k_digits[word >> (18 - 6 * k) & 63];
+    }
+    return text;
+}
+
+/// A glTF file of one triangle in z = 0, with what else it has.
+std::string gltf(const std::string& node_and_more, const std::string& primitive = "") {
+    const std::array<float, 9> position = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+    const std::array<float, 6> uv = {0, 1, 1, 1, 0.5f, 0};
+    std::string bytes(sizeof position + sizeof uv, '\0');
+    std::memcpy(bytes.data(), position.data(), sizeof position);
+    std::memcpy(bytes.data() + sizeof position, uv.data(), sizeof uv);
+    return fmt::format(
+        R"({{"asset": {{"version": "2.0"}}, "scenes": [{{"nodes": [0, 1, 2]}}], "scene": 0,
+"buffers": [{{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}}],
+"bufferViews": [{{"buffer": 0, "byteOffset": 0, "byteLength": 36}}, {{"buffer": 0, "byteOffset": 36, "byteLength": 24}}],
+"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}},
+              {{"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}}],
+"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}{}}}]}}],
+{}}})",
+        bytes.size(), base64(bytes), primitive, node_and_more);
+}
+
+constexpr const char* k_plain_nodes = R"("nodes": [{"mesh": 0}, {}, {}])";
+
+}  // namespace
+
+TEST_CASE("a model in place of a scene is framed: it is seen whole, lit, and in the middle") {
+    const fs::path folder = scratch_directory();
+    // A cube of 200 metres, 1000 metres away from the origin.
+    std::string text;
+    for (int i = 0; i < 8; ++i)
+        text +=
+            fmt::format("v {} {} {}\n", 900 + 200 * (i & 1), 900 + 200 * (i >> 1 & 1), 900 + 200 * (i >> 2));
+    text += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    write_file(folder / "cube.obj", text);
+    const CommandResult result = candela(folder, {"render", "cube.obj", "-o", "cube.ppm"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK_FALSE(holds(result.err, "warning"));
+    const Pixels picture = read_ppm(folder / "cube.ppm");
+    CHECK(picture.covered() > 0.2);
+    CHECK(picture.at(picture.width / 2, picture.height / 2)[1] > 60);
+    for (int x = 0; x < picture.width; ++x) {
+        REQUIRE(picture.at(x, 0) == picture.at(0, 0));
+        REQUIRE(picture.at(x, picture.height - 1) == picture.at(0, 0));
+    }
+    for (int y = 0; y < picture.height; ++y) {
+        REQUIRE(picture.at(0, y) == picture.at(0, 0));
+        REQUIRE(picture.at(picture.width - 1, y) == picture.at(0, 0));
+    }
+}
+
+TEST_CASE("import writes the scene that render shows: both make the same picture") {
+    const fs::path folder = scratch_directory();
+    fs::create_directory(folder / "models");
+    write_file(folder / "models" / "two.obj", k_squares);
+    write_file(folder / "models" / "two.mtl", std::string(k_two_materials) + "map_Kd grey.ppm\n");
+    write_file(folder / "models" / "grey.ppm", grey_ppm(120));
+    REQUIRE(candela(folder, {"render", "models/two.obj", "-o", "a.ppm"}).exit_code == 0);
+    const CommandResult import = candela(folder, {"import", "models/two.obj", "-o", "models/scene.toml"});
+    INFO(import.err);
+    REQUIRE(import.exit_code == 0);
+    CHECK(holds(import.err, "2 objects, 3 lights, 1 texture"));
+    // The scene can be moved together with the model.
+    fs::rename(folder / "models", folder / "moved");
+    const CommandResult render = candela(folder, {"render", "moved/scene.toml", "-o", "b.ppm"});
+    INFO(render.err);
+    REQUIRE(render.exit_code == 0);
+    CHECK_FALSE(holds(render.err, "warning"));
+    CHECK(read_file(folder / "a.ppm") == read_file(folder / "b.ppm"));
+}
+
+TEST_CASE("import takes over what an MTL file says in Phong's words, and says what it leaves out, once") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "two.obj", k_squares);
+    write_file(folder / "two.mtl", k_two_materials);
+    const CommandResult result = candela(folder, {"import", "two.obj", "-o", "-"});
+    REQUIRE(result.exit_code == 0);
+    CHECK(holds(result.out, "name                = \"left\"\n"));
+    CHECK(holds(result.out, "part                = \"right side\"\n"));
+    CHECK(holds(result.out,
+                "[object.material]\nka        = [0.1, 0.2, 0.3]\nkd        = [0.8, 0.4, 0.2]\n"
+                "ks        = 0.2\nshininess = 25.0\n"));
+    // Without highlights: illumination model 1.
+    CHECK(holds(result.out, "kd        = [0.1, 0.6, 0.1]\nks        = 0.0\n"));
+    CHECK(result.err == "candela: warning: the opacity of materials is left out: they are opaque\n");
+    CHECK(holds(result.out, "# Note: the opacity of materials is left out"));
+    SECTION("each part has its own colour in the picture") {
+        REQUIRE(candela(folder, {"render", "two.obj", "-o", "a.ppm"}).exit_code == 0);
+        const Pixels picture = read_ppm(folder / "a.ppm");
+        const auto left = picture.at(picture.width / 3, picture.height / 2);
+        const auto right = picture.at(picture.width * 2 / 3, picture.height / 2);
+        CHECK(left[0] > left[1]);
+        CHECK(right[1] > right[0]);
+    }
+}
+
+TEST_CASE("import says which libraries, materials and textures are not there, and goes on") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "two.obj", k_squares);
+    CommandResult result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.err, "no material library describes the material 'left'"));
+    write_file(folder / "two.mtl",
+               "newmtl left\nmap_Kd -s 2 2 2 -clamp on no such.png\nnewmtl right side\nmap_Kd a.xyz\n");
+    write_file(folder / "a.xyz", "what?");
+    result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.err, "there is no texture 'no such.png', which material 'left' names"));
+    CHECK(holds(result.err,
+                "the texture 'a.xyz' of material 'right side' is of a format that no image plugin reads"));
+    CHECK(holds(result.err, "the offset and scale of textures are left out"));
+}
+
+TEST_CASE("materials whose names are not UTF-8 are told apart by their numbers") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl never\nusemtl \xe9\nf 1 2 3\nusemtl b\nf 1 3 2\n");
+    const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.out, "part                = \"#1\"\n"));
+    CHECK(holds(result.out, "part                = \"b\"\n"));
+    CHECK(candela(folder, {"render", "a.obj", "-o", "a.ppm"}).exit_code == 0);
+}
+
+TEST_CASE("what an OBJ file names outside its folder is not opened") {
+    const fs::path folder = scratch_directory();
+    fs::create_directory(folder / "model");
+    write_file(folder / "secret.mtl", "newmtl left\nKd 1 0 0\n");
+    write_file(folder / "secret.ppm", grey_ppm(7));
+    write_file(folder / "model" / "two.obj",
+               "mtllib ../secret.mtl\nmtllib two.mtl\n" + std::string(k_squares));
+    write_file(folder / "model" / "two.mtl", "newmtl left\nmap_Kd ../secret.ppm\nnewmtl right side\n");
+    const CommandResult result = candela(folder, {"import", "model/two.obj", "-o", "-"});
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.err, "secret.mtl' is outside the model's folder"));
+    CHECK(holds(result.err, "the texture '../secret.ppm' of material 'left' is outside the model's folder"));
+    CHECK_FALSE(holds(result.out, "color_texture"));
+}
+
+TEST_CASE("an MTL file that is none, or hostile, leaves the model as it is") {
+    for (const std::string& library :
+         {std::string("\0\1\2\xff\xfe newmtl", 12),
+          std::string("newmtl\nKd\nKd x y z\nKd 1e999 nan -3\nNs -5\nillum 99\n"),
+          std::string("Kd 1 1 1\nmap_Kd\n"),
+          "newmtl left\nmap_Kd -s -o -t\nKd spectral a.rfl\n" + std::string(100000, '-'),
+          "newmtl left\nmap_Kd /dev/zero\nKd 5 5 5\n" + std::string(50000, '\n')}) {
+        const fs::path folder = scratch_directory();
+        write_file(folder / "two.obj", k_squares);
+        write_file(folder / "two.mtl", library);
+        const CommandResult result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
+        INFO(library.substr(0, 60) << '\n' << result.err);
+        CHECK(result.exit_code == 0);
+    }
+}
+
+TEST_CASE("import takes over a glTF file's camera, lights and metallic-roughness materials") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.gltf", gltf(R"("nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0.5, 4]},
+  {"translation": [0, 2, 3], "rotation": [-0.7071068, 0, 0, 0.7071068], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+"cameras": [{"type": "perspective", "perspective": {"yfov": 0.5235988, "aspectRatio": 2, "znear": 0.1}}],
+"extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "name": "beam", "intensity": 31.4159265, "color": [1, 0.2158605, 0],
+  "spot": {"innerConeAngle": 0.1745329, "outerConeAngle": 0.5235988}}]}},
+"materials": [{"name": "gold", "normalTexture": {"index": 0}, "pbrMetallicRoughness":
+  {"baseColorFactor": [1, 0.5, 0.25, 1], "metallicFactor": 1, "roughnessFactor": 0.5}}])",
+                                       R"(, "material": 0)"));
+    const CommandResult result = candela(folder, {"import", "a.gltf", "-o", "-"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    INFO(result.out);
+    CHECK(holds(result.out, "position = [0.0, 0.5, 4.0]\nlook_at  = [0.0, 0.5, 0.0]\nfov      = 30.0\n"));
+    CHECK(holds(result.out, "width      = 1200\nheight     = 600\n"));
+    // 10 pi candela; a node turned by -90 degrees about x shines along -y. 0.2158605 is 128 in sRGB.
+    CHECK(holds(result.out,
+                "name        = \"beam\"\ntype        = \"spot\"\ncolor       = [255, 128, 0]\n"
+                "intensity   = 10.0\nposition    = [0.0, 2.0, 3.0]\ndirection   = [0.0, -1.0, 0.0]\n"
+                "inner_angle = 10.0\nouter_angle = 30.0\n"));
+    // A metal: no diffuse light, and highlights of its colour; alpha is the square of the roughness.
+    CHECK(holds(result.out,
+                "kd        = 0.0\nks        = [1.0, 0.5, 0.25]\nroughness = 0.25\nior       = 100.0\n"));
+    CHECK(holds(result.err, "normal maps are left out"));
+    CHECK(candela(folder, {"render", "a.gltf", "-o", "a.ppm"}).exit_code == 0);
+}
+
+TEST_CASE("a texture inside a glTF file is written beside the scene, and shown by render without") {
+    const fs::path folder = scratch_directory();
+    write_file(
+        folder / "grey.toml",
+        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 2\nheight = 2\n"
+        "background = [10, 200, 30]\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n");
+    REQUIRE(candela(folder, {"render", "grey.toml", "-o", "green.png"}).exit_code == 0);
+    write_file(folder / "a.gltf",
+               gltf(fmt::format(R"({}, "images": [{{"name": "leaf", "uri": "data:image/png;base64,{}"}}],
+"textures": [{{"source": 0, "sampler": 0}}], "samplers": [{{"wrapS": 33071, "wrapT": 33071}}],
+"materials": [{{"pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0}}, "metallicFactor": 0}}}}])",
+                                k_plain_nodes, base64(read_file(folder / "green.png"))),
+                    R"(, "material": 0)"));
+    const CommandResult import = candela(folder, {"import", "a.gltf"});
+    INFO(import.err);
+    REQUIRE(import.exit_code == 0);
+    CHECK(read_file(folder / "a_textures" / "leaf_0.png") == read_file(folder / "green.png"));
+    CHECK(holds(read_file(folder / "a.toml"),
+                "color_texture       = \"a_textures/leaf_0.png\"\ncolor_texture_wrap  = \"clamp\"\n"));
+    REQUIRE(candela(folder, {"render", "a.toml", "-o", "b.ppm"}).exit_code == 0);
+    REQUIRE(candela(folder, {"render", "a.gltf", "-o", "a.ppm"}).exit_code == 0);
+    CHECK(read_file(folder / "a.ppm") == read_file(folder / "b.ppm"));
+    const Pixels picture = read_ppm(folder / "a.ppm");
+    const auto middle = picture.at(picture.width / 2, picture.height / 2);
+    CHECK(middle[1] > 2 * middle[0]);
+    CHECK(middle[1] > 2 * middle[2]);
+    CHECK(candela(folder, {"import", "a.gltf"}).exit_code == 1);  // it is there already
+    CHECK(candela(folder, {"import", "a.gltf", "--force"}).exit_code == 0);
+}
+
+TEST_CASE("textures of a glTF file that are broken, elsewhere or endless are left out with a reason") {
+    const fs::path folder = scratch_directory();
+    struct Case {
+        const char* image;
+        const char* reason;
+    };
+    for (const Case& wrong :
+         {Case{R"({"uri": "no.png"})", "there is no file 'no.png'"},
+          Case{R"({"uri": "../../../../../../etc/passwd"})", "is outside the model's folder"},
+          Case{R"({"uri": "data:image/png;base64,!!!!"})", "is not in base64"},
+          Case{R"({"uri": "data:image/png,abc"})", "is not in base64"},
+          Case{R"({"uri": "data:image/png;base64,AAAA"})", "it is no picture"},
+          Case{R"({"bufferView": 7})", "there is no view 7"},
+          Case{R"({"bufferView": 2})", "its bytes are not in the file"},
+          Case{R"({})", "it has neither a name nor bytes"}}) {
+        std::string text = gltf(fmt::format(R"({}, "images": [{}], "textures": [{{"source": 0}}],
+"materials": [{{"name": "m", "pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0}}}}}}])",
+                                            k_plain_nodes, wrong.image),
+                                R"(, "material": 0)");
+        const std::string view = R"({"buffer": 0, "byteOffset": 36, "byteLength": 24})";
+        text.replace(text.find(view), view.size(),
+                     view + R"(, {"buffer": 0, "byteOffset": 50, "byteLength": 4000000000})");
+        write_file(folder / "a.gltf", text);
+        const CommandResult result = candela(folder, {"render", "a.gltf", "-o", "a.ppm"});
+        INFO(wrong.image << '\n' << result.err);
+        CHECK(result.exit_code == 0);
+        CHECK(holds(result.err, "the texture of material 'm' is left out: "));
+        CHECK(holds(result.err, wrong.reason));
+    }
+}
+
+TEST_CASE("values of the wrong type in a glTF file are defaults, and nodes in a circle are refused") {
+    const fs::path folder = scratch_directory();
+    write_file(
+        folder / "a.gltf",
+        gltf(R"("nodes": [{"mesh": 0}, {"camera": 0, "name": 7}, {"extensions": {"KHR_lights_punctual": 5}}],
+"cameras": [{"type": 3, "perspective": []}], "extensions": {"KHR_lights_punctual": {"lights": {}}},
+"textures": 4, "images": "x", "samplers": [[]],
+"materials": [{"name": [], "extensions": [], "alphaMode": 1, "emissiveFactor": [1],
+  "pbrMetallicRoughness": {"baseColorFactor": ["a", 1, 1, 1], "metallicFactor": "x", "baseColorTexture": {"index": "0"}}}])",
+             R"(, "material": 0)"));
+    const CommandResult odd = candela(folder, {"render", "a.gltf", "-o", "a.ppm"});
+    INFO(odd.err);
+    CHECK(odd.exit_code == 0);
+    write_file(folder / "b.gltf", gltf(R"("nodes": [{"mesh": 0, "children": [1]}, {"children": [0]}, {}])"));
+    const CommandResult circle = candela(folder, {"render", "b.gltf", "-o", "a.ppm"});
+    CHECK(circle.exit_code == 1);
+    CHECK(holds(circle.err, "in two places, or within itself"));
+}
+
+TEST_CASE("lights that would burn out the picture, or leave it black, are scaled together, with a note") {
+    const fs::path folder = scratch_directory();
+    for (const char* const intensity : {"1e6", "1e-9"}) {
+        write_file(folder / "a.gltf", gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{}},
+  {{"translation": [0, 0, 3], "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
+"extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point", "intensity": {}}}]}}}})",
+                                                       intensity)));
+        const CommandResult result = candela(folder, {"render", "a.gltf", "-o", "a.ppm"});
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        CHECK(holds(result.err, "times as bright as in the file"));
+        const Pixels picture = read_ppm(folder / "a.ppm");
+        const int middle = picture.at(picture.width / 2, picture.height / 2)[1];
+        CHECK(middle > 60);
+        CHECK(middle < 255);
+    }
+}
+
+TEST_CASE("colours of vertices are shown as they are, and z is up in STL files") {
+    const fs::path folder = scratch_directory();
+    write_file(
+        folder / "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "-1 -1 0 255 0 0\n1 -1 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n");
+    const CommandResult ply = candela(folder, {"import", "a.ply", "-o", "-"});
+    CHECK(holds(ply.out, "color               = [255, 255, 255]\n"));
+    write_file(folder / "b.stl",
+               "solid b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+               "7\nendloop\nendfacet\n"
+               "endsolid b\n");
+    CHECK(holds(candela(folder, {"import", "b.stl", "-o", "-"}).out,
+                "rotation            = [-90.0, 0.0, 0.0]\n"));
+    CHECK_FALSE(holds(candela(folder, {"import", "b.stl", "--up", "y", "-o", "-"}).out, "rotation"));
+    CHECK(candela(folder, {"import", "b.stl", "--up", "x", "-o", "-"}).exit_code == 2);
+}
+
+TEST_CASE("verbs that take a scene take a model; edit says what to do instead") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "two.obj", k_squares);
+    write_file(folder / "two.mtl", k_two_materials);
+    CHECK(holds(candela(folder, {"check", "two.obj"}).out, "objects   2"));
+    CHECK(candela(folder, {"render", "two.obj", "-o", "a.ppm", "--reflection", "lambert", "--width", "40",
+                           "--set", "object.left.color=[1,2,3]"})
+              .exit_code == 0);
+    CHECK(candela(folder, {"compare", "two.obj", "--shading", "flat,phong", "-o", "a.ppm"}).exit_code == 0);
+    const CommandResult edit = candela(folder, {"edit", "two.obj", "--change", "image.width=3"});
+    CHECK(edit.exit_code == 2);
+    CHECK(holds(edit.err, "'two.obj' is a model and no scene; candela import makes a scene of it"));
+    const CommandResult two = candela(folder, {"render", "two.obj", "scene.toml", "-o", "a.ppm"});
+    CHECK(two.exit_code == 2);
+    CHECK(holds(two.err, "which is shown on its own"));
+}
+
+TEST_CASE("import refuses what is no model, is not there or is broken, and writes nothing then") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.txt", "hello");
+    write_file(folder / "broken.obj", "v 0 0\nf 1 2 3\n");
+    const CommandResult other = candela(folder, {"import", "a.txt"});
+    CHECK(other.exit_code == 2);
+    CHECK(holds(other.err, "'a.txt' is of no format that can be imported: .obj, .ply, .stl, .gltf, .glb"));
+    const CommandResult missing = candela(folder, {"import", "b.obj"});
+    CHECK(missing.exit_code == 1);
+    CHECK(holds(missing.err, "there is no file 'b.obj'"));
+    const CommandResult broken = candela(folder, {"import", "broken.obj"});
+    CHECK(broken.exit_code == 1);
+    CHECK(holds(broken.err, "line 1: a vertex has three coordinates"));
+    CHECK(candela(folder, {"import"}).exit_code == 2);
+    CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 2);
+}

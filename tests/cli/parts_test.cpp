@@ -1,0 +1,203 @@
+// Pictures in parts, and pictures that do not fit into memory.
+#include <sys/resource.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "support/box_scene.h"
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string scene_text() {
+    return box_scene(201, 200) + R"(rotation = [20, 30, 0]
+)";
+}
+
+fs::path with_scene() {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "scene.toml", scene_text());
+    return directory;
+}
+
+CommandResult candela(const fs::path& directory, const std::vector<std::string>& words) {
+    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
+}
+
+void require(const CommandResult& result) {
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+void render_part(const fs::path& directory, const std::string& picture, const std::string& part) {
+    require(candela(directory, {"render", "scene.toml", "-o", picture, "--part", part}));
+}
+
+}  // namespace
+
+TEST_CASE("parts put together are the picture in one go, in formats with rows and in others") {
+    const fs::path directory = with_scene();
+    for (const std::string extension : {"png", "tif", "exr", "ppm", "pfm", "jpg"}) {
+        for (const int parts : {1, 3, 7}) {
+            INFO(extension << ", " << parts << " parts");
+            const std::string picture = "poster." + extension, whole = "whole." + extension;
+            require(candela(directory, {"render", "scene.toml", "-o", whole}));
+            for (int i = parts; i >= 1; --i)
+                render_part(directory, picture, std::to_string(i) + "/" + std::to_string(parts));
+            require(candela(directory, {"assemble", picture}));
+            CHECK(read_file(directory / picture) == read_file(directory / whole));
+            CHECK_FALSE(fs::exists(directory / (picture + ".parts")));
+            fs::remove(directory / picture);
+        }
+    }
+}
+
+TEST_CASE("large pictures, which are written in tiles, are read as the same picture") {
+    const fs::path directory = with_scene();
+    const std::vector<std::string> size = {"--width", "16384", "--height", "300"};
+    for (const std::string extension : {"tif", "png"}) {
+        std::vector<std::string> words = {"render", "scene.toml", "-o", "large." + extension};
+        words.insert(words.end(), size.begin(), size.end());
+        require(candela(directory, words));
+    }
+    const CommandResult diff = candela(directory, {"diff", "large.tif", "large.png"});
+    INFO(diff.out << diff.err);
+    CHECK(diff.exit_code == 0);
+    CHECK(holds(diff.out, "identical           100 %"));
+}
+
+TEST_CASE("assemble says which parts are missing, and which were made from something else") {
+    const fs::path directory = with_scene();
+    for (const char* const part : {"1/6", "2/6", "4/6"}) render_part(directory, "poster.png", part);
+    CommandResult result = candela(directory, {"assemble", "poster.png"});
+    CHECK(result.exit_code == 1);
+    CHECK(holds(result.err, "of its 6 parts are missing: 3, 5-6"));
+    CHECK_FALSE(fs::exists(directory / "poster.png"));
+
+    std::string scene = scene_text();
+    scene.replace(scene.find("9.0"), 3, "8.0");
+    write_file(directory / "scene.toml", scene);
+    for (const char* const part : {"3/6", "5/6", "6/6"}) render_part(directory, "poster.png", part);
+    result = candela(directory, {"assemble", "poster.png"});
+    CHECK(result.exit_code == 1);
+    CHECK(holds(result.err, "made from something else than the part that was rendered last: 1-2, 4"));
+    for (const char* const part : {"1/6", "2/6", "4/6"}) render_part(directory, "poster.png", part);
+    require(candela(directory, {"assemble", "poster.png", "--keep-parts"}));
+    CHECK(fs::exists(directory / "poster.png.parts/6-of-6.pixels"));
+    require(candela(directory, {"render", "scene.toml", "-o", "whole.png"}));
+    CHECK(read_file(directory / "poster.png") == read_file(directory / "whole.png"));
+}
+
+TEST_CASE("a part that is up to date is left alone, one that was cut off is not, and repeating is harmless") {
+    const fs::path directory = with_scene();
+    render_part(directory, "poster.tif", "1/2");
+    const fs::path file = directory / "poster.tif.parts/1-of-2.pixels";
+    const std::string whole = read_file(file);
+    CHECK(holds(candela(directory, {"render", "scene.toml", "-o", "poster.tif", "--part", "1/2"}).err,
+                "left as it was"));
+    write_file(file, whole.substr(0, whole.size() / 2));
+    render_part(directory, "poster.tif", "1/2");
+    CHECK(read_file(file) == whole);
+    render_part(directory, "poster.tif", "2/2");
+    require(candela(directory, {"assemble", "poster.tif"}));
+    const CommandResult again = candela(directory, {"assemble", "poster.tif"});
+    CHECK(again.exit_code == 0);
+    CHECK(holds(again.err, "is complete"));
+    CHECK(holds(candela(directory, {"render", "scene.toml", "-o", "poster.tif", "--part", "2/2"}).err,
+                "the picture is complete"));
+    CHECK_FALSE(fs::exists(directory / "poster.tif.parts"));
+}
+
+TEST_CASE("a part whose bytes have changed since goes into no picture, and is made again") {
+    const fs::path directory = with_scene();
+    for (const char* const part : {"1/2", "2/2"}) render_part(directory, "poster.tif", part);
+    const fs::path file = directory / "poster.tif.parts/2-of-2.pixels";
+    const std::string whole = read_file(file);
+    std::string changed = whole;
+    changed[changed.size() / 2] ^= 1;
+    write_file(file, changed);
+    const CommandResult result = candela(directory, {"assemble", "poster.tif"});
+    CHECK(result.exit_code == 1);
+    CHECK(holds(result.err, "2-of-2.pixels' is not as it was rendered; render --part 2/2 makes it again"));
+    CHECK_FALSE(fs::exists(directory / "poster.tif"));
+    render_part(directory, "poster.tif", "2/2");
+    CHECK(read_file(file) == whole);
+    require(candela(directory, {"assemble", "poster.tif"}));
+}
+
+TEST_CASE("submit --parts makes the picture in one go, and status follows it") {
+    const fs::path directory = with_scene();
+    require(candela(directory, {"submit", "scene.toml", "-o", "poster.tif", "--parts", "5", "--jobs", "2"}));
+    require(candela(directory, {"render", "scene.toml", "-o", "whole.tif"}));
+    CHECK(read_file(directory / "poster.tif") == read_file(directory / "whole.tif"));
+    const auto status = nlohmann::json::parse(candela(directory, {"status", "--json"}).out).at(0);
+    CHECK(status["done"] == 5);
+    CHECK(status["last"]["state"] == "done");
+    CHECK_FALSE(fs::exists(directory / "poster.tif.parts"));
+    CHECK(holds(candela(directory, {"submit", "scene.toml", "-o", "poster.tif", "--parts", "5"}).err,
+                "5 of them done already"));
+}
+
+TEST_CASE("mistakes in parts are explained") {
+    const fs::path directory = with_scene();
+    const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& part) {
+        const CommandResult result = candela(directory, words);
+        INFO(result.err);
+        CHECK(result.exit_code == code);
+        CHECK(holds(result.err, part));
+    };
+    const auto render = [](std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", "scene.toml", "-o", "p.png"});
+        return more;
+    };
+    refused(render({"--part", "3"}), 2, "'3' is no part such as 3/16");
+    refused(render({"--part", "x/2"}), 2, "'x/2' is no part");
+    refused(render({"--part", "0/2"}), 2, "the parts are 1/2 to 2/2");
+    refused(render({"--part", "3/2"}), 2, "the parts are 1/2 to 2/2");
+    refused(render({"--part", "1/201"}), 2, "a picture of 200 rows cannot have 201 parts");
+    refused(render({"--part", "1/2", "--terms", "depth"}), 2, "--terms and --part contradict each other");
+    refused(render({"--part", "1/2", "--no-clobber"}), 2, "--no-clobber and --part contradict each other");
+    refused({"render", "scene.toml", "-o", "-", "--part", "1/2"}, 2, "name it by -o");
+    refused({"assemble"}, 2, "needs the picture's name");
+    refused({"assemble", "p.png"}, 1, "'p.png' has no parts");
+    refused({"assemble", "p.what"}, 2, "is of no format");
+    write_file(directory / "p.png.parts/picture.json", "{\"width\": 3}");
+    refused({"assemble", "p.png"}, 1, "does not describe a picture");
+    refused({"submit", "scene.toml", "--parts", "4"}, 2, "name it by -o");
+    refused({"submit", "scene.toml", "--parts", "4", "-o", "a.png", "--chunk", "3"}, 2,
+            "--chunk is for frames");
+    refused({"submit", "scene.toml", "-o", "a%d.png"}, 2, "--parts 16 shares out");
+}
+
+// AddressSanitizer and ThreadSanitizer reserve terabytes.
+#if !defined(__SANITIZE_ADDRESS__) && !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer)
+TEST_CASE("a part of a picture of 65536 x 65536, and a picture by rows, take less than 1 GiB") {
+    const fs::path directory = with_scene();
+    CommandSetup setup{.input = "", .environment = {}, .directory = directory};
+    setup.prepare = [] {
+        const rlimit room{.rlim_cur = rlim_t{1} << 30, .rlim_max = rlim_t{1} << 30};
+        ::setrlimit(RLIMIT_AS, &room);
+    };
+    const std::string large = "65536";
+    const CommandResult part = run_candela({"render", "scene.toml", "--width", large, "--height", large, "-o",
+                                            "poster.tif", "--part", "65/128", "--threads", "2"},
+                                           setup);
+    INFO(part.err);
+    CHECK(part.exit_code == 0);
+    CHECK(fs::file_size(directory / "poster.tif.parts/65-of-128.pixels") == 3ull * 65536 * 512);
+
+    // 1.2 GB of pixels.
+    const CommandResult rows = run_candela(
+        {"render", "scene.toml", "--width", large, "--height", "6000", "-o", "rows.png", "--threads", "2"},
+        setup);
+    INFO(rows.err);
+    CHECK(rows.exit_code == 0);
+}
+#endif

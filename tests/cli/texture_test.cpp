@@ -1,0 +1,91 @@
+// Pictures on objects, and what cannot be one.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/expect.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Four pixels of any colour.
+const std::string k_picture = "P6\n2 2\n255\nabcdefghijkl";
+
+CommandResult render(const std::string& texture, const fs::path& directory, const char* shape = "torus") {
+    write_file(directory / "scene.toml",
+               std::string("version = 1\nimage = { width = 16, height = 8 }\n"
+                           "observer = { position = [0, 0, 4], look_at = [0, 0, 0] }\n"
+                           "shading = { model = \"phong\" }\nreflection = { model = \"phong\" }\n"
+                           "[[light]]\ntype = \"ambient\"\n[[object]]\nname = \"ring\"\ntype = \"") +
+                   shape + "\"\n" + texture + "\n");
+    return run_candela({"render", "scene.toml", "-o", "out.ppm"},
+                       {.input = "", .environment = {}, .directory = directory});
+}
+
+}  // namespace
+
+TEST_CASE("mistakes of a texture are said at its place") {
+    const fs::path d = scratch_directory();
+    write_file(d / "wood.ppm", k_picture);
+    REQUIRE(::mkfifo((d / "pipe.ppm").c_str(), 0600) == 0);
+    expect(render("color_texture = \"wool.ppm\"", d), 3,
+           {"scene.toml:11:17: error: 'wool.ppm' does not exist", "did you mean 'wood.ppm'?"});
+    expect(render("color_texture = \"\"", d), 3, {"scene.toml:11:17: error: 'color_texture' is empty"});
+    expect(render("color_texture = \".\"", d), 3,
+           {"scene.toml:11:17: error: '.' is a directory, not a file"});
+    expect(render("color_texture = \"pipe.ppm\"", d), 3,
+           {"scene.toml:11:17: error: 'pipe.ppm' is not a regular file"});
+    expect(render("color_texture = 3", d), 3, {"scene.toml:11:17: error: 'color_texture' is the integer 3"});
+    expect(render("color_texture = \"wood.ppm\"\ncolor_texture_wrap = \"mirror\"", d), 3,
+           {"scene.toml:12:22: error: 'color_texture_wrap': \"mirror\" is not one of 'repeat', 'clamp'"});
+    expect(render("color_texture = \"wood.ppm\"", d, "cube"), 0, {});
+    CHECK(fs::exists(d / "out.ppm"));
+}
+
+TEST_CASE("a texture that cannot be read as a picture is one failure, which names the file") {
+    const fs::path d = scratch_directory();
+    write_file(d / "wood.txt", "brown");
+    write_file(d / "wood.png", "brown");
+    write_file(d / "plain.ppm", "P3\n1 1\n255\n1 2 3\n");
+    write_file(d / "short.ppm", k_picture.substr(0, k_picture.size() - 1));
+    write_file(d / "none.pfm",
+               std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
+    const auto refused = [&](const std::string& file, const std::string& reason) {
+        const CommandResult result = render("color_texture = \"" + file + "\"", d);
+        expect(result, 1, {"scene.toml:11:17: error: object 'ring': ", file + "' " + reason});
+        CHECK(result.err.find("error:") == result.err.rfind("error:"));
+    };
+    refused("wood.txt", "is of no format that an image plugin reads");
+    refused("wood.png", "cannot be read as a picture");
+    refused("plain.ppm", "cannot be read as a picture: it is neither a binary PPM (P6) nor a PFM (PF)");
+    refused("short.ppm", "cannot be read as a picture: it ends before its last pixel");
+    refused("none.pfm", "cannot be read as a picture: it has a pixel that is no finite number");
+    CHECK_FALSE(fs::exists(d / "out.ppm"));
+}
+
+TEST_CASE("a picture of a few bytes that speaks of 400 million pixels takes no memory for them") {
+    const fs::path d = scratch_directory();
+    write_file(d / "large.ppm", "P6\n20000 20000\n255\nabc");
+    write_file(d / "large.pfm", "PF\n20000 20000\n-1.0\nabc");
+    // A header of TGA, then of BMP: true colour, 20000 x 20000 (0x4e20), nothing that is packed.
+    const std::string side("\x20\x4e", 2), zero(2, '\0');
+    write_file(d / "large.tga",
+               std::string("\0\0\2", 3) + std::string(9, '\0') + side + side + std::string("\x18\0abc", 5));
+    write_file(d / "large.bmp", "BM" + std::string("\x64\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0", 16) + side +
+                                    zero + side + zero + std::string("\1\0\x18\0", 4) +
+                                    std::string(24, '\0') + "abc");
+    for (const char* const file : {"large.ppm", "large.pfm", "large.tga", "large.bmp"}) {
+        INFO(file);
+        expect(render("color_texture = \"" + std::string(file) + "\"", d), 1,
+               {"cannot be read as a picture: it "});
+    }
+    rusage usage{};
+    REQUIRE(::getrusage(RUSAGE_CHILDREN, &usage) == 0);
+    CHECK(usage.ru_maxrss < (1 << 20));  // kilobytes, of the largest child so far
+}

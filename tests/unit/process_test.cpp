@@ -1,0 +1,57 @@
+// Programs that answer line by line, and how they end.
+#include <catch2/catch_test_macros.hpp>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+import candela.diagnostics;
+import candela.process;
+
+using candela::AnsweringProgram;
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr milliseconds k_patience{60000};
+
+}  // namespace
+
+TEST_CASE("a program answers line by line, however long the lines are") {
+    AnsweringProgram cat({"/bin/cat"});
+    CHECK(cat.answer("one", k_patience) == "one");
+    CHECK(cat.answer("", k_patience) == "");
+    const std::string large(100'000, 'x');
+    CHECK(cat.answer(large, k_patience) == large);
+    CHECK(cat.errors().empty());
+}
+
+TEST_CASE("a program that ends, or is told something after its end, gives no answer and has said why") {
+    AnsweringProgram shell({"/bin/sh", "-c", "read line; echo \"not $line\" >&2; exit 3"});
+    CHECK_FALSE(shell.answer("this", k_patience).has_value());
+    CHECK(shell.errors() == "not this\n");
+    CHECK_FALSE(shell.answer("that", k_patience).has_value());
+}
+
+TEST_CASE("a program that does not answer is waited for no longer than one wants, and is ended") {
+    AnsweringProgram deaf({"/bin/sh", "-c", "trap '' TERM; while :; do sleep 0.01; done"});
+    CHECK_FALSE(deaf.answer("hello?", milliseconds(20)).has_value());
+}
+
+TEST_CASE("a program that is not there cannot answer") {
+    CHECK_THROWS_AS(AnsweringProgram({"/nowhere/at/all"}), candela::Error);
+}
+
+TEST_CASE("programs that are started at the same moment do not wait for one another's end") {
+    // What one of them inherits of another's pipes would stay open until its end.
+    constexpr int k_rounds = 60;
+    std::vector<std::unique_ptr<AnsweringProgram>> patient;
+    std::thread starting([&] {
+        for (int i = 0; i < k_rounds; ++i)
+            patient.push_back(std::make_unique<AnsweringProgram>(std::vector<std::string>{"/bin/cat"}));
+    });
+    for (int i = 0; i < k_rounds; ++i) CHECK(candela::run_program({"/bin/echo", "said"}).out == "said\n");
+    starting.join();
+    for (const auto& cat : patient) CHECK(cat->answer("still there", k_patience) == "still there");
+}

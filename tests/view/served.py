@@ -1,0 +1,126 @@
+"""`candela view` as a process of a test's, with a scene of its own, and what a test asks it for."""
+import os
+import pathlib
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+
+COMMAND = os.path.abspath(os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"])
+SCRATCH = pathlib.Path(os.environ.get("CANDELA_TEST_SCRATCH") or tempfile.mkdtemp(prefix="candela-view-")).absolute()
+ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), CANDELA_PLUGIN_PATH="")
+LONGEST = 20  # seconds, on a busy machine
+
+SCENE = """version = 1
+observer = {{position = [0, 1, 4], look_at = [0, 0, 0]}}
+image = {{width = 64, height = 48}}
+shading = {{model = "phong"}}
+reflection = {{model = "lambert"}}
+light = [{{type = "directional", direction = [-1, -1, -1]}}]
+object = [{{type = "cube", color = [{red}, {green}, 40]}}]
+"""
+
+
+def status_of(process):
+    """Resident memory in kB, threads, open files; nothing of one that has ended."""
+    try:
+        lines = dict(line.split(":", 1) for line in pathlib.Path(f"/proc/{process}/status").read_text().splitlines() if ":" in line)
+        return int(lines["VmRSS"].split()[0]), int(lines["Threads"]), len(os.listdir(f"/proc/{process}/fd"))
+    except (OSError, KeyError):
+        return None
+
+
+def children_of(process):
+    """Each thread knows its own."""
+    found = []
+    try:
+        for task in os.listdir(f"/proc/{process}/task"):
+            found += pathlib.Path(f"/proc/{process}/task/{task}/children").read_text().split()
+    except OSError:
+        pass  # it has ended since
+    return found
+
+
+class View:
+    def __init__(self, name):
+        self.folder = SCRATCH / name
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.temporary = self.folder / "tmp"
+        self.temporary.mkdir(parents=True)
+        self.file = self.folder / "scene.toml"
+        self.save(100)
+        self.log = open(self.folder / "log.txt", "w+")
+        self.process = subprocess.Popen([COMMAND, "view", "--no-open", str(self.file)], env=dict(ENVIRONMENT, TMPDIR=str(self.temporary)),
+                                        cwd=self.folder,
+                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=self.log, text=True)
+        self.address = self.process.stdout.readline().strip()
+        self.port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/", self.address).groups()
+        self.port = int(self.port)
+
+    @staticmethod
+    def text(red, green=90):
+        return SCENE.format(red=red, green=green)
+
+    def replace(self, text):
+        """As editors save: written beside, then renamed."""
+        draft = self.folder / "draft"
+        draft.write_text(text)
+        os.replace(draft, self.file)
+
+    def save(self, red):
+        self.replace(self.text(red))
+
+    def end(self, number=signal.SIGINT):
+        self.process.send_signal(number)
+        code = self.process.wait(LONGEST)
+        self.process.stdout.close()
+        self.log.close()
+        return code
+
+    def connect(self):
+        return socket.create_connection(("127.0.0.1", self.port), timeout=LONGEST)
+
+    def answer(self, data):
+        """All that comes back; what is sent after the server has closed is lost, as it should be."""
+        with self.connect() as connection:
+            try:
+                connection.sendall(data)
+                parts = []
+                while part := connection.recv(65536):
+                    parts.append(part)
+            except (ConnectionResetError, BrokenPipeError):
+                return b""
+            return b"".join(parts)
+
+    def get(self, path, method="GET", host=None, body=b"", **fields):
+        host = f"127.0.0.1:{self.port}" if host is None else host
+        lines = [f"{method} {path} HTTP/1.1", f"Host: {host}", *(f"{name}: {value}" for name, value in fields.items())]
+        if body:
+            lines.append(f"Content-Length: {len(body)}")
+        return self.answer("\r\n".join([*lines, "", ""]).encode() + body)
+
+    def status(self, path, **options):
+        return int(self.get(path, **options).split(b" ", 2)[1])
+
+    def events(self):
+        """A connection that has asked for events and has read their head."""
+        connection = self.connect()
+        connection.sendall(f"GET /{self.token}/events HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n\r\n".encode())
+        return connection
+
+    def generation(self):
+        location = re.search(rb"Location: \S*\?live=(\d+)", self.get(f"/{self.token}/"))
+        return int(location[1])
+
+    def page(self):
+        return self.get(f"/{self.token}/?live={self.generation()}")
+
+    def wait_for_color(self, red):
+        end = time.monotonic() + LONGEST
+        wanted = f'"color":[{red}.0,90.0,40.0]'.encode()
+        while wanted not in self.page():
+            assert time.monotonic() < end, f"the page does not show the color {red}: {self.page()[-400:]}"
+            time.sleep(0.02)
