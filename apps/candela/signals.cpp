@@ -13,6 +13,9 @@ import candela.files;
 
 namespace {
 
+/// A pipe, too, may have lost its reader: `candela verify scene.toml 2>&1 | head -1`.
+constexpr std::initializer_list<int> k_ending{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+
 /// Async-signal-safe. On the main thread, which so does nothing else meanwhile: it neither reports that a
 /// program was killed under it nor starts the next.
 void leave_nothing_behind(int signal) {
@@ -36,13 +39,13 @@ void leave_nothing_behind(int signal) {
 }  // namespace
 
 void prepare_for_signals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : k_ending) {
         struct sigaction before{};
         // What the caller ignores (nohup) stays ignored.
         if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) continue;
         struct sigaction action{};
         action.sa_handler = leave_nothing_behind;
-        for (const int other : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&action.sa_mask, other);
+        for (const int other : k_ending) ::sigaddset(&action.sa_mask, other);
         ::sigaction(signal, &action, nullptr);
     }
     std::signal(SIGXFSZ, SIG_IGN);

@@ -15,7 +15,6 @@
 #include "explainer.h"
 #include "generating.h"
 #include "reporting.h"
-#include "signals.h"
 #include "targets.h"
 #include "temporary_folder.h"
 #include "terminal.h"
@@ -101,6 +100,8 @@ int run_view(const std::vector<std::string>& arguments) {
     std::vector<std::string> for_keep;
     for (const std::string& folder : line.all("plugin-dir")) for_keep.push_back("--plugin-dir=" + folder);
     if (line.has("allow-untrusted-plugins")) for_keep.emplace_back("--allow-untrusted-plugins");
+    // The server reads them. No thread that is started from here on is interrupted by one, ever.
+    std::optional<WithoutInterruption> while_serving(std::in_place);
     std::optional<Explainer> explainer(std::in_place, for_explain);
     std::optional<view::Server> server(
         std::in_place, port_from(line),
@@ -141,15 +142,11 @@ int run_view(const std::vector<std::string>& arguments) {
     std::cout << address << '\n' << std::flush;  // somebody may be waiting for it
     if (!line.has("no-open")) open_browser(address);
     server->run();
+    while_serving.reset();  // a second one ends this at once
     // All wait for programs that they have started.
     const WithoutDescendants from_now_on;
     follower.reset();
-    {
-        // The server leaves signals as the system has them. A second one is to leave nothing behind either.
-        const WithoutInterruption until_prepared;
-        server.reset();
-        prepare_for_signals();
-    }
+    server.reset();
     explainer.reset();
     return 0;
 }

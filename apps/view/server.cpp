@@ -1,21 +1,24 @@
 #include "view/server.h"
 
 #include <fmt/format.h>
+#include <sys/signalfd.h>
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -77,6 +80,23 @@ std::string events_of(const Publication& state) {
            event_text("problems", problems.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
+/// Those that end a program, to be read; but what the caller ignores (nohup) stays ignored.
+int ending_signals() {
+    sigset_t signals;
+    ::sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction now{};
+        if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN)
+            ::sigaddset(&signals, signal);
+    }
+    const int descriptor = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+    if (descriptor < 0) {
+        throw candela::Error(candela::ErrorCategory::failure,
+                             fmt::format("signals cannot be waited for: {}", std::strerror(errno)));
+    }
+    return descriptor;
+}
+
 }  // namespace
 
 class Server::Implementation {
@@ -116,7 +136,8 @@ class Server::Implementation {
     asio::io_context context_{1};
     asio::steady_timer pause_{context_};
     tcp::acceptor acceptor_{context_};
-    asio::signal_set signals_{context_};
+    asio::posix::stream_descriptor signals_{context_, ending_signals()};
+    signalfd_siginfo signal_{};
     int waiting_ = 0;
     asio::thread_pool worker_{1};
 };
@@ -306,8 +327,8 @@ Server::Implementation::Implementation(std::uint16_t port, Handlers handlers)
             candela::ErrorCategory::failure,
             fmt::format("port {} of 127.0.0.1 cannot be listened on: {}", port, problem.code().message()));
     }
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) signals_.add(signal);
-    signals_.async_wait([this](error_code problem, int) {
+    // Read, for else it would come once more when it is no longer blocked.
+    signals_.async_read_some(asio::buffer(&signal_, sizeof signal_), [this](error_code problem, std::size_t) {
         if (!problem) stop();
     });
     accept();

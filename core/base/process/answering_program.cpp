@@ -13,6 +13,7 @@ module;
 #include <array>
 #include <boost/process/args.hpp>
 #include <boost/process/child.hpp>
+#include <boost/process/extend.hpp>
 #include <boost/process/posix.hpp>
 #include <boost/process/search_path.hpp>
 #include <cerrno>
@@ -83,6 +84,7 @@ class AnsweringProgram::Implementation {
         const std::lock_guard lock(starting());
         try {
             process::child child(std::filesystem::path(words.front()), process::args(arguments),
+                                 process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
                                  process::posix::fd.bind(STDIN_FILENO, ends[1].number()),
                                  process::posix::fd.bind(STDOUT_FILENO, ends[1].number()),
                                  process::posix::fd.bind(STDERR_FILENO, errors_.number()));

@@ -6,9 +6,11 @@ module;
 #define BOOST_PROCESS_USE_STD_FS
 #include <boost/process/args.hpp>
 #include <boost/process/child.hpp>
+#include <boost/process/extend.hpp>
 #include <boost/process/io.hpp>
 #include <boost/process/pipe.hpp>
 #include <boost/process/search_path.hpp>
+#include <csignal>
 #include <filesystem>
 #include <iterator>
 #include <mutex>
@@ -42,7 +44,9 @@ process::child started(const std::vector<std::string>& words, Streams&&... strea
     }
     try {
         const std::vector<std::string> arguments(words.begin() + 1, words.end());
-        return process::child(program, process::args(arguments), std::forward<Streams>(streams)...);
+        return process::child(program, process::args(arguments),
+                              process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
+                              std::forward<Streams>(streams)...);
     } catch (const std::system_error& problem) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be run: {}", name, problem.code().message()));
@@ -62,6 +66,12 @@ std::string rest_of(process::ipstream& stream) { return {std::istreambuf_iterato
 std::mutex& starting() {
     static std::mutex mutex;
     return mutex;
+}
+
+void unblock_signals() noexcept {
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
 std::optional<std::filesystem::path> program_called(const std::string& name) {

@@ -19,6 +19,10 @@ namespace candela {
 /// would keep them open, and who reads from them would wait for its end.
 std::mutex& starting();
 
+/// To be called in the new process, before it is another program: what the thread that starts it has blocked
+/// would stay blocked in it. Async-signal-safe.
+void unblock_signals() noexcept;
+
 }  // namespace candela
 
 export namespace candela {
