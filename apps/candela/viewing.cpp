@@ -169,10 +169,10 @@ bool SceneFollower::make_page() {
     const bool is_right = result.exit_code == 0;
     if (is_right) {
         inputs_ = names_listed_in(inputs);
-        auto page = std::make_shared<const std::string>(content_of(output / job_.main_file));
+        std::string page = content_of(output / job_.main_file);
         // Saved as it was: pages that have been made already are not made again.
-        if (latest_.page == nullptr || *page != *latest_.page) {
-            latest_.page = std::move(page);
+        if (latest_.page == nullptr || page != latest_.page->html()) {
+            latest_.page = std::make_shared<const view::Page>(std::move(page));
             ++latest_.generation;
         }
         latest_.problems.clear();

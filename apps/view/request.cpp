@@ -82,6 +82,20 @@ std::optional<std::vector<Change>> changes_of(std::string_view query, Resource r
     return changes;
 }
 
+PageQuery page_query(std::string_view query) {
+    constexpr std::string_view k_part = "&part=";
+    const std::size_t first = std::min(query.find(k_part), query.size());
+    PageQuery result{.state = query.substr(0, first), .parts = {}};
+    query.remove_prefix(first);
+    while (!query.empty()) {
+        query.remove_prefix(k_part.size());
+        const std::size_t end = std::min(query.find(k_part), query.size());
+        result.parts.push_back(query.substr(0, end));
+        query.remove_prefix(end);
+    }
+    return result;
+}
+
 std::string random_token() {
     std::random_device random;
     std::string token;

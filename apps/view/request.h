@@ -49,6 +49,15 @@ struct Change {
 /// term ("terms=diffuse"). One to keep something has a model and a name, and nothing else. Any thread.
 std::optional<std::vector<Change>> changes_of(std::string_view query, Resource resource);
 
+/// Which state of the page a query asks for, and which parts of it: "live=7&part=scene&part=array-1f". None:
+/// all of it.
+struct PageQuery {
+    std::string_view state;  // "live=7"; whatever comes before the first part
+    std::vector<std::string_view> parts;
+};
+/// Any thread. What it returns points into `query`.
+PageQuery page_query(std::string_view query);
+
 /// Whether a request for it changes something, and so has to be a POST of the page itself.
 bool changes_something(Resource resource);
 

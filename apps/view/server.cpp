@@ -226,15 +226,29 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     /// The address says which generation the page is of, so that the page knows which events are news to it.
     Response page(const std::string& query) const {
         const Publication& state = server_.state();
+        const PageQuery wanted = page_query(query);
         const std::string current = fmt::format("live={}", state.generation);
-        if (query != current) {
+        if (wanted.state != current) {
             Response answer = response(http::status::found);
-            answer.set(http::field::location, fmt::format("/{}/?{}", server_.token(), current));
+            answer.set(http::field::location,
+                       fmt::format("/{}/?{}{}", server_.token(), current, query.substr(wanted.state.size())));
             return answer;
         }
+        if (!wanted.parts.empty()) return parts(wanted.parts);
         Response answer = response(http::status::ok);
         answer.set(http::field::content_type, "text/html; charset=utf-8");
-        answer.body() = state.page ? *state.page : waiting_page();
+        answer.body() = state.page ? state.page->html() : waiting_page();
+        return answer;
+    }
+
+    /// A line for each.
+    Response parts(const std::vector<std::string_view>& ids) const {
+        Response answer = response(http::status::ok);
+        for (const std::string_view id : ids) {
+            const auto text = server_.state().page ? server_.state().page->part(id) : std::nullopt;
+            if (!text) return refusal(404);
+            answer.body().append(*text) += '\n';
+        }
         return answer;
     }
 

@@ -33,8 +33,8 @@ class Server {
         std::function<Outcome(const std::vector<Change>&, const std::string& kernel)> keep;
     };
 
-    /// Port 0: one that is free. Throws candela::Error (failure) where it cannot be listened on. SIGINT, SIGTERM
-    /// and SIGHUP are to be blocked in all threads until run() returns.
+    /// Port 0: one that is free. Throws candela::Error (failure) where it cannot be listened on. SIGINT,
+    /// SIGTERM and SIGHUP are to be blocked in all threads until run() returns.
     Server(std::uint16_t port, Handlers handlers);
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

@@ -34,17 +34,23 @@ std::string array_text(const char* type, const char* name, std::span<const T> nu
 std::vector<float> interleaved(ConstVec3Span arrays, std::size_t count) {
     std::vector<float> numbers;
     if (!arrays) return numbers;
-    numbers.reserve(3 * count);
-    for (std::size_t i = 0; i < count; ++i)
-        numbers.insert(numbers.end(), {arrays.x[i], arrays.y[i], arrays.z[i]});
+    numbers.resize(3 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        numbers[3 * i] = arrays.x[i];
+        numbers[3 * i + 1] = arrays.y[i];
+        numbers[3 * i + 2] = arrays.z[i];
+    }
     return numbers;
 }
 
 std::vector<float> interleaved(ConstVec2Span arrays, std::size_t count) {
     std::vector<float> numbers;
     if (!arrays) return numbers;
-    numbers.reserve(2 * count);
-    for (std::size_t i = 0; i < count; ++i) numbers.insert(numbers.end(), {arrays.x[i], arrays.y[i]});
+    numbers.resize(2 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        numbers[2 * i] = arrays.x[i];
+        numbers[2 * i + 1] = arrays.y[i];
+    }
     return numbers;
 }
 

@@ -41,11 +41,16 @@ const KernelFunction* function_of(const ExportedModel& model, std::string_view n
 }
 
 /// The words of a text, but for those of the standard library.
-std::set<std::string> words_of(const std::string& text) {
-    static const std::regex k_word(R"((std::)?([A-Za-z_]\w*))");
+std::set<std::string> words_of(std::string_view text) {
+    const auto begins_word = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    };
+    const auto is_in_word = [&](char c) { return begins_word(c) || (c >= '0' && c <= '9'); };
     std::set<std::string> words;
-    for (const std::smatch& m : all_matches(text, k_word)) {
-        if (!m[1].matched) words.insert(m[2]);
+    for (auto at = std::ranges::find_if(text, begins_word); at != text.end();) {
+        const auto end = std::find_if_not(at, text.end(), is_in_word);
+        if (!std::string_view(text.begin(), at).ends_with("std::")) words.emplace(at, end);
+        at = std::find_if(end, text.end(), begins_word);
     }
     return words;
 }

@@ -84,14 +84,16 @@ std::string html_text(std::string_view text) {
 std::string script_json(std::string json) { return replace_all(std::move(json), "<", "\\u003c"); }
 
 std::string base64(std::span<const std::byte> bytes) {
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
+    std::string text((bytes.size() + 2) / 3 * 4, '=');
+    const auto byte = [&](std::size_t i) {
+        return i < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i]) : 0u;
+    };
+    char* to = text.data();
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += k <= count ? k_digits[group >> (18 - 6 * k) & 63u] : '=';
+        const std::uint32_t group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+        const std::size_t digits = std::min<std::size_t>(3, bytes.size() - i) + 1;
+        for (std::size_t k = 0; k < digits; ++k) to[k] = k_digits[group >> (18 - 6 * k) & 63u];
+        to += 4;
     }
     return text;
 }

@@ -20,6 +20,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(is_answered == (route.resource != view::Resource::none), "what is answered is a resource");
     fuzz::require(route.status >= 200 && route.status < 500, "a status that HTTP has");
     if (!is_answered) return 0;
+    const view::PageQuery query = view::page_query(route.query);
+    std::string again(query.state);
+    for (const std::string_view part : query.parts) again.append("&part=").append(part);
+    fuzz::require(again == route.query, "a state and its parts are the whole query");
     const bool is_save = view::changes_something(route.resource);
     fuzz::require(request.method == (is_save ? "POST" : "GET"), "only POST changes something");
     fuzz::require(!is_save || !request.origin.empty(), "who changes something says where it comes from");

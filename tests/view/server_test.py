@@ -287,6 +287,32 @@ class ServerTest(unittest.TestCase):
         for query in ("output=/tmp/x", "plugin-dir=/tmp", "set", "set=%", "set=%zz", "set=%00", "=", "set=a&-o=b", "&"):
             self.assertEqual(self.view.status(f"/{self.view.token}/reference.png?{query}"), 400, query)
 
+    def body(self, path):
+        return self.view.get(path).split(b"\r\n\r\n", 1)[1].decode()
+
+    def test_parts_of_the_page_are_served_alone(self):
+        self.view.wait_for_color(100)
+        page = self.view.page().decode()
+        scene = re.search(r'id="scene">(.*?)</script>', page, re.S)[1]
+        arrays = dict(re.findall(r'id="(array-[^"]+)">([^<]*)</script>', page))
+        self.assertEqual(set(json.loads(scene)["arrays"]), set(arrays))
+        names = sorted(arrays)
+        path = f"/{self.view.token}/?live={self.view.generation()}"
+        self.assertEqual(self.body(f"{path}&part=scene"), scene + "\n")
+        self.assertEqual(self.body("&".join([path, *(f"part={name}" for name in names)])), "".join(arrays[name] + "\n" for name in names))
+        for part in ("", "nothing", "scen", "array-", "..%2Fscene", "scene&part=nothing"):
+            self.assertEqual(self.view.status(f"{path}&part={part}"), 404, part)
+
+    def test_parts_of_an_older_page_are_those_of_the_newest(self):
+        self.view.wait_for_color(100)
+        before, array = self.view.generation(), re.search(r'"arrays":\["([^"]+)"', self.view.page().decode())[1]
+        self.view.save(77)
+        self.view.wait_for_color(77)
+        answer = self.view.get(f"/{self.view.token}/?live={before}&part=scene&part={array}").decode()
+        self.assertIn(f"Location: /{self.view.token}/?live={self.view.generation()}&part=scene&part={array}\r\n", answer)
+        # A colour changes no array.
+        self.assertIn(array, self.body(f"/{self.view.token}/?live={self.view.generation()}&part=scene"))
+
     def test_large_requests_are_cut_off(self):
         for head in (b"GET / HTTP/1.1\r\nX: ", f"GET /{self.view.token}/".encode(), b"POST / HTTP/1.1\r\nContent-Length: 1000000000\r\n\r\n"):
             sent = 0

@@ -83,11 +83,12 @@ class AnsweringProgram::Implementation {
         const std::vector<std::string> arguments(words.begin() + 1, words.end());
         const std::lock_guard lock(starting());
         try {
-            process::child child(std::filesystem::path(words.front()), process::args(arguments),
-                                 process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
-                                 process::posix::fd.bind(STDIN_FILENO, ends[1].number()),
-                                 process::posix::fd.bind(STDOUT_FILENO, ends[1].number()),
-                                 process::posix::fd.bind(STDERR_FILENO, errors_.number()));
+            process::child child(
+                std::filesystem::path(words.front()), process::args(arguments),
+                process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
+                process::posix::fd.bind(STDIN_FILENO, ends[1].number()),
+                process::posix::fd.bind(STDOUT_FILENO, ends[1].number()),
+                process::posix::fd.bind(STDERR_FILENO, errors_.number()));
             process_ = child.id();
             child.detach();
         } catch (const std::system_error& problem) {

@@ -44,9 +44,10 @@ process::child started(const std::vector<std::string>& words, Streams&&... strea
     }
     try {
         const std::vector<std::string> arguments(words.begin() + 1, words.end());
-        return process::child(program, process::args(arguments),
-                              process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
-                              std::forward<Streams>(streams)...);
+        return process::child(
+            program, process::args(arguments),
+            process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
+            std::forward<Streams>(streams)...);
     } catch (const std::system_error& problem) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be run: {}", name, problem.code().message()));

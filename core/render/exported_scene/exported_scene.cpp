@@ -130,10 +130,11 @@ struct SceneExport::Storage final : ExportedGeometry {
         const Object& from = objects[object];
         placed = place(*from.tessellator, request(scene.needs_uv), from.transform);
         require_no_colors(object);
+        make_face_normals(placed.mesh);
         for (std::size_t i = 0; i < scene.shadings.size(); ++i) {
             const auto shading = registry.create<ShadingModel>(
                 scene.shadings[i].plugin->name, from.shading_values[i], scene.image.color_management);
-            Vec3Arrays normals = with_normals(placed, *shading).vertex_normals();
+            Vec3Arrays normals = vertex_normals(placed, *shading);
             const auto same = std::ranges::find_if(
                 normal_sets, [&](const Vec3Arrays& set) { return are_equal(set, normals); });
             normals_of.push_back(static_cast<std::size_t>(same - normal_sets.begin()));

@@ -218,15 +218,6 @@ struct FaceNormalLoop {
     }
 };
 
-void make_face_normals(Mesh& mesh) {
-    mesh.face_normal.resize(mesh.triangle_count());
-    parallel_for(mesh.triangle_count(), k_per_task, [&](std::size_t begin, std::size_t end) {
-        const std::uint32_t* const indices = &mesh.indices[3 * begin];
-        multiversion<FaceNormalLoop>(std::as_const(mesh.position).span(), indices, end - begin,
-                                     mesh.face_normal.span().from(begin));
-    });
-}
-
 /// The number of edges that are not shared by two triangles that agree on which side is outside. Vertices at
 /// the same position count as one.
 std::size_t count_open_edges(const Mesh& mesh) {
@@ -263,8 +254,9 @@ std::size_t count_open_edges(const Mesh& mesh) {
     return open;
 }
 
-void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
-    Mesh& mesh = placed.mesh;
+/// A normal for each smooth group; where there are none, for each vertex.
+Vec3Arrays group_normals(const PlacedShape& placed, const ShadingModel& shading) {
+    const Mesh& mesh = placed.mesh;
     const std::size_t count = mesh.vertex_count();
     const bool has_groups = !placed.smooth_group.empty();
     AlignedVector<std::uint32_t> each_its_own;
@@ -277,37 +269,48 @@ void make_vertex_normals(PlacedShape& placed, const ShadingModel& shading) {
     normal.resize(count + k_guard_size);
     for (AlignedVector<float>* const array : {&normal.x, &normal.y, &normal.z})
         fill_with_guard(std::span(*array).subspan(count));
-    const MeshView view{.position = std::as_const(mesh.position).span(),
-                        .indices = mesh.indices,
-                        .face_normal = std::as_const(mesh.face_normal).span(),
-                        .smooth_group = has_groups ? placed.smooth_group : each_its_own,
-                        .vertex_count = count,
-                        .group_count = count,
-                        .authored_normal = placed.authored_normal.empty()
-                                               ? ConstVec3Span{}
-                                               : std::as_const(placed.authored_normal).span()};
+    const MeshView view{
+        .position = mesh.position.span(),
+        .indices = mesh.indices,
+        .face_normal = mesh.face_normal.span(),
+        .smooth_group = has_groups ? placed.smooth_group : each_its_own,
+        .vertex_count = count,
+        .group_count = count,
+        .authored_normal = placed.authored_normal.empty() ? ConstVec3Span{} : placed.authored_normal.span()};
     shading.vertex_normals(view, normal.span());
     for (const AlignedVector<float>* const array : {&normal.x, &normal.y, &normal.z}) {
         if (!is_guard_intact(std::span(*array).subspan(count)))
             throw std::invalid_argument("it writes more vertex normals than there are vertices");
     }
-    mesh.vertices.resize(count);
+    return normal;
+}
+
+/// Calls visit(vertex, normal) for all vertices, on several threads. Throws std::invalid_argument where a
+/// normal is not finite.
+template <class Visit>
+void for_each_vertex_normal(const PlacedShape& placed, const ShadingModel& shading, const Visit& visit) {
+    const Vec3Arrays of_groups = group_normals(placed, shading);
+    const bool has_groups = !placed.smooth_group.empty();
+    const auto normal_of = [&, normals = of_groups.span()](std::size_t vertex) {
+        return normals[has_groups ? placed.smooth_group[vertex] : vertex];
+    };
     const auto is_finite = [](Vec3 n) { return std::isfinite(n.x + n.y + n.z); };
+    const std::size_t count = placed.mesh.vertex_count();
     std::atomic<bool> are_finite{true};
     parallel_for(count, k_per_task, [&](std::size_t begin, std::size_t end) {
         bool are = true;
         for (std::size_t i = begin; i < end; ++i) {
-            const Vec3 n = std::as_const(normal).span()[has_groups ? placed.smooth_group[i] : i];
-            mesh.vertices[i] = {.position = std::as_const(mesh.position).span()[i], .normal = n};
+            const Vec3 n = normal_of(i);
+            visit(i, n);
             are &= is_finite(n);
         }
         if (!are) are_finite = false;
     });
     if (are_finite) return;
     // The first one, whichever thread found one.
-    const auto first = std::ranges::find_if_not(mesh.vertices, is_finite, &MeshVertex::normal);
-    throw std::invalid_argument(
-        fmt::format("the normal that it gives vertex {} is no finite number", first - mesh.vertices.begin()));
+    std::size_t first = 0;
+    while (is_finite(normal_of(first))) ++first;
+    throw std::invalid_argument(fmt::format("the normal that it gives vertex {} is no finite number", first));
 }
 
 }  // namespace
@@ -340,9 +343,30 @@ PlacedShape place(const Shape& shape, const MeshRequest& request, const Transfor
             std::move(collected.warnings)};
 }
 
+void make_face_normals(Mesh& mesh) {
+    mesh.face_normal.resize(mesh.triangle_count());
+    parallel_for(mesh.triangle_count(), k_per_task, [&](std::size_t begin, std::size_t end) {
+        const std::uint32_t* const indices = &mesh.indices[3 * begin];
+        multiversion<FaceNormalLoop>(std::as_const(mesh.position).span(), indices, end - begin,
+                                     mesh.face_normal.span().from(begin));
+    });
+}
+
+Vec3Arrays vertex_normals(const PlacedShape& placed, const ShadingModel& shading) {
+    Vec3Arrays normals;
+    normals.resize(placed.mesh.vertex_count());
+    for_each_vertex_normal(placed, shading,
+                           [to = normals.span()](std::size_t i, Vec3 normal) { to.set(i, normal); });
+    return normals;
+}
+
 Mesh with_normals(PlacedShape placed, const ShadingModel& shading) {
-    make_face_normals(placed.mesh);
-    make_vertex_normals(placed, shading);
+    Mesh& mesh = placed.mesh;
+    make_face_normals(mesh);
+    mesh.vertices.resize(mesh.vertex_count());
+    for_each_vertex_normal(placed, shading, [&](std::size_t i, Vec3 normal) {
+        mesh.vertices[i] = {.position = std::as_const(mesh.position).span()[i], .normal = normal};
+    });
     return std::move(placed.mesh);
 }
 

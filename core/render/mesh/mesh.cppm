@@ -70,7 +70,13 @@ CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, co
 /// allows. Throws what the shading model throws.
 CANDELA_API Mesh with_normals(PlacedShape placed, const ShadingModel& shading);
 
-/// Both in one.
+/// Only its face normals, from which other calls of vertex_normals() need not make them.
+CANDELA_API void make_face_normals(Mesh& mesh);
+
+/// The vertex normals that `shading` gives a mesh that has its face normals. Throws as with_normals().
+CANDELA_API Vec3Arrays vertex_normals(const PlacedShape& placed, const ShadingModel& shading);
+
+/// with_normals() of place().
 CANDELA_API Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Transform& transform,
                             const ShadingModel& shading);
 

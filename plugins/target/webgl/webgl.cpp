@@ -18,6 +18,7 @@
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 #include "candela/target_plugin.h"
+#include "page_arrays.h"
 #include "picture.h"
 
 CANDELA_EMBED(candela_webgl_page, CANDELA_SOURCE_DIR "/templates/page.html");
@@ -149,35 +150,29 @@ Json values_json(const ExportedModel& model, const ExportedValues& values) {
     return result;
 }
 
-template <class T>
-std::string packed(std::span<const T> values) {
-    return base64(std::as_bytes(values));
-}
-
-template <class Arrays>
-Json packed(const Arrays& arrays, std::size_t count) {
-    return arrays ? Json(packed(std::span<const float>(interleaved(arrays, count)))) : Json();
-}
-
-Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh) {
+Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh, PageArrays& arrays) {
     const std::size_t count = mesh.vertex_count;
+    const auto put = [&](const auto& vectors) {
+        return vectors ? Json(arrays.put(std::as_bytes(std::span<const float>(interleaved(vectors, count)))))
+                       : Json();
+    };
     Json normals = Json::array(), normals_of = Json::object();
-    for (const ConstVec3Span& set : mesh.normals) normals.push_back(packed(set, count));
+    for (const ConstVec3Span& set : mesh.normals) normals.push_back(put(set));
     for (std::size_t i = 0; i < scene.shadings.size(); ++i)
         normals_of[scene.shadings[i].plugin->name] = mesh.normals_of[i];
     return {{"vertices", count},
             {"triangles", mesh.triangle_count()},
-            {"indices", packed(mesh.indices)},
-            {"position", packed(mesh.position, count)},
+            {"indices", arrays.put(std::as_bytes(mesh.indices))},
+            {"position", put(mesh.position)},
             {"normals", std::move(normals)},
             {"normals_of", std::move(normals_of)},
-            {"uv", scene.needs_uv ? packed(mesh.uv, count) : Json()},
-            {"dpdu", scene.needs_derivatives ? packed(mesh.dpdu, count) : Json()},
-            {"dpdv", scene.needs_derivatives ? packed(mesh.dpdv, count) : Json()},
-            {"color", packed(mesh.color, count)}};
+            {"uv", scene.needs_uv ? put(mesh.uv) : Json()},
+            {"dpdu", scene.needs_derivatives ? put(mesh.dpdu) : Json()},
+            {"dpdv", scene.needs_derivatives ? put(mesh.dpdv) : Json()},
+            {"color", put(mesh.color)}};
 }
 
-Json object_json(const ExportedScene& scene, std::size_t index) {
+Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arrays) {
     const ExportedObject& object = scene.objects[index];
     Json materials = Json::object(), shadings = Json::object();
     Json fixed_materials = Json::object(), fixed_shadings = Json::object();
@@ -203,12 +198,12 @@ Json object_json(const ExportedScene& scene, std::size_t index) {
             {"texture",
              object.color_texture == ExportedObject::k_no_texture ? Json() : Json(object.color_texture)},
             {"texture_repeats", object.color_texture_repeats},
-            {"mesh", mesh_json(scene, mesh)}};
+            {"mesh", mesh_json(scene, mesh, arrays)}};
 }
 
 /// The pictures, of which the page makes the levels. Throws std::runtime_error where they are too large for a
 /// page: browsers read one of a hundred megabytes, and none of a few hundred.
-Json textures_json(const ExportedScene& scene) {
+Json textures_json(const ExportedScene& scene, PageArrays& arrays) {
     constexpr std::size_t k_most_bytes = std::size_t{96} << 20;
     Json textures = Json::array();
     std::size_t bytes = 0;
@@ -224,7 +219,7 @@ Json textures_json(const ExportedScene& scene) {
                             {"width", pixels.width},
                             {"height", pixels.height},
                             {"encoded", pixels.is_encoded},
-                            {"pixels", base64(pixels.bytes)}});
+                            {"pixels", arrays.put(pixels.bytes)}});
     }
     return textures;
 }
@@ -250,7 +245,8 @@ Json observer_json(const ExportedObserver& observer) {
             {"height", observer.height}};
 }
 
-Json scene_json(const ExportedScene& scene) {
+/// The arrays that it names are put where they belong.
+Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
     const GlslParts glsl = glsl_of(scene);
     Json lights = Json::array(), objects = Json::array();
     Json light_models = Json::object(), reflections = Json::object(), shadings = Json::object();
@@ -279,7 +275,9 @@ Json scene_json(const ExportedScene& scene) {
         model["rate"] = rate_name(scene.shadings[i].rate);
         model["sees_triangle"] = scene.shadings[i].needs.triangle;
     }
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) objects.push_back(object_json(scene, i));
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) objects.push_back(object_json(scene, i, arrays));
+    const std::string tables = arrays.put(std::as_bytes(scene.tables));
+    Json textures = textures_json(scene, arrays);
     return {{"title", scene.title},
             {"candela", CANDELA_PLUGIN_VERSION},
             {"image", image_json(scene.image)},
@@ -297,14 +295,15 @@ Json scene_json(const ExportedScene& scene) {
               {"encode", glsl.encode},
               {"lobe", std::string(candela_webgl_lobe)}}},
             {"light_table_width", k_light_table_width},
-            {"tables", packed(scene.tables)},
+            {"tables", tables},
             {"table_width", k_table_width},
-            {"textures", textures_json(scene)},
+            {"textures", std::move(textures)},
             {"lights", std::move(lights)},
             {"light_models", std::move(light_models)},
             {"reflection_models", std::move(reflections)},
             {"shading_models", std::move(shadings)},
-            {"objects", std::move(objects)}};
+            {"objects", std::move(objects)},
+            {"arrays", arrays.names()}};
 }
 
 /// Bytes that are not UTF-8 are replaced.
@@ -318,11 +317,14 @@ class WebGlTarget final : public Target {
         return {.triangle = true, .vertex_colors = true, .textures = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override {
+        PageArrays arrays;
+        const std::string json = text_of(scene_json(scene, arrays));
         target::write(files, main_file(),
                       filled(candela_webgl_page,
                              {{"TITLE", html_text(scene.title)},
                               {"STYLE", std::string(candela_webgl_style) + candela_webgl_editor_style},
-                              {"SCENE", script_json(text_of(scene_json(scene)))},
+                              {"SCENE", script_json(json)},
+                              {"ARRAYS", arrays.html()},
                               {"CODEMIRROR", candela_webgl_codemirror},
                               {"SCRIPT", candela_webgl_script}}));
     }

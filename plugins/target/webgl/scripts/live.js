@@ -1,16 +1,29 @@
+import { addArray, hasArray, keepArrays } from "./arrays.js";
 import { announce, showNotice, showSceneProblems } from "./messages.js";
-import { readSceneFrom } from "./scene.js";
 
 const RETRY_MS = 1000;
+const MOST_PARTS = 50;  // in one request, whose length is limited
 const ENDED = "candela view has ended, or cannot be reached; this is the last picture.";
 
-/** The scene of another generation of this page, from the server of this one. */
-async function fetchScene(generation) {
-    const response = await fetch(`?live=${generation}`);
-    if (!response.ok) throw new Error(`The scene cannot be fetched (${response.status}).`);
-    // The server may have gone further meanwhile, and has led to what is newest.
+/** Texts of elements of another generation of this page; null if the server has gone on to a newer one, which has no such elements. */
+async function fetchParts(generation, ids) {
+    const response = await fetch([`?live=${generation}`, ...ids.map((id) => `part=${id}`)].join("&"));
     const newest = Number(new URL(response.url).searchParams.get("live"));
-    return { scene: readSceneFrom(await response.text()), generation: newest };
+    if (!response.ok && newest === generation) throw new Error(`The scene cannot be fetched (${response.status}).`);
+    return { generation: newest, texts: response.ok ? (await response.text()).split("\n") : null };
+}
+
+/** The scene of another generation of this page, or of a newer one, with the arrays that this page has not had. */
+async function fetchScene(wanted) {
+    const { generation, texts } = await fetchParts(wanted, ["scene"]);
+    const scene = JSON.parse(texts[0]);
+    const missing = scene.arrays.filter((name) => !hasArray(name));
+    for (let i = 0; i < missing.length; i += MOST_PARTS) {
+        const names = missing.slice(i, i + MOST_PARTS), arrays = await fetchParts(generation, names);
+        if (arrays.generation !== generation) return fetchScene(arrays.generation);
+        names.forEach((name, k) => addArray(name, arrays.texts[k]));
+    }
+    return { scene, generation };
 }
 
 /** Whether `candela view` serves the page: the address then says of which generation it is. */
@@ -32,6 +45,7 @@ export function followScene(show, onError) {
                 const { scene, generation } = await fetchScene(wanted);
                 isMissing = false;
                 show(scene);
+                keepArrays(scene.arrays);
                 shown = generation;
                 history.replaceState(null, "", `?live=${shown}${location.hash}`);
                 announce("The scene's file has been saved; this is what it shows now.");

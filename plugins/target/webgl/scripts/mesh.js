@@ -1,4 +1,4 @@
-import { decodeFloats, decodeIndices } from "./base64.js";
+import { floatsOf, indicesOf } from "./arrays.js";
 import { cross, normalize, subtract } from "./vectors.js";
 
 /** The vertex shader's inputs, in the order of their locations. */
@@ -20,7 +20,7 @@ function boundsOf(positions) {
 }
 
 /** The box around an object of the scene. */
-export const boxOf = ({ mesh }) => boundsOf(decodeFloats(mesh.position));
+export const boxOf = ({ mesh }) => boundsOf(floatsOf(mesh.position));
 
 function expandIndexed(values, indices, size) {
     const result = new Float32Array(indices.length * size);
@@ -75,9 +75,9 @@ export class Mesh {
         this.gl = gl;
         this.users = 0;  // renderers
         this.mesh = mesh;
-        this.indices = decodeIndices(mesh.indices);
+        this.indices = indicesOf(mesh.indices);
         this.vertexCount = this.indices.length;
-        const positions = decodeFloats(mesh.position);
+        const positions = floatsOf(mesh.position);
         this.bounds = boundsOf(positions);
         this.positions = expandIndexed(positions, this.indices, 3);
         this.buffers = new Map();
@@ -118,9 +118,9 @@ export class Mesh {
         if (name === "barycentric") return Float32Array.from({ length: 3 * this.vertexCount }, (_, i) => (i % 9) % 4 === 0);
         if (name.startsWith("normals ")) {
             const normalSet = Number(name.slice("normals ".length));
-            return expandIndexed(decodeFloats(this.mesh.normals[normalSet]), this.indices, 3);
+            return expandIndexed(floatsOf(this.mesh.normals[normalSet]), this.indices, 3);
         }
-        return expandIndexed(decodeFloats(this.mesh[name]), this.indices, name === "uv" ? 2 : 3);
+        return expandIndexed(floatsOf(this.mesh[name]), this.indices, name === "uv" ? 2 : 3);
     }
 
     buffer(name) {

@@ -1,12 +1,6 @@
-/** The scene as the generator wrote it. */
+/** The scene as the generator wrote it; its arrays are apart (arrays.js). */
 export function readScene() {
     return JSON.parse(document.getElementById("scene").textContent);
-}
-
-/** The scene of a page's HTML, in which no "<" is part of the scene. Quicker than to have the browser make a document of it. */
-export function readSceneFrom(html) {
-    const begin = html.indexOf(">", html.indexOf('id="scene"')) + 1;
-    return JSON.parse(html.slice(begin, html.indexOf("</script>", begin)));
 }
 
 /** A label without the quotation marks that messages put around names. */

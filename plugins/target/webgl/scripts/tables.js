@@ -1,10 +1,10 @@
-import { decodeFloats } from "./base64.js";
+import { floatsOf } from "./arrays.js";
 
 /** The numbers of the models' tables as shaders read them: a texture with a texel for each. They never change. */
 export class Tables {
     constructor(gl, scene) {
         this.gl = gl;
-        const width = scene.table_width, numbers = decodeFloats(scene.tables);
+        const width = scene.table_width, numbers = floatsOf(scene.tables);
         const height = Math.max(1, Math.ceil(numbers.length / width));
         if (height > gl.getParameter(gl.MAX_TEXTURE_SIZE)) throw new Error("This device's graphics have no room for so large tables.");
         const texels = new Float32Array(width * height);

@@ -1,11 +1,11 @@
-import { decodeBase64 } from "./base64.js";
+import { bytesOf } from "./arrays.js";
 import { decodeColor } from "./colors.js";
 
 const ONE = 65535;  // an intensity of 1
 
 /** The texels of a picture of the scene: red, green, blue, and nothing. */
 function texelsOf({ width, height, encoded, pixels }, isSrgb) {
-    const bytes = decodeBase64(pixels), texels = new Uint16Array(4 * width * height);
+    const bytes = bytesOf(pixels), texels = new Uint16Array(4 * width * height);
     const intensities = Uint16Array.from({ length: 256 }, (_, byte) => Math.round(ONE * decodeColor([byte], isSrgb)[0]));
     for (let to = 0, from = 0; to < texels.length; to += 4) {
         for (let channel = 0; channel < 3; ++channel, ++from)

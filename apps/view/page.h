@@ -1,0 +1,30 @@
+// A page as a target has written it, and what its script elements hold.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace view {
+
+/// Immutable, so that any thread may read it.
+class Page {
+  public:
+    explicit Page(std::string html);
+    // Its parts point into its text.
+    Page(const Page&) = delete;
+    Page& operator=(const Page&) = delete;
+
+    const std::string& html() const noexcept { return html_; }
+    /// The text of the script element of that id. A page that is open asks for it when the scene is another
+    /// one, instead of for everything.
+    std::optional<std::string_view> part(std::string_view id) const;
+
+  private:
+    std::string html_;
+    std::map<std::string_view, std::string_view, std::less<>> parts_;
+};
+
+}  // namespace view

@@ -1,0 +1,36 @@
+// The long arrays of a page: vertices, pictures, tables.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace candela::webgl_target {
+
+/// Each is the text of an element of its own, and the scene's JSON has its name, which is made from its
+/// bytes. So a page that shows an earlier state of the scene fetches, decodes and uploads only what is new to
+/// it, and equal arrays are there once.
+class PageArrays {
+  public:
+    /// Returns the array's name.
+    std::string put(std::span<const std::byte> bytes);
+
+    /// Each once, in the order in which they came.
+    const std::vector<std::string>& names() const { return names_; }
+    /// A script element for each: its id is the name, its text base64.
+    const std::string& html() const { return html_; }
+
+  private:
+    struct Place {
+        std::size_t begin, size;  // in html_
+    };
+
+    std::vector<std::string> names_;
+    std::map<std::string, Place> places_;
+    std::string html_;
+};
+
+}  // namespace candela::webgl_target
