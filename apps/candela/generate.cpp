@@ -35,6 +35,23 @@ void write_inputs(const SceneToExport& scene, const std::string& file) {
                              names.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+/// For who reads it as it comes, and wants no file.
+void print(const std::vector<candela::ExportedFile>& files, const std::string& target) {
+    if (files.size() != 1)
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("target/{} writes {} files, and --output - prints one; give a folder", target,
+                                files.size()));
+    std::cout << files.front().content << std::flush;
+}
+
+std::string sizes_of(const std::vector<candela::ExportedFile>& files, const fs::path& directory) {
+    std::string text;
+    for (const candela::ExportedFile& file : files)
+        text += fmt::format("{}: {}\n", (directory / file.name).string(),
+                            candela::size_text(file.content.size()));
+    return text;
+}
+
 }  // namespace
 
 int run_generate(const std::vector<std::string>& arguments) {
@@ -47,7 +64,8 @@ int run_generate(const std::vector<std::string>& arguments) {
                          "`candela verify` shows that its picture is Candela's.");
     const std::string help = "what to write: " + any;
     line.options()("target,t", po::value<std::string>()->value_name("NAME"), help.c_str())(
-        "output,o", po::value<std::string>()->value_name("DIR"), "the output folder; default: scene-NAME")(
+        "output,o", po::value<std::string>()->value_name("DIR"),
+        "the output folder; default: scene-NAME; - prints the file of a target that writes one")(
         "inputs", po::value<std::string>()->value_name("FILE"),
         "also write the names of all files that the scene is made from, as a JSON array")(
         "build", "also build it")("run", "build it and run it: a picture, a window, or a browser");
@@ -63,22 +81,25 @@ int run_generate(const std::vector<std::string>& arguments) {
     const fs::path directory =
         line.has("output") ? line.get<std::string>("output") : fmt::format("scene-{}", target.name());
 
+    const bool is_printed = directory == "-";
+    if (is_printed && (line.has("build") || line.has("run")))
+        throw Error(ErrorCategory::bad_request,
+                    "what --output - prints cannot be built or run; give a folder");
+
     candela::Diagnostics diagnostics;
     const auto scene = scene_to_export(line, registry, diagnostics);
     report(diagnostics);
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));
     const auto exported = export_for(target, *scene, line, registry);
     const std::vector<candela::ExportedFile> files = program_for(target, exported, line).files;
-    require_no_input_in(directory, names_of(files), *scene, "output");
-    write_program(files, directory);
+    if (is_printed) {
+        print(files, target.name());
+    } else {
+        require_no_input_in(directory, names_of(files), *scene, "output");
+        write_program(files, directory);
+    }
     if (line.has("inputs")) write_inputs(*scene, line.get<std::string>("inputs"));
-    say_afterwards([&] {
-        std::string text;
-        for (const candela::ExportedFile& file : files)
-            text += fmt::format("{}: {}\n", (directory / file.name).string(),
-                                candela::size_text(file.content.size()));
-        return text;
-    });
+    if (!is_printed) say_afterwards([&] { return sizes_of(files, directory); });
     if (line.has("build") || line.has("run")) target.build(directory);
     return line.has("run") ? target.show(directory) : 0;
 }

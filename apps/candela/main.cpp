@@ -1,5 +1,6 @@
 // candela VERB …: composes lights, shapes, shading and reflection models by name.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <array>
 #include <cstdlib>
@@ -110,6 +111,13 @@ int run(const std::vector<std::string>& arguments) {
                                                         meant.empty() ? "candela --help shows all" : meant));
 }
 
+/// Arrays of a mesh or a picture are made and freed one after the other. Memory that goes back to the system
+/// in between comes back page by page, cleared: a sixth of the time that it takes to make a page of a scene.
+void keep_freed_memory() {
+    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
+}
+
 }  // namespace
 
 std::span<const Verb> verbs() { return k_verbs; }
@@ -124,5 +132,6 @@ bool complete_verb(const std::vector<std::string>& arguments, std::span<const Ve
 
 int main(int argc, char** argv) {
     prepare_for_signals();
+    keep_freed_memory();
     return run_and_report([&] { return run({argv + 1, argv + argc}); });
 }

@@ -130,7 +130,6 @@ int run_view(const std::vector<std::string>& arguments) {
     std::optional<SceneFollower> follower(std::in_place,
                                           SceneFollower::Job{.arguments = for_generate,
                                                              .target = target.name(),
-                                                             .main_file = target.main_file(),
                                                              .scenes = line.all("scene"),
                                                              .plugin_folders = registry.search_path()},
                                           [&](view::Publication publication) {

@@ -8,7 +8,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -40,16 +39,6 @@ std::vector<fs::path> names_listed_in(const fs::path& list) {
     for (const auto& name : nlohmann::json::parse(content_of(list)))
         names.emplace_back(name.get<std::string>());
     return names;
-}
-
-/// Where the page was written to is nothing that a person should know.
-std::string without_lines_about(const fs::path& folder, const std::string& text) {
-    std::string rest;
-    std::istringstream lines(text);
-    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
-    for (std::string line; std::getline(lines, line);)
-        if (!line.starts_with(folder.string())) rest += line + "\n";
-    return rest;
 }
 
 std::vector<std::string> options_of(const std::vector<view::Change>& changes) {
@@ -156,29 +145,27 @@ void SceneFollower::watch(bool is_right) {
 }
 
 bool SceneFollower::make_page() {
-    const fs::path output = folder_.path() / "page", inputs = folder_.path() / "inputs.json";
+    const fs::path inputs = folder_.path() / "inputs.json";
     const Stopwatch watch;
-    const candela::ProgramOutput result =
+    candela::ProgramOutput result =
         run_verb({"generate"}, job_.arguments,
-                 {"--target", job_.target, "--output", output.string(), "--inputs", inputs.string()});
+                 {"--target", job_.target, "--output", "-", "--inputs", inputs.string()});
     if (is_ending_) return false;
-    const std::string messages = without_lines_about(folder_.path(), result.err);
     // While it has errors, the scene's whole folder is watched, and much may happen there.
-    const bool is_news = messages != latest_.problems;
-    latest_.problems = messages;
+    const bool is_news = result.err != latest_.problems;
+    latest_.problems = result.err;
     const bool is_right = result.exit_code == 0;
     if (is_right) {
         inputs_ = names_listed_in(inputs);
-        std::string page = content_of(output / job_.main_file);
         // Saved as it was: pages that have been made already are not made again.
-        if (latest_.page == nullptr || page != latest_.page->html()) {
-            latest_.page = std::make_shared<const view::Page>(std::move(page));
+        if (latest_.page == nullptr || result.out != latest_.page->html()) {
+            latest_.page = std::make_shared<const view::Page>(std::move(result.out));
             ++latest_.generation;
         }
         latest_.problems.clear();
-        say(fmt::format("{}shown after {:.0f} ms\n", messages, watch.milliseconds()));
+        say(fmt::format("{}shown after {:.0f} ms\n", result.err, watch.milliseconds()));
     } else if (is_news) {
-        say(messages);
+        say(result.err);
     }
     if (is_news || is_right) publish_(latest_);
     return is_right;

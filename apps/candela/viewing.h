@@ -48,7 +48,6 @@ class SceneFollower {
     struct Job {
         std::vector<std::string> arguments;  // of `candela generate`, without target and output
         std::string target;
-        std::string main_file;
         std::vector<std::string> scenes;
         std::vector<std::filesystem::path> plugin_folders;
     };

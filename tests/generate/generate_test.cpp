@@ -73,6 +73,24 @@ TEST_CASE(
     CHECK(source.find('@') == std::string::npos);
 }
 
+TEST_CASE("generate: -o - prints the file that a target writes, byte for byte, and nothing beside it") {
+    const fs::path directory = scratch_directory();
+    generate({"--target", "webgl", "-o", directory.string()});
+    const CommandResult page = run_candela({"generate", "--target", "webgl", "-o", "-"});
+    CHECK(page.exit_code == 0);
+    CHECK((page.out == read_file(directory / "scene.html")));
+    CHECK(page.err.empty());
+
+    const CommandResult program = run_candela({"generate", "--target", "opengl", "-o", "-"});
+    CHECK(program.exit_code == 2);
+    CHECK(program.out.empty());
+    CHECK(program.err.find("target/opengl writes") != std::string::npos);
+    CHECK(program.err.find("give a folder") != std::string::npos);
+    const CommandResult built = run_candela({"generate", "--target", "webgl", "-o", "-", "--run"});
+    CHECK(built.exit_code == 2);
+    CHECK(built.err.find("give a folder") != std::string::npos);
+}
+
 TEST_CASE(
     "generate: the C++ programs compile with g++ and clang++ without a warning, and give the same picture") {
     const fs::path directory = scratch_directory();

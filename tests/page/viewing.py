@@ -310,6 +310,46 @@ class Viewing(unittest.TestCase):
         self.assertEqual(self.browser.text("#explanation-result"), "")
         self.assertEqual(self.browser.errors(), [])
 
+    def test_a_pixel_of_another_pane_is_explained_with_what_that_pane_shows(self):
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.enter("#panes-layout", "two")
+        self.browser.enter('[data-path="pane.1.reflection"] select', "toon")
+        self.browser.unfold_all()
+        self.browser.enter('[data-path="object.0.color"] input', "#20c040")
+        pictures = []
+        for options in ((), ("--reflection", "toon")):
+            candela("render", self.file, "-o", self.folder / "pane.ppm", "--set", "object.0.color=[32,192,64]", *options)
+            pictures.append(Picture.of_ppm(self.folder / "pane.ppm"))
+        byte = lambda picture, x, y: list(picture.pixels[3 * (y * picture.width + x):][:3])
+        one, toon = pictures
+        different = [(x, y) for y in range(one.height) for x in range(one.width) if byte(one, x, y) != byte(toon, x, y)]
+        aim = different[len(different) // 2]
+        for index, selector, picture in ((1, "canvas.pane", toon), (0, "#picture-canvas", one)):
+            canvas = self.browser.one(selector)
+            size = self.browser.run("const box = arguments[0].getBoundingClientRect(); return [box.width, box.height];", canvas)
+            offset = [(at + 0.5) / whole * side - side / 2 for at, whole, side in zip(aim, (picture.width, picture.height), size)]
+            self.browser.run("arguments[0].scrollIntoView()", canvas)
+            ActionChains(self.browser.driver).move_to_element_with_offset(canvas, *map(round, offset)).click().perform()
+            shown = self.explained()
+            x, y = (int(self.browser.run(f"return document.getElementById('explanation-{axis}').value")) for axis in "xy")
+            self.assertEqual(shown, byte(picture, x, y), f"pane {index}")
+            self.assertIn(f"Pane {'AB'[index]}, pixel {x}, {y}", self.browser.text("#explanation-result"))
+            off = self.browser.run("""
+                const origin = document.querySelector(".arrow-origin").getBoundingClientRect(), canvas = arguments[0].getBoundingClientRect();
+                return [origin.x + origin.width / 2 - canvas.x - canvas.width / 2, origin.y + origin.height / 2 - canvas.y - canvas.height / 2];""", canvas)
+            self.assertLess(max(abs(a - b) for a, b in zip(off, offset)), 6)
+        # By the keyboard, too.
+        self.browser.enter("#explanation-pane", "1")
+        for axis, at in zip("xy", aim):
+            self.browser.enter(f"#explanation-{axis}", str(at))
+        self.browser.one("#explanation-y").send_keys(Keys.ENTER)
+        self.assertEqual(self.explained(), byte(toon, *aim))
+        # With one picture, there is no other to choose.
+        self.browser.enter("#panes-layout", "one")
+        self.assertFalse(self.browser.one("#explanation-pane").is_displayed())
+        self.assertEqual(self.browser.errors(), [])
+
     def test_lobes_are_what_the_model_reflects_of_a_light_in_all_directions(self):
         self.file.write_text(scenes.PERSPECTIVE.replace("blinn-phong", "phong"))
         x, y = 54, 60

@@ -2,6 +2,7 @@ module;
 
 #include <fmt/format.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #define BOOST_PROCESS_USE_STD_FS
 #include <boost/process/args.hpp>
@@ -10,9 +11,9 @@ module;
 #include <boost/process/io.hpp>
 #include <boost/process/pipe.hpp>
 #include <boost/process/search_path.hpp>
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
-#include <iterator>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -60,7 +61,17 @@ int exit_code_of(process::child& child) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string rest_of(process::ipstream& stream) { return {std::istreambuf_iterator<char>(stream), {}}; }
+/// In large pieces: a stream would read a kilobyte at a time.
+std::string all_of(process::ipstream& stream) {
+    std::string text;
+    std::vector<char> piece(std::size_t{1} << 16);
+    for (;;) {
+        const ssize_t count = ::read(stream.pipe().native_source(), piece.data(), piece.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return text;
+        text.append(piece.data(), static_cast<std::size_t>(count));
+    }
+}
 
 }  // namespace
 
@@ -88,8 +99,8 @@ ProgramOutput run_program(const std::vector<std::string>& words) {
     lock.unlock();
     ProgramOutput output;
     // A program that fills one pipe waits for its reader, so both are read at once.
-    std::thread reader([&] { output.err = rest_of(err); });
-    output.out = rest_of(out);
+    std::thread reader([&] { output.err = all_of(err); });
+    output.out = all_of(out);
     reader.join();
     output.exit_code = exit_code_of(child);
     return output;

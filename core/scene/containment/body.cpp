@@ -8,6 +8,7 @@ module;
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -86,7 +87,6 @@ struct Body::Surface {
     std::vector<Vector3d> position;  // shrunk
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint32_t> parts;  // one vertex of each connected part
-    Eigen::KdBVH<double, 3, std::uint32_t> tree;
     AlignedBox box;
     OrientedBox oriented;
     double margin = 0;  // by which the surface was shrunk
@@ -103,12 +103,31 @@ struct Body::Surface {
         return result;
     }
 
+    using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;
+
+    /// Of the triangles. Made when it is first asked for: boxes tell most bodies apart. Any thread.
+    const Tree& tree() const;
     void draw_inwards();
     double signed_volume() const;
     std::optional<int> crossings(const Vector3d& point, const Vector3d& direction) const;
     double solid_angle(const Vector3d& point) const;
     bool contains(const Vector3d& point) const;
+
+  private:
+    mutable std::once_flag has_tree_;
+    mutable Tree tree_;
 };
+
+const Body::Surface::Tree& Body::Surface::tree() const {
+    std::call_once(has_tree_, [this] {
+        std::vector<std::uint32_t> numbers(triangles.size());
+        std::iota(numbers.begin(), numbers.end(), 0u);
+        std::vector<AlignedBox> boxes(triangles.size());
+        std::ranges::transform(numbers, boxes.begin(), [this](std::uint32_t i) { return box_of(i); });
+        tree_.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
+    });
+    return tree_;
+}
 
 double Body::Surface::signed_volume() const {
     const Vector3d centre = box.center();
@@ -193,7 +212,7 @@ std::optional<int> Body::Surface::crossings(const Vector3d& point, const Vector3
         }
     };
     Ray ray{*this, point, direction};
-    Eigen::BVIntersect(tree, ray);
+    Eigen::BVIntersect(tree(), ray);
     return ray.undecided ? std::nullopt : std::optional(ray.count);
 }
 
@@ -249,19 +268,14 @@ Body::Body(ConstVec3Span position, std::size_t vertex_count, std::span<const std
     s.draw_inwards();
 
     std::vector<bool> seen(vertex_count);
-    std::vector<std::uint32_t> numbers(s.triangles.size());
-    std::vector<AlignedBox> boxes(s.triangles.size());
     s.box.setEmpty();
-    for (std::uint32_t i = 0; i < numbers.size(); ++i) {
+    for (std::uint32_t i = 0; i < s.triangles.size(); ++i) {
         const std::uint32_t part = parts.of(s.triangles[i][0]);
         if (!seen[part]) s.parts.push_back(part);
         seen[part] = true;
-        numbers[i] = i;
-        boxes[i] = s.box_of(i);
-        s.box.extend(boxes[i]);
+        s.box.extend(s.box_of(i));
     }
     s.oriented = oriented_box(used(s.position, s.triangles));
-    s.tree.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
 }
 
 Body::Body(Body&&) noexcept = default;
@@ -303,7 +317,7 @@ bool overlap(const Body& a_body, const Body& b_body) {
         }
     };
     Crossing crossing{a, b, shift};
-    Eigen::BVIntersect(a.tree, b.tree, crossing);
+    Eigen::BVIntersect(a.tree(), b.tree(), crossing);
     if (crossing.found) return true;
     // Neither surface crosses the other, so each connected part is entirely inside or entirely outside.
     const auto holds_part = [](const Surface& body, const Surface& other, const Vector3d& moved) {

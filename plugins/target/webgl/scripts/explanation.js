@@ -5,6 +5,7 @@ import { Lobes } from "./lobes.js";
 import { announce } from "./messages.js";
 import { queryOf } from "./options.js";
 import { layOver, onMoved } from "./overlay.js";
+import { PANE_NAMES } from "./panes.js";
 import { nameOf } from "./scene.js";
 
 const CLICK_DISTANCE = 4;  // in CSS pixels: a pointer that moves farther turns the scene
@@ -38,9 +39,9 @@ function steps(title, list) {
 export class Explanation {
     /** `renderer`: gives the one that draws the page now. */
     constructor(settings, canvas, renderer) {
-        Object.assign(this, { settings, canvas, request: 0 });
+        Object.assign(this, { allSettings: settings, first: canvas, request: 0 });
         const byId = (id) => document.getElementById(id);
-        Object.assign(this, { section: byId("explanation"), x: byId("explanation-x"), y: byId("explanation-y"), result: byId("explanation-result"), closing: byId("explanation-close"), arrows: arrowLayer() });
+        Object.assign(this, { section: byId("explanation"), x: byId("explanation-x"), y: byId("explanation-y"), result: byId("explanation-result"), closing: byId("explanation-close"), arrows: arrowLayer(), pane: byId("explanation-pane") });
         this.lobes = new Lobes(settings, canvas, renderer);
         canvas.parentElement.append(this.arrows);
         this.section.hidden = false;
@@ -53,20 +54,37 @@ export class Explanation {
             if (event.key === "Escape") this.clear();
         });
         let from = null;
-        canvas.addEventListener("pointerdown", (event) => { from = event.isPrimary && event.button === 0 ? [event.clientX, event.clientY] : null; });
-        canvas.addEventListener("click", (event) => {
-            if (from !== null && Math.hypot(event.clientX - from[0], event.clientY - from[1]) <= CLICK_DISTANCE) this.explainAt(event);
+        const area = canvas.parentElement;
+        area.addEventListener("pointerdown", (event) => { from = event.isPrimary && event.button === 0 ? [event.clientX, event.clientY] : null; });
+        area.addEventListener("click", (event) => {
+            const pane = this.pictures().indexOf(event.target);
+            if (pane >= 0 && from !== null && Math.hypot(event.clientX - from[0], event.clientY - from[1]) <= CLICK_DISTANCE) this.explainAt(pane, event);
         });
-        onMoved(this.arrows, canvas, () => layOver(this.arrows, canvas));
+        onMoved(this.arrows, canvas, () => layOver(this.arrows, this.canvas));
         settings.listeners.push(() => this.clear());
         this.fit();
     }
 
-    /** The picture may have another size now. */
+    /** That of the first pane, and those beside it. */
+    pictures() {
+        return [this.first, ...this.first.parentElement.querySelectorAll("canvas.pane")];
+    }
+
+    /** There may be other pictures now, of another size. */
     fit() {
-        const { width, height } = this.settings.scene.image;
+        const { width, height } = this.allSettings.scene.image, count = this.pictures().length;
         this.x.max = width - 1;
         this.y.max = height - 1;
+        if (count !== this.pane.options.length) this.pane.replaceChildren(...PANE_NAMES.slice(0, count).map((name, i) => element("option", { value: i }, name)));
+        this.pane.parentElement.hidden = count === 1;
+        this.use(Number(this.pane.value));
+    }
+
+    /** From now on, it is about that pane's picture, and the values that it shows. */
+    use(pane) {
+        this.pane.value = pane;
+        Object.assign(this, { settings: this.allSettings.inPane(pane), canvas: this.pictures()[pane] });
+        this.lobes.use(this.settings, this.canvas);
     }
 
     /** What was explained is not what is shown any more. */
@@ -79,7 +97,9 @@ export class Explanation {
         this.closing.hidden = true;
     }
 
-    explainAt({ clientX, clientY }) {
+    explainAt(pane, { clientX, clientY }) {
+        this.pane.value = pane;
+        this.fit();
         const { width, height } = this.settings.scene.image, box = this.canvas.getBoundingClientRect();
         const pixel = (at, begin, size, count) => Math.max(0, Math.min(count - 1, Math.floor(((at - begin) / size) * count)));
         this.explain(pixel(clientX, box.left, box.width, width), pixel(clientY, box.top, box.height, height));
@@ -92,7 +112,7 @@ export class Explanation {
         this.result.append(element("p", {}, "Candela explains …"));
         let explanation = null, problem = "";
         try {
-            const changes = queryOf(this.settings);
+            const changes = queryOf(this.allSettings, Number(this.pane.value));
             const response = await fetch(`explanation.json?pixel=${x}%2C${y}${changes === "" ? "" : `&${changes}`}`);
             if (response.ok) explanation = await response.json();
             else problem = await response.text();
@@ -107,12 +127,13 @@ export class Explanation {
 
     show(explanation) {
         const { bytes, fragments } = explanation, [x, y] = explanation.pixel;
-        this.result.replaceChildren(element("p", {}, `Pixel ${x}, ${y}: `, element("b", { class: "bytes" }, bytes.join(", "))), this.pixelTable(explanation), encodingAt(explanation));
+        const pixel = `${this.pictures().length === 1 ? "Pixel" : `Pane ${PANE_NAMES[this.pane.value]}, pixel`} ${x}, ${y}`;
+        this.result.replaceChildren(element("p", {}, `${pixel}: `, element("b", { class: "bytes" }, bytes.join(", "))), this.pixelTable(explanation), encodingAt(explanation));
         if (explanation.note) this.result.append(element("p", { class: "reference" }, explanation.note));
         const shown = element("div");
         if (fragments.length === 0) this.result.append(element("p", {}, "No object is seen here: this is the background."));
         else this.result.append(...this.choice("Triangle", fragments.map((f) => `${nameOf(f.object)}, triangle ${f.triangle} (${number(100 * f.weight)} %)`), (i) => shown.replaceChildren(...this.fragmentParts(fragments[i]))), shown);
-        announce(`Pixel ${x}, ${y} is explained: ${bytes.join(", ")}.`);
+        announce(`${pixel} is explained: ${bytes.join(", ")}.`);
     }
 
     pixelTable({ I, encoded, bytes, color_management: management }) {

@@ -16,7 +16,12 @@ export class Lobes {
         picture.parentElement.append(this.canvas);
         this.other = "";  // a model to compare with
         this.isLogarithmic = false;
-        onMoved(this.canvas, picture, () => layOver(this.canvas, picture));
+        onMoved(this.canvas, picture, () => layOver(this.canvas, this.picture));
+    }
+
+    /** From now on, they stand in that picture of these settings. */
+    use(settings, picture) {
+        Object.assign(this, { settings, picture });
     }
 
     clear() {

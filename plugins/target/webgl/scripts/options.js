@@ -1,15 +1,23 @@
 /** As TOML, and so as --set takes it: numbers, arrays, truth values and texts. */
 const tomlOf = (value) => JSON.stringify(value);
 
+/** What has been changed, as a pane shows it: pairs of a path and a value. */
+function changesIn(settings, pane) {
+    const prefix = `pane.${pane}.`, all = [...settings.changes];
+    const own = all.filter(([path]) => path.startsWith(prefix)).map(([path, value]) => [path.slice(prefix.length), value]);
+    return new Map([...all.filter(([path]) => !path.startsWith("pane.")), ...own]);
+}
+
 /**
  * What has been changed in the page, as options of `candela render`: pairs of an option's name ("set", "shading", "reflection") and
  * its value. What is shown over the picture and beside it is not of the scene. Values of models that are not in force have no effect, and are left out.
+ * `pane`: whose picture is meant; 0 is the first.
  */
-export function optionsOf(settings) {
-    const { scene } = settings, options = [];
-    for (const [path, value] of settings.changes) {
+export function optionsOf(allSettings, pane = 0) {
+    const settings = allSettings.inPane(pane), { scene } = settings, options = [];
+    for (const [path, value] of changesIn(settings, pane)) {
         const [kind, index, group, ...rest] = path.split(".");
-        if (["show", "panes", "pane"].includes(kind)) continue;
+        if (["show", "panes"].includes(kind)) continue;
         if (kind === "shading" || kind === "reflection") {
             if (value !== "") options.push([kind, value]);
         } else if (kind === "light" && group === "on") {
@@ -28,7 +36,7 @@ export function optionsOf(settings) {
 }
 
 /** The same as a query of an address. */
-export const queryOf = (settings) => optionsOf(settings).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
+export const queryOf = (settings, pane) => optionsOf(settings, pane).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
 
 const quoted = (text) => (/^[\w.,=:+/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 

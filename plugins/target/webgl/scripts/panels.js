@@ -22,6 +22,16 @@ export function disclosure(summary, isOpen, contents) {
     return details;
 }
 
+/** What decides which panels and controls there are; what they show is not part of it. */
+function structureOf(scene) {
+    const shown = ({ title, summary, formula, reference, parameters, presets }) => [title, summary, formula, reference, parameters, presets];
+    const models = ["light_models", "shading_models", "reflection_models"]
+        .map((kind) => Object.entries(scene[kind]).map(([name, model]) => [name, shown(model)]));
+    const objects = scene.objects.map(({ label, shading, reflection }) => [label, shading, reflection]);
+    const lights = scene.lights.map(({ label, model }) => [label, model]);
+    return JSON.stringify([models, objects, lights, scene.observer.projection]);
+}
+
 /** The controls beside the picture: models and their formulas, objects, lights, the observer. */
 export class Panels {
     constructor(settings, controls) {
@@ -44,23 +54,40 @@ export class Panels {
         const wereOpen = new Map(details().map((one) => [summaryOf(one), one.open]));
         const focused = document.activeElement, path = focused?.closest(".setting")?.dataset.path;
         const place = path && [...focused.closest(".setting").querySelectorAll("input, select, button")].indexOf(focused);
-        this.sections = [];
-        for (const panel of panels) panel.replaceChildren(...[...panel.children].filter(({ tagName }) => tagName === "H2"));
-        this.build();
-        for (const one of details()) one.open = wereOpen.get(summaryOf(one)) ?? one.open;
-        const again = path && [...document.querySelectorAll(".setting")].find((setting) => setting.dataset.path === path);
+        if (structureOf(this.scene) === this.structure) {
+            this.refill();
+        } else {
+            this.sections = [];
+            for (const panel of panels) panel.replaceChildren(...[...panel.children].filter(({ tagName }) => tagName === "H2"));
+            this.build();
+            for (const one of details()) one.open = wereOpen.get(summaryOf(one)) ?? one.open;
+        }
+        const again = path && !focused.isConnected && [...document.querySelectorAll(".setting")].find((setting) => setting.dataset.path === path);
         if (again) [...again.querySelectorAll("input, select, button")][place]?.focus();
     }
 
+    /** Makes only those controls anew whose part of the scene is another one: layout takes a browser longer than anything else here. */
+    refill() {
+        for (const one of this.sections) {
+            const content = JSON.stringify(one.contentOf());
+            if (content !== one.content) one.section.refill();
+            one.content = content;
+            one.section.show?.();
+        }
+        this.refreshControls(null);
+        for (const row of document.querySelectorAll(".preset")) row.refresh();
+    }
+
     build() {
+        this.structure = structureOf(this.scene);
         this.fillModels(document.getElementById("models"));
         this.fillFormulas();
         this.fill("objects", this.scene.objects, (object, i) => this.objectSection(object, i));
         this.fill("lights", this.scene.lights, (light, i) => this.lightSection(light, i));
-        const observer = this.settings.observerParameters();
-        document.getElementById("observer").append(
-            disclosure([element("span", { class: "title" }, "Observer")], false, () =>
-                observer.map(({ name }) => this.controls.of(`observer.${name}`, name))));
+        const observer = disclosure([element("span", { class: "title" }, "Observer")], false, () =>
+            this.settings.observerParameters().map(({ name }) => this.controls.of(`observer.${name}`, name)));
+        document.getElementById("observer").append(observer);
+        this.follow(observer, "observer.", () => this.scene.observer);
     }
 
     fill(id, items, make) {
@@ -120,14 +147,15 @@ export class Panels {
             [swatch, element("span", { class: "title" }, isolated(displayName(object.label, "object", i))), models],
             i < INITIALLY_OPEN && this.scene.objects.length <= 3 * INITIALLY_OPEN,
             () => {
+                const { texture } = this.scene.objects[i];
                 const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
                 const of = (kind, model, values) => this.scene[`${kind}_models`][model].parameters.map(({ name }) =>
                     controls.of(`object.${i}.${values}.${model}.${name}`, name));
                 return [
                     presetChoice(settings, `object.${i}.`, reflection),
                     controls.of(`object.${i}.color`, "color"),
-                    object.texture === null ? null
-                        : element("p", { class: "about" }, `The colour is multiplied with the picture ${this.scene.textures[object.texture].title}.`),
+                    texture === null ? null
+                        : element("p", { class: "about" }, `The colour is multiplied with the picture ${this.scene.textures[texture].title}.`),
                     ...of("reflection", reflection, "material"),
                     ...of("shading", shading, "shading"),
                 ].filter((control) => control !== null);
@@ -138,7 +166,11 @@ export class Panels {
             models.textContent = ["reflection", "shading"]
                 .map((kind) => this.scene[`${kind}_models`][settings.modelOf(object, kind)].title).join(" · ");
         };
-        return this.register(section, displayName(object.label, "object", i), `object.${i}.`);
+        const contentOf = () => {
+            const { color, materials, shadings, texture } = this.scene.objects[i];
+            return [color, materials, shadings, texture === null ? null : this.scene.textures[texture].title];
+        };
+        return this.register(section, displayName(object.label, "object", i), `object.${i}.`, contentOf);
     }
 
     lightSection(light, i) {
@@ -160,16 +192,22 @@ export class Panels {
             if (color && settings.find(path)) swatch.style.backgroundColor = toHex(settings.get(path));
             section.classList.toggle("dark", !settings.get(`light.${i}.on`));
         };
-        return element("div", { class: "light" }, lightSwitch, this.register(section, name, `light.${i}.`));
+        return element("div", { class: "light" }, lightSwitch, this.register(section, name, `light.${i}.`, () => this.scene.lights[i].values));
     }
 
-    /** `prefix`: what the paths of the section's settings begin with. */
-    register(section, name, prefix) {
+    /** `prefix`: what the paths of the section's settings begin with. `contentOf`: gives what the scene says of them. */
+    register(section, name, prefix, contentOf) {
         section.querySelector(".body").setAttribute("role", "group");
         section.querySelector(".body").setAttribute("aria-label", name);
-        this.sections.push({ section, prefix });
+        this.follow(section, prefix, contentOf);
         section.show();
         return section;
+    }
+
+    follow(section, prefix, content) {
+        // Sliders reach as far as the scene does.
+        const contentOf = () => [content(), this.controls.extent];
+        this.sections.push({ section, prefix, contentOf, content: JSON.stringify(contentOf()) });
     }
 
     changed(path, isFromControl) {
@@ -177,10 +215,14 @@ export class Panels {
         for (const { section, prefix } of this.sections) {
             // Other models have other parameters. The select that chose the model is elsewhere, so it keeps the focus.
             if (isModelChange && prefix.startsWith("object.")) section.refill();
-            if (isModelChange || path.startsWith(prefix)) section.show();
+            if (isModelChange || path.startsWith(prefix)) section.show?.();
         }
         if (isModelChange) this.fillFormulas();
-        if (isFromControl) return;
+        if (!isFromControl) this.refreshControls(path);
+    }
+
+    /** Of the settings whose path begins so; null stands for any. */
+    refreshControls(path) {
         const isAffected = (control) => path === null || control.dataset.path.startsWith(path);
         for (const control of document.querySelectorAll(".setting")) {
             if (isAffected(control)) control.refresh();

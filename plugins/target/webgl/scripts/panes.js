@@ -8,7 +8,7 @@ import { areEqual } from "./values.js";
 
 const COUNTS = { one: 1, two: 2, three: 3, four: 4, wipe: 2 };
 const LAYOUT_TITLES = { one: "one picture", two: "two pictures", three: "three pictures", four: "four pictures", wipe: "two, one over the other" };
-const NAMES = ["A", "B", "C", "D"];
+export const PANE_NAMES = ["A", "B", "C", "D"];
 const MODELS = ["reflection", "shading"];
 
 /**
@@ -23,7 +23,7 @@ export class Panes {
         this.select = document.getElementById("panes-layout");
         this.share = document.getElementById("panes-share");
         this.section = document.getElementById("panes");
-        this.labels = NAMES.map(() => element("p", { class: "pane-label", "aria-hidden": "true" }));
+        this.labels = PANE_NAMES.map(() => element("p", { class: "pane-label", "aria-hidden": "true" }));
         this.select.append(...Object.entries(LAYOUT_TITLES).map(([value, text]) => element("option", { value }, text)));
         this.select.addEventListener("change", () => this.choose(this.select.value));
         this.share.addEventListener("input", () => this.place());
@@ -114,7 +114,7 @@ export class Panes {
     tell() {
         if (this.panes.length === 0) return;
         [{ index: 0, canvas: null }, ...this.panes].forEach(({ index, canvas }) => {
-            const text = `${NAMES[index]}: ${this.describe(index)}`;
+            const text = `${PANE_NAMES[index]}: ${this.describe(index)}`;
             this.labels[index].replaceChildren(isolated(text));
             canvas?.setAttribute("aria-label", `Pane ${text}`);
         });
@@ -154,7 +154,7 @@ export class Panes {
     paneSection(index, part) {
         const { settings, controls } = this, { scene } = settings, prefix = `pane.${index}.`;
         const title = (text) => element("span", { class: "title" }, text);
-        const models = MODELS.map((kind) => controls.choice(prefix + kind, `${kind === "reflection" ? "Reflection" : "Shading"} model of ${NAMES[index]}`,
+        const models = MODELS.map((kind) => controls.choice(prefix + kind, `${kind === "reflection" ? "Reflection" : "Shading"} model of ${PANE_NAMES[index]}`,
             (name) => (name === "" ? "As the scene says" : scene[`${kind}_models`][name].title)));
         const own = settings.inPane(index);
         const objects = scene.objects.map((object, i) => part(`${index} ${i}`, disclosure([title(isolated(displayName(object.label, "object", i)))], false, () => {
@@ -165,7 +165,7 @@ export class Panes {
             const chosen = presetChoice(settings, `${prefix}object.${i}.`, own.modelOf(object, "reflection"));
             return [chosen, controls.of(`${prefix}object.${i}.color`, "color"), ...of("reflection", "material"), ...of("shading", "shading")].filter((control) => control !== null);
         })));
-        return element("div", { class: "pane-controls", role: "group", "aria-label": `Pane ${NAMES[index]}` }, ...models, ...objects);
+        return element("div", { class: "pane-controls", role: "group", "aria-label": `Pane ${PANE_NAMES[index]}` }, ...models, ...objects);
     }
 
     /** What follows A has its values. */

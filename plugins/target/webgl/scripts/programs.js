@@ -76,6 +76,7 @@ export class ProgramCache {
         this.programs = new Map();
         this.bySource = new Map();
         this.inherited = previous?.bySource ?? new Map();
+        this.lasting = previous?.lasting ?? new Map();  // programs that no scene changes, by their texts
     }
 
     compiled(title, vertexSource, fragmentSource, captured = []) {
@@ -85,6 +86,13 @@ export class ProgramCache {
         program.users += 1;
         this.bySource.set(source, program);
         return program;
+    }
+
+    /** One that stays for as long as its context does: another scene needs it at once. */
+    compiledToLast(title, vertexSource, fragmentSource) {
+        const source = `${vertexSource}\n${fragmentSource}`;
+        if (!this.lasting.has(source)) this.lasting.set(source, new Program(this.gl, title, vertexSource, fragmentSource, []));
+        return this.lasting.get(source).check();
     }
 
     release() {
@@ -119,14 +127,14 @@ export class ProgramCache {
 
     /** A program of the page's own, which has its name. */
     own(name, vertexSource, fragmentSource) {
-        if (!this.programs.has(name)) this.programs.set(name, this.compiled(name, vertexSource, fragmentSource));
-        return this.programs.get(name).check();
+        if (!this.programs.has(name)) this.programs.set(name, this.compiledToLast(name, vertexSource, fragmentSource));
+        return this.programs.get(name);
     }
 
     /** The program of a pass over all pixels, compiled. */
     pass(name) {
         const { screen, [name]: fragment } = this.scene.shaders;
-        if (!this.programs.has(name)) this.programs.set(name, this.compiled(`its pass "${name}"`, screen, fragment));
-        return this.programs.get(name).check();
+        if (!this.programs.has(name)) this.programs.set(name, this.compiledToLast(`its pass "${name}"`, screen, fragment));
+        return this.programs.get(name);
     }
 }

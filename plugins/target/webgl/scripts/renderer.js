@@ -19,7 +19,7 @@ export class Renderer {
         this.gl = gl;
         this.scene = scene;
         this.isSrgb = scene.image.color_management === "srgb";
-        this.format = this.chooseFloatFormat();
+        this.format = previous?.format ?? this.chooseFloatFormat();
         this.programs = new ProgramCache(gl, scene, previous?.programs);
         this.meshes = scene.objects.map(({ mesh }) => previous?.meshes.find((one) => one.isOf(mesh)) ?? new Mesh(gl, mesh));
         for (const mesh of this.meshes) mesh.users += 1;

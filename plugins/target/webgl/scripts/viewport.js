@@ -21,7 +21,7 @@ export class Viewport {
     constructor({ canvas, container, renderer, settings, onError, onDraft = () => {} }) {
         Object.assign(this, { canvas, container, renderer, settings, onError, onDraft });
         this.resolution = new AdaptiveResolution();
-        this.views = [{ canvas, settings, film: null }];
+        this.views = [{ canvas, settings, films: {}, film: null }];
         this.isDrawing = false;
         this.frameRequest = 0;
         this.refinementTimer = 0;
@@ -33,8 +33,8 @@ export class Viewport {
 
     /** Other views, beside the first or over it: { canvas, settings, isOver } each. */
     setOthers(others) {
-        for (const { film } of this.views.slice(1)) film?.release();
-        this.views = [this.views[0], ...others.map((view) => ({ ...view, film: null, context: view.canvas.getContext("2d", { alpha: false }) }))];
+        for (const { films } of this.views.slice(1)) Object.values(films).forEach((film) => film.release());
+        this.views = [this.views[0], ...others.map((view) => ({ ...view, films: {}, film: null, context: view.canvas.getContext("2d", { alpha: false }) }))];
         this.invalidate();
     }
 
@@ -91,7 +91,10 @@ export class Viewport {
         this.container.dispatchEvent(new Event("arranged"));
     }
 
-    /** Makes a view's film match its size on the screen, times `resolutionScale`. */
+    /**
+     * Gives a view a film of its size on the screen, times `resolutionScale`. Those of drafts and of finished pictures both stay, since
+     * they take turns, and a browser waits for the graphics when one is made.
+     */
     prepareFilm(view, resolutionScale) {
         const { columns, size: [width, height] } = this.layout();
         this.container.style.setProperty("--columns", columns);
@@ -100,14 +103,17 @@ export class Viewport {
         const most = MAX_PIXELS / this.views.length;
         const ratio = Math.min(devicePixelRatio || 1, Math.sqrt(most / (width * height))) * resolutionScale;
         const pixels = [width, height].map((size) => Math.max(1, Math.round(size * ratio)));
+        const { films } = view, kind = resolutionScale < 1 ? "draft" : "finished";
+        view.film = films[kind] ?? null;
         if (view.film && view.film.width === pixels[0] && view.film.height === pixels[1]) return;
         view.film?.release();
+        delete films[kind];
         view.film = null;
-        view.film = this.renderer.createFilm(...pixels);
+        view.film = films[kind] = this.renderer.createFilm(...pixels);
     }
 
     /** Puts a film's target into the context's canvas. */
-    encode({ film }, target) {
+    encode({ film, target }) {
         // Resizing clears the canvas, so that it is drawn to in the same frame.
         if (this.canvas.width !== film.width) this.canvas.width = film.width;
         if (this.canvas.height !== film.height) this.canvas.height = film.height;
@@ -115,15 +121,15 @@ export class Viewport {
     }
 
     show(view, target) {
-        view.shown = target;
-        this.encode(view, target);
+        view.shown = { film: view.film, target };
+        this.encode(view.shown);
         if (!view.context) return;
         const { width, height } = view.film;
         if (view.canvas.width !== width) view.canvas.width = width;
         if (view.canvas.height !== height) view.canvas.height = height;
         view.context.drawImage(this.canvas, 0, 0);
         const [first] = this.views;
-        if (first.film && first.shown) this.encode(first, first.shown);
+        if (first.shown) this.encode(first.shown);
     }
 
     drawFrame() {
