@@ -5,6 +5,8 @@
 #   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
 #   scripts/bench.sh --programs                   against POV-Ray and VTK, whole processes; build/bench/programs.{md,json} (five minutes)
 #   scripts/bench.sh --mesh-file                  against f3d on a PLY file of ten million triangles (two minutes)
+#   scripts/bench.sh --view                       from a save and from a click to the screen, in a browser (two minutes)
+#   scripts/bench.sh --reload                     from a saved mesh to the screen, against f3d, which is told to read it again (a minute)
 #   scripts/bench.sh --third-party                plugins built against an installation, as by a third party, against the shipped ones
 #   scripts/bench.sh --third-party --loops --compiler g++    the loops of reflection models, built by another compiler
 #   scripts/bench.sh --animation                  200 frames in one process against 200 processes (half a minute)
@@ -16,7 +18,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 
-if [ "${1-}" = --programs ] || [ "${1-}" = --mesh-file ]; then
+if [ "${1-}" = --programs ] || [ "${1-}" = --mesh-file ] || [ "${1-}" = --reload ]; then
     "$root/scripts/setup.sh" --programs
 else
     "$root/scripts/setup.sh"
@@ -33,6 +35,10 @@ fi
 if [ "${1-}" = --mesh-file ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
     exec python3 -B "$root/tests/bench/mesh_file.py" "$root/build/release" "$root/build/bench/mesh-file" "${@:2}"
+fi
+if [ "${1-}" = --view ] || [ "${1-}" = --reload ]; then
+    cmake --build --preset release --target candela_runtime >/dev/null
+    exec /usr/bin/python3 -B "$root/tests/bench/${1#--}.py" "$root/build/release" "${@:2}"
 fi
 if [ "${1-}" = --textures ]; then
     cmake --build --preset release --target candela_runtime >/dev/null

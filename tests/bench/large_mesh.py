@@ -8,11 +8,11 @@ import struct
 import sys
 
 
-def position_rows(n: int):
+def position_rows(n: int, ripple: float):
     angles = [2 * math.pi * i / n for i in range(n)]
     around = [(math.cos(a), math.sin(a)) for a in angles]
     for j, (c, s) in enumerate(around):
-        tube = 0.2 + 0.01 * math.sin(40 * angles[j])
+        tube = 0.2 + ripple * math.sin(40 * angles[j])
         ring, height = 0.5 + tube * c, tube * s
         row = array.array("f")
         for cu, su in around:
@@ -30,7 +30,7 @@ def face_rows(n: int):
         )
 
 
-def write(file, n: int = 2237) -> None:
+def write(file, n: int = 2237, ripple: float = 0.01) -> None:
     header = (
         "ply\nformat binary_little_endian 1.0\n"
         f"element vertex {n * n}\nproperty float x\nproperty float y\nproperty float z\n"
@@ -38,7 +38,7 @@ def write(file, n: int = 2237) -> None:
     )
     with open(file, "wb") as out:
         out.write(header.encode())
-        for part in (*position_rows(n), *face_rows(n)):
+        for part in (*position_rows(n, ripple), *face_rows(n)):
             out.write(part)
 
 

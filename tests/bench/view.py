@@ -100,7 +100,7 @@ def main():
                 begin = time.time()
                 os.replace(draft, scene)
                 milliseconds.append(browser.driver.execute_async_script(SHOWN, i + 2) - 1000 * begin)
-                time.sleep(1)
+                time.sleep(3)  # likewise
         finally:
             browser.close()
             server.send_signal(signal.SIGINT)

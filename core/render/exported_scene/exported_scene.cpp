@@ -23,6 +23,7 @@ import candela.color;
 import candela.diagnostics;
 import candela.light;
 import candela.mesh;
+import candela.parallel;
 import candela.parameters;
 import candela.punctual;
 import candela.raster;
@@ -131,10 +132,15 @@ struct SceneExport::Storage final : ExportedGeometry {
         placed = place(*from.tessellator, request(scene.needs_uv), from.transform);
         require_no_colors(object);
         make_face_normals(placed.mesh);
-        for (std::size_t i = 0; i < scene.shadings.size(); ++i) {
-            const auto shading = registry.create<ShadingModel>(
-                scene.shadings[i].plugin->name, from.shading_values[i], scene.image.color_management);
-            Vec3Arrays normals = vertex_normals(placed, *shading);
+        std::vector<std::unique_ptr<ShadingModel>> models;
+        for (std::size_t i = 0; i < scene.shadings.size(); ++i)
+            models.push_back(registry.create<ShadingModel>(
+                scene.shadings[i].plugin->name, from.shading_values[i], scene.image.color_management));
+        std::vector<Vec3Arrays> all(models.size());
+        parallel_for(models.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) all[i] = vertex_normals(placed, *models[i]);
+        });
+        for (Vec3Arrays& normals : all) {
             const auto same = std::ranges::find_if(
                 normal_sets, [&](const Vec3Arrays& set) { return are_equal(set, normals); });
             normals_of.push_back(static_cast<std::size_t>(same - normal_sets.begin()));

@@ -21,6 +21,7 @@ module candela.constraints;
 import candela.containment;
 import candela.diagnostics;
 import candela.math;
+import candela.parallel;
 import candela.parameters;
 import candela.scene;
 
@@ -141,7 +142,19 @@ class Checker {
         }
     }
 
+    /// Those whose boxes meet others, on several threads.
+    void make_bodies() {
+        std::vector<std::size_t> needed;
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            if (!surfaces_[i].empty() && !tree_.meeting(i).empty()) needed.push_back(i);
+        }
+        parallel_for(needed.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) body(needed[k]);
+        });
+    }
+
     void check_overlaps(const std::function<void()>& checked) {
+        if (scene_.constraints.overlap) make_bodies();
         std::size_t found = 0;
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             if (checked) checked();
@@ -175,7 +188,7 @@ class Checker {
     /// An open surface has no inside, and one that encloses others is meant to have them there.
     bool is_hollow(std::size_t i) const { return !surfaces_[i].closed || scene_.objects[i].encloses; }
 
-    /// Created on demand: most objects are far from everything else.
+    /// Created on demand: most objects are far from everything else. Different ones on different threads.
     const Body& body(std::size_t i) {
         if (!bodies_[i]) {
             const SurfaceView& surface = surfaces_[i];

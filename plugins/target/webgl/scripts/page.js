@@ -117,9 +117,9 @@ export class Page {
         this.setProportion();
         this.settings.replaceScene(scene);
         this.controls.extent = sliderExtent(scene, this.bounds());
-        this.panels.rebuild();
-        this.viewport.use(this.renderer);
         this.display.rebuild();
+        this.viewport.use(this.renderer);
+        this.panels.rebuild();
         this.reference?.invalidate();
         this.explanation.clear();
         this.formulaEditor?.sceneChanged();

@@ -45,10 +45,13 @@ export class Viewport {
         this.isStopped = true;
     }
 
-    /** From now on, draws with another renderer of the same context. */
+    /** From now on, draws with another renderer of the same context: at once, so that the graphics work while the page does. */
     use(renderer) {
         this.renderer = renderer;
         this.invalidate();
+        if (this.isDrawing || this.isStopped) return;
+        cancelAnimationFrame(this.frameRequest);
+        this.drawFrame();
     }
 
     /** Starts anew with a draft, at the next frame. */
