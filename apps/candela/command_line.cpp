@@ -278,10 +278,10 @@ std::vector<std::string> words_of(const std::string& list) {
     return words;
 }
 
-void require_no_terminal(const std::string& output) {
+void require_no_terminal(const std::string& output, const std::string& what) {
     if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
         throw Error(ErrorCategory::bad_request,
-                    "-o - would print a PNG on this terminal; send it to a file or a pipe");
+                    fmt::format("-o - would print {} on this terminal; send it to a file or a pipe", what));
     }
 }
 

@@ -80,7 +80,7 @@ int count_from(const CommandLine& line, const std::string& option, int most);
 int threads_from(const CommandLine& line);
 
 /// Throws Error (bad_request) where `output` is "-", standard output, and that is a terminal.
-void require_no_terminal(const std::string& output);
+void require_no_terminal(const std::string& output, const std::string& what = "a PNG");
 
 /// Throws Error (bad_request) where `output` is the file of one of `inputs`, by whatever path: "'a.png' is
 /// one of `inputs_are`; `remedy`".

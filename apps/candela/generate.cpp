@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -41,7 +40,8 @@ void print(const std::vector<candela::ExportedFile>& files, const std::string& t
         throw Error(ErrorCategory::bad_request,
                     fmt::format("target/{} writes {} files, and --output - prints one; give a folder", target,
                                 files.size()));
-    std::cout << files.front().content << std::flush;
+    require_no_terminal("-", "a file for another program");
+    candela::write_text_file("-", files.front().content);  // as it is: what std::cout gets is made printable
 }
 
 std::string sizes_of(const std::vector<candela::ExportedFile>& files, const fs::path& directory) {

@@ -4,12 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <regex>
+#include <array>
 
 #include "candela/embed.h"
 #include "candela/target/kernels.h"
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
+#include "tokens.h"
 
 CANDELA_EMBED(candela_target_trigonometry, CANDELA_TARGET_TEMPLATES "/trigonometry.glsl");
 CANDELA_EMBED(candela_target_lit, CANDELA_TARGET_TEMPLATES "/lit.glsl");
@@ -214,6 +215,17 @@ std::string stage_text(const char* text, const std::vector<Feature>& features) {
     return declarations + filled(text, statements);
 }
 
+bool has_trigonometry(const std::string& code) {
+    constexpr std::array<std::string_view, 4> k_functions = {"sin", "cos", "asin", "acos"};
+    const std::vector<Token> tokens = tokens_of(code);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (std::ranges::find(k_functions, tokens[i].text) != k_functions.end() &&
+            text_at(tokens, i + 1) == "(")
+            return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 GlslParts glsl_of(const ExportedScene& scene) {
@@ -246,9 +258,8 @@ GlslParts glsl_of(const ExportedScene& scene) {
     for (const auto* texts : {&parts.reflections, &parts.shadings}) {
         for (const std::string& text : *texts) users += text;
     }
-    static const std::regex k_trigonometry(R"(\ba?(sin|cos)\s*\()");
     parts.prelude = k_preamble;
-    if (std::regex_search(users, k_trigonometry)) parts.prelude += candela_target_trigonometry;
+    if (has_trigonometry(users)) parts.prelude += candela_target_trigonometry;
     parts.prelude += needed_parts(glsl_tables(), users);
     parts.prelude += needed_parts(kernel_prelude(), users) + "\n";
     return parts;

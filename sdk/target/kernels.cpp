@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 
 #include "candela/embed.h"
 #include "candela/target/literals.h"
+#include "tokens.h"
 
 CANDELA_EMBED(candela_target_prelude, CANDELA_TARGET_PRELUDE);
 CANDELA_EMBED(candela_target_tables, CANDELA_TARGET_TABLES);
@@ -21,15 +21,16 @@ namespace candela::target {
 
 namespace {
 
-std::vector<std::smatch> all_matches(const std::string& text, const std::regex& pattern) {
-    return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
-}
-
 /// All that a kernel declares at the top: structs, functions.
 std::vector<std::string> declared_names(const std::string& kernel) {
-    static const std::regex k_declared(R"(struct\s+(\w+)\s*\{|KERNEL\s+\w+\s+(\w+)\s*\()");
     std::vector<std::string> names;
-    for (const std::smatch& m : all_matches(kernel, k_declared)) names.push_back(m[1].matched ? m[1] : m[2]);
+    const std::vector<Token> tokens = tokens_of(kernel);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i].text == "struct" && text_at(tokens, i + 2) == "{")
+            names.emplace_back(tokens[i + 1].text);
+        if (tokens[i].text == "KERNEL" && text_at(tokens, i + 3) == "(")
+            names.emplace_back(tokens[i + 2].text);
+    }
     return names;
 }
 
@@ -61,20 +62,39 @@ struct Paragraph {
     bool is_kept = false;
 };
 
+/// What lines of a library declare: "struct X {", "inline vec3 x(", "const float x =".
+std::vector<std::string> declared_by(const std::string& code) {
+    const auto begins_declaration = [](std::string_view word) {
+        return word == "KERNEL" || word == "inline" || word == "static" || word == "const";
+    };
+    const auto follows_name = [](std::string_view text) { return text == "(" || text == "{" || text == "="; };
+    const auto is_in_type = [](const Token& token) {
+        return token.is_word() || std::string_view(":<>,").find(token.text) != std::string_view::npos;
+    };
+    std::vector<std::string> names;
+    const std::vector<Token> tokens = tokens_of(code);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (!tokens[i].begins_line) continue;
+        if (tokens[i].text == "struct" && text_at(tokens, i + 2) == "{")
+            names.emplace_back(tokens[i + 1].text);
+        if (!begins_declaration(tokens[i].text)) continue;
+        for (std::size_t k = i + 1; k < tokens.size() && is_in_type(tokens[k]); ++k) {
+            if (!tokens[k].is_word() || !follows_name(text_at(tokens, k + 1))) continue;
+            names.emplace_back(tokens[k].text);
+            break;
+        }
+    }
+    return names;
+}
+
 std::vector<Paragraph> paragraphs_of(const std::string& text) {
-    static const std::regex k_declared(
-        R"((?:^|\n)(?:struct\s+(\w+)\s*\{|(?:KERNEL|inline|static|const)\s[\w\s:<>,]*?(\w+)\s*[({=]))");
     std::vector<Paragraph> all;
     std::istringstream lines(text);
     lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     std::string line, current;
     const auto end = [&] {
         if (current.empty()) return;
-        Paragraph p{.text = current};
-        const std::string code = without_comments(current);
-        for (const std::smatch& m : all_matches(code, k_declared))
-            p.declares.push_back(m[1].matched ? m[1] : m[2]);
-        all.push_back(std::move(p));
+        all.push_back({.text = current, .declares = declared_by(without_comments(current))});
         current.clear();
     };
     while (std::getline(lines, line)) {
@@ -128,13 +148,14 @@ std::string call(const ExportedModel& model, std::string_view name, std::string_
 std::string constants_type(const ExportedModel& model) {
     const KernelText& kernel = model.plugin->kernel;
     if (!has_function(model, "prepare")) return kernel.parameters;
-    const std::regex declaration(fmt::format(R"(\bKERNEL\s+(\w+)\s+{}_prepare\s*\()", kernel.prefix));
-    const std::string code = without_comments(kernel.text);
-    std::smatch found;
-    if (!std::regex_search(code, found, declaration))
-        throw std::runtime_error(fmt::format("the kernel of {} does not say what {}_prepare returns",
-                                             id_of(model), kernel.prefix));
-    return found[1];
+    const std::string code = without_comments(kernel.text), name = fmt::format("{}_prepare", kernel.prefix);
+    const std::vector<Token> tokens = tokens_of(code);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i].text == "KERNEL" && text_at(tokens, i + 2) == name && text_at(tokens, i + 3) == "(")
+            return std::string(tokens[i + 1].text);
+    }
+    throw std::runtime_error(
+        fmt::format("the kernel of {} does not say what {} returns", id_of(model), name));
 }
 
 std::string prepared(const ExportedModel& model, const std::string& parameters) {
