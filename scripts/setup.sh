@@ -46,7 +46,7 @@ if [ "$everything" = yes ]; then
   packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file lintian
     g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libopengl-dev libegl1 libgl1-mesa-dri libpng-dev
     chromium chromium-sandbox chromium-driver firefox-esr xvfb python3-selenium python3-websocket valgrind
-    zsh fish ffmpeg mkdocs mkdocs-material assimp-testmodels pybind11-dev python3-dev python3-numpy python3-build python3-venv povray)
+    zsh fish ffmpeg mkdocs mkdocs-material doxygen assimp-testmodels pybind11-dev python3-dev python3-numpy python3-build python3-venv povray)
 fi
 
 # Boost: Debian 12 has 1.81 beside its default 1.74; later releases need no such choice.
