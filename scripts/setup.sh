@@ -11,6 +11,7 @@ set -euo pipefail
 
 readonly k_cmake_at_least=3.28
 readonly k_catch2_at_least=3
+readonly k_scikit_build_core_at_least=0.10
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 fail() { say "$*"; exit 1; }
@@ -45,7 +46,7 @@ if [ "$everything" = yes ]; then
   packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file lintian
     g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libopengl-dev libegl1 libgl1-mesa-dri libpng-dev
     chromium chromium-sandbox chromium-driver firefox-esr xvfb python3-selenium python3-websocket valgrind
-    zsh fish ffmpeg mkdocs mkdocs-material assimp-testmodels pybind11-dev python3-dev python3-numpy povray)
+    zsh fish ffmpeg mkdocs mkdocs-material doxygen assimp-testmodels pybind11-dev python3-dev python3-numpy python3-build python3-venv povray)
 fi
 
 # Boost: Debian 12 has 1.81 beside its default 1.74; later releases need no such choice.
@@ -67,6 +68,12 @@ oldest_clang() {
   if installed clang-14 || [ -n "$(candidate clang-14)" ]; then echo clang-14; fi
 }
 
+# What makes the wheel of the module of Python; not every release has it, or one that is new enough.
+wheel_backend() {
+  [ "$everything" = yes ] || return 0
+  if at_least "$(candidate python3-scikit-build-core)" "$k_scikit_build_core_at_least"; then echo python3-scikit-build-core; fi
+}
+
 # f3d and what gives it a display, and VTK's library, whose package has VTK's version in its name.
 programs() {
   [ "$programs" = yes ] || return 0
@@ -78,7 +85,7 @@ missing=()
 find_missing() {
   local package
   missing=()
-  for package in "${packages[@]}" "${boost[@]}" $(linter) $(oldest_clang) $(programs); do
+  for package in "${packages[@]}" "${boost[@]}" $(linter) $(oldest_clang) $(wheel_backend) $(programs); do
     installed "$package" || missing+=("$package")
   done
   at_least "$(installed_version cmake)" "$k_cmake_at_least" || missing+=(cmake cmake-data)
@@ -133,6 +140,10 @@ if needs_backports; then
 fi
 
 find_missing
+for package in "${missing[@]}"; do
+  # What the release has in its backports alone needs other things from there.
+  case "$(candidate "$package")" in *~bpo*) from_backports+=("$package") ;; esac
+done
 if [ ${#from_backports[@]} -gt 0 ]; then
   apt install -y --no-install-recommends -t "$codename-backports" "${from_backports[@]}" >/dev/null
   find_missing

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """site.py CANDELA OUT: the documentation as a site, OUT/html/index.html, which needs no server.
 
-The documents as they are, a page for each installed model with its picture and lobe, and one of all commands' help. Every link is
-checked: those between documents by mkdocs, those of the finished pages here."""
+The documents as they are, a page for each installed model with its picture and lobe, one of all commands' help, and one for each header
+and module of C++. Every link is checked: those between documents by mkdocs, those of the finished pages here."""
 import html.parser
 import json
 import os
@@ -13,6 +13,7 @@ import sys
 import urllib.parse
 from pathlib import Path
 
+from cpp import Reference
 from models import Models
 
 HERE = Path(__file__).resolve().parent
@@ -64,25 +65,32 @@ def commands_page(candela):
 class Links(html.parser.HTMLParser):
     def __init__(self):
         super().__init__()
-        self.found = []
+        self.found, self.names = [], set()
 
     def handle_starttag(self, tag, attributes):
         for name, value in attributes:
             if name in ("href", "src") and value:
                 self.found.append(value)
+            elif name == "id":
+                self.names.add(value)
 
 
 def broken_links(site):
-    for page in sorted(site.rglob("*.html")):
-        if page.name == "404.html":  # its links are absolute, for a server
+    pages = {}
+    for path in sorted(site.rglob("*.html")):
+        pages[path] = Links()
+        pages[path].feed(path.read_text())
+    for path, page in pages.items():
+        if path.name == "404.html":  # its links are absolute, for a server
             continue
-        links = Links()
-        links.feed(page.read_text())
-        for link in links.found:
+        for link in page.found:
             parts = urllib.parse.urlsplit(link)
-            is_relative = not parts.scheme and not parts.netloc and parts.path
-            if is_relative and not (page.parent / urllib.parse.unquote(parts.path)).exists():
-                yield f"{page.relative_to(site)}: {link}"
+            if parts.scheme or parts.netloc:
+                continue
+            target = Path(os.path.normpath(path.parent / urllib.parse.unquote(parts.path))) if parts.path else path
+            place = urllib.parse.unquote(parts.fragment)
+            if not target.exists() or (place and target in pages and place not in pages[target].names):
+                yield f"{path.relative_to(site)}: {link}"
 
 
 def main():
@@ -96,9 +104,10 @@ def main():
     link_folders(sources)
     (sources / "commands.md").write_text(commands_page(candela))
     navigation = Models(candela, sources / "models", out / "scenes").write()
+    cpp = Reference(ROOT, sources / "cpp", out / "cpp").write()
     settings = (HERE / "mkdocs.yml").read_text()
     # JSON is YAML.
-    for word, value in (("SOURCES", str(sources)), ("SITE", str(site)), ("MODELS", navigation)):
+    for word, value in (("SOURCES", str(sources)), ("SITE", str(site)), ("MODELS", navigation), ("CPP", cpp)):
         settings = settings.replace(f": {word}\n", f": {json.dumps(value)}\n")
     (out / "mkdocs.yml").write_text(settings)
     built = subprocess.run(["mkdocs", "build", "--quiet", "--clean", "--strict", "-f", out / "mkdocs.yml"], check=False)
