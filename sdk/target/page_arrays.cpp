@@ -21,7 +21,7 @@ std::string PageArrays::put(std::span<const std::byte> bytes) {
         if (std::string_view(html_).substr(begin, size) == text) return name;
         name += "-other";
     }
-    html_ += fmt::format("<script type=\"text/plain\" id=\"{}\">", name);
+    html_ += fmt::format(R"(<script type="text/plain" id="{}">)", name);
     places_[name] = {html_.size(), text.size()};
     html_ += text;
     html_ += "</script>\n";
