@@ -1,4 +1,4 @@
-# To be sourced: packages that npm fetches for tests, pinned.
+# To be sourced: packages that npm fetches, pinned.
 
 # bring_from_npm PACKAGE VERSION TESTS FILE=SHA256...: files of a package to build/PACKAGE. Without npm, or where npm cannot fetch it, says
 # that TESTS will be skipped.
@@ -28,6 +28,7 @@ bring_from_npm() {
     mkdir -p "$folder"
     cp "$draft/package/LICENSE" "$folder/"
     for each in "${files[@]%%=*}"; do
+        mkdir -p "$(dirname "$folder/$each")"
         cp "$draft/package/$each" "$folder/$each.draft"
         mv "$folder/$each.draft" "$folder/$each"
     done

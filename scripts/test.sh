@@ -9,6 +9,7 @@ cd "$root"
 "$root/scripts/setup.sh"
 "$root/scripts/axe-core.sh"
 "$root/scripts/gltf-validator.sh"
+"$root/scripts/three.sh"
 [ $# -gt 0 ] || set -- release
 for preset in "$@"; do
     printf '== %s\n' "$preset"

@@ -51,7 +51,9 @@ int LoadedTarget::show(const fs::path& directory) const try {
 LoadedTarget page_target(candela::Registry& registry) {
     for (const std::string& name : registry.names(PluginKind::target)) {
         LoadedTarget target(name, registry);
-        if (fs::path(target.main_file()).extension() == ".html") return target;
+        // Pages that are made from kernels can be edited.
+        if (fs::path(target.main_file()).extension() == ".html" && !target.abilities().models_without_kernel)
+            return target;
     }
     throw Error(ErrorCategory::failure,
                 fmt::format("no installed target makes a page (there are: {})", target_names(registry)));

@@ -114,6 +114,12 @@ def main():
                 packages.append(entry)
             relation = "DYNAMIC_LINK" if how == "linked" else "DEPENDS_ON"
             relationships.append(("SPDXRef-candela", relation, entry["SPDXID"]))
+    # Fetched by npm, where it could be.
+    three = build / "lib/candela/plugins/target-three/build/three.module.min.js"
+    if three.exists():
+        its_version = re.search(r"bring_from_npm three (\S+)", (pathlib.Path(__file__).parents[1] / "three.sh").read_text())[1]
+        packages.append(package("three", its_version, "MIT", "shipped as it is; npm package three"))
+        relationships.append(("SPDXRef-candela", "CONTAINS", "SPDXRef-three"))
     when = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH") or datetime.datetime.now().timestamp()),
                                            datetime.timezone.utc)
     document = {

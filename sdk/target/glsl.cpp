@@ -204,15 +204,14 @@ struct Feature {
     const char* statement = "";
 };
 
-std::string stage_text(const char* text, const std::vector<Feature>& features) {
+std::string stage_text(const char* text, const std::vector<Feature>& features, Values values = {}) {
     std::string declarations;
-    Values statements;
     for (const Feature& f : features) {
         if (f.is_there) declarations += f.declarations;
-        statements.emplace_back(
+        values.emplace_back(
             f.place, f.is_there ? fmt::format("#ifdef {}\n    {}\n#endif\n", f.condition, f.statement) : "");
     }
-    return declarations + filled(text, statements);
+    return declarations + filled(text, values);
 }
 
 bool has_trigonometry(const std::string& code) {
@@ -228,7 +227,14 @@ bool has_trigonometry(const std::string& code) {
 
 }  // namespace
 
-GlslParts glsl_of(const ExportedScene& scene) {
+const GlslDepth k_reversed_depth{
+    .uniform = "uniform float near;\n",
+    .statement =
+        "    // Depths grow towards the eye; in perspective near / distance, which a float buffer holds with "
+        "the same relative precision at\n    // all distances.\n"
+        "    gl_FragDepth = is_orthographic ? 1.0 - gl_FragCoord.z : near * gl_FragCoord.w;\n"};
+
+GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     require_different_names(scene);
     GlslParts parts;
     const std::string lit = filled(candela_target_lit, {{"PREPARATION", calls_of_preparations(scene)}});
@@ -248,7 +254,8 @@ GlslParts glsl_of(const ExportedScene& scene) {
                                       {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE",
                                         k_triangle, "read_triangle();"},
                                        {is_textured, candela_target_texture_fragment, "TEXTURE_COLOR",
-                                        k_texture, "color *= texture_seen(at_place, at_uv);"}});
+                                        k_texture, "color *= texture_seen(at_place, at_uv);"}},
+                                      {{"DEPTH_UNIFORM", depth.uniform}, {"DEPTH", depth.statement}});
     if (is_textured) parts.texture = candela_target_texture + std::string(texture_kernel()) + "\n";
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;

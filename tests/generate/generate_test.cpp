@@ -257,8 +257,10 @@ TEST_CASE("generate: errors name what is wrong, and what to do") {
     write_file(directory / "file", "");
     expect({"--target", "cpp", "-o", (directory / "file").string()}, 1, "cannot be made");
 #ifdef CANDELA_TEST_MUSEUM
-    expect({"--target", "webgl", "-o", out, "--plugin-dir", CANDELA_TEST_MUSEUM, "--reflection", "faultless"},
-           1, "reflection/faultless has no kernel");
+    for (const char* const target : {"webgl", "three"})
+        expect(
+            {"--target", target, "-o", out, "--plugin-dir", CANDELA_TEST_MUSEUM, "--reflection", "faultless"},
+            1, "reflection/faultless has no kernel");
 #endif
 }
 

@@ -71,9 +71,14 @@ class Catalogue:
     def exact_of(self, target):
         """The same without the models that a target only approximates, and without anti-aliasing, which is its own."""
         exact = {kind.removeprefix("exact-"): names.split(", ") for kind, names in self.properties["target", target].items()}
-        chosen = copy.copy(self)
-        chosen.parameters = {(kind, name): p for (kind, name), p in self.parameters.items() if name in exact.get(kind, [name])}
+        chosen = self.limited_to(exact)
         chosen.samples = [1]
+        return chosen
+
+    def limited_to(self, models):
+        """The same with these models alone: their names, by their kind."""
+        chosen = copy.copy(self)
+        chosen.parameters = {(kind, name): p for (kind, name), p in self.parameters.items() if name in models.get(kind, [name])}
         return chosen
 
     def factors(self):

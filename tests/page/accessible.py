@@ -10,6 +10,7 @@ from browser import DRAWS_BY_ITSELF, WINDOW, WITHOUT_WEBGL, Browser
 from exercising import PHONG, Exercising
 from formulas import Editing
 from generated import Generated, PageTest
+from three_pages import needs_three
 from viewing import Viewing
 
 LEVELS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
@@ -103,6 +104,16 @@ class Accessible(Inspected, Editing, PageTest):
         self.browser.run("document.querySelector('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()")
         self.browser.rest(0.8)
         self.inspect("lost graphics")
+
+
+@needs_three
+class AccessibleThree(Inspected, PageTest):
+    def test_a_page_with_three(self):
+        generated = Generated("accessible-three", scenes.PERSPECTIVE, "phong", target="three")
+        self.browser.open(generated.address)
+        self.inspect("as it opens")
+        self.browser.resize(*PHONE, is_phone=True)
+        self.inspect("on a phone")
 
 
 class AccessibleView(Inspected, Editing, Viewing):

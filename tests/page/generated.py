@@ -33,12 +33,12 @@ def toml(value):
 class Generated:
     """A scene's file and page."""
 
-    def __init__(self, name, text, models="all", options=()):
+    def __init__(self, name, text, models="all", options=(), target="webgl"):
         folder = SCRATCH / name
         folder.mkdir(parents=True, exist_ok=True)
         self.file = folder / f"{name}.toml"
         self.file.write_text(text)
-        candela("generate", self.file, "--target", "webgl", "--models", models, "-o", folder / "page", *options)
+        candela("generate", self.file, "--target", target, "--models", models, "-o", folder / "page", *options)
         [self.page] = (folder / "page").glob("*.html")
         self.address = self.page.as_uri()
         self.scene = scene_of(self.page)

@@ -5,7 +5,7 @@ Run by ctest, which says where things are; by hand: CANDELA=build/release/bin/ca
 import unittest
 
 from access import Access
-from accessible import Accessible, AccessibleExercise, AccessibleView
+from accessible import Accessible, AccessibleExercise, AccessibleThree, AccessibleView
 from controls import Controls
 from exercising import Exercising
 from formulas import Formulas, Keeping
@@ -15,11 +15,12 @@ from looking import Looking
 from panes import Panes
 from picturing import Picturing
 from robustness import Robustness
+from three_pages import Three
 from typesetting import Typesetting
 from viewing import Viewing
 
-__all__ = ["Access", "Accessible", "AccessibleExercise", "AccessibleView", "Controls", "Exercising", "Formulas", "Keeping", "Lights", "Links", "Looking", "Panes", "Picturing", "Robustness",
-           "Typesetting", "Viewing"]
+__all__ = ["Access", "Accessible", "AccessibleExercise", "AccessibleThree", "AccessibleView", "Controls", "Exercising", "Formulas", "Keeping", "Lights", "Links", "Looking", "Panes", "Picturing", "Robustness",
+           "Three", "Typesetting", "Viewing"]
 
 if __name__ == "__main__":
     unittest.main()

@@ -9,12 +9,12 @@ if(NOT CANDELA_CODEMIRROR)
 endif()
 set(CANDELA_PAGE_SOURCES ${CMAKE_CURRENT_LIST_DIR})
 
-# candela_bundle_scripts(<output> <main.js> <scripts>...): the module, and what it imports. Readable.
+# candela_bundle_scripts(<output> <main.js> <scripts>...): the module, and what it imports, but for the library three. Readable.
 function(candela_bundle_scripts output main)
     cmake_path(GET main PARENT_PATH folder)
     cmake_path(GET main FILENAME name)
     add_custom_command(OUTPUT ${output}
-        COMMAND ${CANDELA_ESBUILD} ${name} --bundle --format=esm --charset=utf8 --legal-comments=inline --log-level=warning
+        COMMAND ${CANDELA_ESBUILD} ${name} --bundle --external:three --format=esm --charset=utf8 --legal-comments=inline --log-level=warning
                 --outfile=${output}
         WORKING_DIRECTORY ${folder} DEPENDS ${ARGN} COMMENT "Bundling a page's scripts" VERBATIM)
 endfunction()

@@ -15,11 +15,10 @@
 #include "candela/target/files.h"
 #include "candela/target/glsl.h"
 #include "candela/target/literals.h"
+#include "candela/target/page_arrays.h"
+#include "candela/target/page_picture.h"
 #include "candela/target/text_template.h"
-#include "candela/target/textures.h"
 #include "candela/target_plugin.h"
-#include "page_arrays.h"
-#include "picture.h"
 
 CANDELA_EMBED(candela_webgl_page, CANDELA_SOURCE_DIR "/templates/page.html");
 CANDELA_EMBED(candela_webgl_style, CANDELA_SOURCE_DIR "/templates/page.css");
@@ -201,25 +200,14 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
             {"mesh", mesh_json(scene, mesh, arrays)}};
 }
 
-/// The pictures, of which the page makes the levels. Throws std::runtime_error where they are too large for a
-/// page: browsers read one of a hundred megabytes, and none of a few hundred.
 Json textures_json(const ExportedScene& scene, PageArrays& arrays) {
-    constexpr std::size_t k_most_bytes = std::size_t{96} << 20;
     Json textures = Json::array();
-    std::size_t bytes = 0;
-    for (const ExportedTexture& texture : scene.textures) {
-        const TexturePixels pixels = pixels_of(texture, scene.image.color_management);
-        bytes += pixels.bytes.size();
-        if (bytes > k_most_bytes)
-            throw std::runtime_error(fmt::format(
-                "the scene's textures take more than {} MiB, for which a page has no room; make them "
-                "smaller (the first that is too much is '{}', {} x {} pixels of {} bits)",
-                k_most_bytes >> 20, texture.file, pixels.width, pixels.height, pixels.is_encoded ? 24 : 48));
-        textures.push_back({{"title", title_of(texture)},
-                            {"width", pixels.width},
-                            {"height", pixels.height},
-                            {"encoded", pixels.is_encoded},
-                            {"pixels", arrays.put(pixels.bytes)}});
+    for (const PageTexture& texture : put_textures(scene, arrays)) {
+        textures.push_back({{"title", texture.title},
+                            {"width", texture.width},
+                            {"height", texture.height},
+                            {"encoded", texture.is_encoded},
+                            {"pixels", texture.pixels}});
     }
     return textures;
 }

@@ -13,14 +13,12 @@ INTENSITY_RATE in vec3 front;
 INTENSITY_RATE in vec3 back;
 #endif
 
-uniform float near;
+@DEPTH_UNIFORM@
 
 layout(location = 0) out vec4 intensity;
 
 void main() {
-    // Depths grow towards the eye; in perspective near / distance, which a float buffer holds with the same relative precision at
-    // all distances.
-    gl_FragDepth = is_orthographic ? 1.0 - gl_FragCoord.z : near * gl_FragCoord.w;
+@DEPTH@
 #ifdef LIT_AT_FRAGMENT
 @READ_TRIANGLE@
     ShadingPoint point = ShadingPoint(at_face_normal, at_vertex_normal, at_barycentric, at_uv, at_dpdu, at_dpdv);

@@ -1,133 +1,22 @@
-import { floatsOf, indicesOf } from "./arrays.js";
-import { cross, normalize, subtract } from "./vectors.js";
+import { ATTRIBUTES, TEXTURE_ATTRIBUTES, TRIANGLE_ATTRIBUTES, VertexArrays, sizeOf } from "./vertex_arrays.js";
 
-/** The vertex shader's inputs, in the order of their locations. */
-const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", "uv", "dpdu", "dpdv", "barycentric",
-    "vertex_color"];
-/** Those of shading models that see their triangle: equal ones at its three vertices. */
-const TRIANGLE_ATTRIBUTES = ["p0", "p1", "p2", "n0", "n1", "n2"];
-/** Of textured objects: how u and v change from a triangle's first vertex to the second and to the third. */
-const TEXTURE_ATTRIBUTES = ["uv_edges"];
-const SIZES = { uv: 2, uv_edges: 4 };  // all others: 3
-
-function boundsOf(positions) {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (let i = 0; i < positions.length; ++i) {
-        low[i % 3] = Math.min(low[i % 3], positions[i]);
-        high[i % 3] = Math.max(high[i % 3], positions[i]);
-    }
-    return { low, high };
-}
-
-/** The box around an object of the scene. */
-export const boxOf = ({ mesh }) => boundsOf(floatsOf(mesh.position));
-
-function expandIndexed(values, indices, size) {
-    const result = new Float32Array(indices.length * size);
-    for (let i = 0; i < indices.length; ++i) {
-        for (let k = 0; k < size; ++k) result[i * size + k] = values[indices[i] * size + k];
-    }
-    return result;
-}
-
-/** Each triangle's three values replaced by their mean. */
-function averagePerTriangle(values, size) {
-    const result = new Float32Array(values.length);
-    for (let i = 0; i < values.length; i += 3 * size) {
-        for (let k = 0; k < size; ++k) {
-            const mean = (values[i + k] + values[i + size + k] + values[i + 2 * size + k]) / 3;
-            result[i + k] = result[i + size + k] = result[i + 2 * size + k] = mean;
-        }
-    }
-    return result;
-}
-
-/** Each triangle's three values replaced by one of them. */
-function repeatCorner(values, corner) {
-    return values.map((_, i) => values[i - (i % 9) + 3 * corner + (i % 3)]);
-}
-
-/** Of each triangle, the differences of its second and third pair to the first, at each of its vertices. */
-function edgesPerTriangle(uv) {
-    const result = new Float32Array(2 * uv.length);
-    for (let i = 0; i < uv.length; i += 6) {
-        for (let k = 0; k < 12; ++k) result[2 * i + k] = uv[i + 2 + (k % 4)] - uv[i + (k % 2)];
-    }
-    return result;
-}
-
-function faceNormals(positions) {
-    const result = new Float32Array(positions.length);
-    const vertex = (i) => [positions[i], positions[i + 1], positions[i + 2]];
-    for (let i = 0; i < positions.length; i += 9) {
-        const normal = normalize(cross(subtract(vertex(i + 3), vertex(i)), subtract(vertex(i + 6), vertex(i))));
-        for (let k = 0; k < 9; ++k) result[i + k] = normal[k % 3];
-    }
-    return result;
-}
-
-/**
- * An object's triangles on the GPU. Triangles share no vertices, so that what is lit once per face can differ between
- * them. Buffers are filled when a shading model first asks for them.
- */
+/** An object's triangles on the GPU. Buffers are filled when a shading model first asks for them. */
 export class Mesh {
     constructor(gl, mesh) {
         this.gl = gl;
         this.users = 0;  // renderers
         this.mesh = mesh;
-        this.indices = indicesOf(mesh.indices);
-        this.vertexCount = this.indices.length;
-        const positions = floatsOf(mesh.position);
-        this.bounds = boundsOf(positions);
-        this.positions = expandIndexed(positions, this.indices, 3);
+        this.arrays = new VertexArrays(mesh);
+        this.bounds = this.arrays.bounds;
         this.buffers = new Map();
         this.vertexArrays = new Map();
-    }
-
-    /** For each attribute the name of its buffer, or three numbers where it is the same everywhere. */
-    attributeSources({ rate, seesTriangle, isTextured }, normalSet) {
-        const { uv, dpdu, dpdv, color } = this.mesh;
-        const mean = rate === "face" ? " mean" : "";
-        const normals = `normals ${normalSet}${mean}`;
-        const triangle = TRIANGLE_ATTRIBUTES.map((name) =>
-            [name, `${name[0] === "p" ? "position" : `normals ${normalSet}`} of ${name[1]}`]);
-        return {
-            ...(seesTriangle ? Object.fromEntries(triangle) : {}),
-            ...(isTextured && rate === "fragment" ? { ...Object.fromEntries(triangle.slice(0, 3)), uv_edges: "uv edges" } : {}),
-            position: "position",
-            place: `position${mean}`,
-            vertex_normal: normals,
-            face_normal: rate === "vertex" ? normals : "face normals",
-            uv: uv === null ? [0, 0, 0] : `uv${mean}`,
-            dpdu: dpdu === null ? [0, 0, 0] : `dpdu${mean}`,
-            dpdv: dpdv === null ? [0, 0, 0] : `dpdv${mean}`,
-            barycentric: { face: [1 / 3, 1 / 3, 1 / 3], vertex: [1, 0, 0], fragment: "barycentric" }[rate],
-            vertex_color: color === null ? [1, 1, 1] : `color${mean}`,
-        };
-    }
-
-    bufferValues(name) {
-        if (name.endsWith(" mean")) {
-            const base = name.slice(0, -" mean".length);
-            return averagePerTriangle(this.bufferValues(base), base === "uv" ? 2 : 3);
-        }
-        if (/ of [012]$/.test(name)) return repeatCorner(this.bufferValues(name.slice(0, -" of 0".length)), Number(name.at(-1)));
-        if (name === "uv edges") return edgesPerTriangle(this.bufferValues("uv"));
-        if (name === "position") return this.positions;
-        if (name === "face normals") return faceNormals(this.positions);
-        if (name === "barycentric") return Float32Array.from({ length: 3 * this.vertexCount }, (_, i) => (i % 9) % 4 === 0);
-        if (name.startsWith("normals ")) {
-            const normalSet = Number(name.slice("normals ".length));
-            return expandIndexed(floatsOf(this.mesh.normals[normalSet]), this.indices, 3);
-        }
-        return expandIndexed(floatsOf(this.mesh[name]), this.indices, name === "uv" ? 2 : 3);
     }
 
     buffer(name) {
         if (!this.buffers.has(name)) {
             const buffer = this.gl.createBuffer();
             this.gl.bindBuffer(this.gl.ARRAY_BUFFER, buffer);
-            this.gl.bufferData(this.gl.ARRAY_BUFFER, this.bufferValues(name), this.gl.STATIC_DRAW);
+            this.gl.bufferData(this.gl.ARRAY_BUFFER, this.arrays.valuesOf(name), this.gl.STATIC_DRAW);
             this.buffers.set(name, buffer);
         }
         return this.buffers.get(name);
@@ -143,7 +32,7 @@ export class Mesh {
             const buffer = this.buffer(sources[attribute]);
             gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
             gl.enableVertexAttribArray(i);
-            gl.vertexAttribPointer(i, SIZES[attribute] ?? 3, gl.FLOAT, false, 0, 0);
+            gl.vertexAttribPointer(i, sizeOf(attribute), gl.FLOAT, false, 0, 0);
         });
         this.vertexArrays.set(key, vertexArray);
         return vertexArray;
@@ -166,13 +55,13 @@ export class Mesh {
     draw({ rate, shading, seesTriangle, isTextured }) {
         const { gl } = this;
         const normalSet = this.mesh.normals_of[shading];
-        const sources = this.attributeSources({ rate, seesTriangle, isTextured }, normalSet);
+        const sources = this.arrays.sourcesOf({ rate, seesTriangle, isTextured }, normalSet);
         gl.bindVertexArray(this.vertexArray(sources, `${rate} ${normalSet} ${seesTriangle} ${isTextured}`));
         // Constant attributes are state of the context, not of the vertex array.
         ATTRIBUTES.forEach((attribute, i) => {
             if (typeof sources[attribute] !== "string") gl.vertexAttrib3f(i, ...sources[attribute]);
         });
-        gl.drawArrays(gl.TRIANGLES, 0, this.vertexCount);
+        gl.drawArrays(gl.TRIANGLES, 0, this.arrays.vertexCount);
         gl.bindVertexArray(null);
     }
 }

@@ -11,7 +11,7 @@ import { restoreSettings } from "./link.js";
 import { CorePicture } from "./core_picture.js";
 import { followScene, isServed } from "./live.js";
 import { showError, showNotice } from "./messages.js";
-import { boxOf } from "./mesh.js";
+import { boxOf } from "./vertex_arrays.js";
 import { Panels } from "./panels.js";
 import { Renderer } from "./renderer.js";
 import { Reference } from "./reference.js";

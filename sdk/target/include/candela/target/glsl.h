@@ -21,8 +21,18 @@ struct GlslParts {
     std::string screen, accumulate, encode;
 };
 
+/// How a fragment shader fills the depth buffer.
+struct GlslDepth {
+    const char* uniform;
+    const char* statement;
+};
+
+/// Depths grow towards the eye, from the uniform `near`; in perspective near / distance, which a float buffer
+/// holds with the same relative precision at all distances.
+extern const GlslDepth k_reversed_depth;
+
 /// Throws std::runtime_error where the kernels cannot stand in one program.
-GlslParts glsl_of(const ExportedScene& scene);
+GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth = k_reversed_depth);
 
 /// What GlslParts::prelude has, with all that a kernel may use, whether or not one of a scene does: for texts
 /// that nobody knows yet.

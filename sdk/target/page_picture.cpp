@@ -1,4 +1,4 @@
-#include "picture.h"
+#include "candela/target/page_picture.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@
 #include "candela/target/files.h"
 #include "candela/target/literals.h"
 
-namespace candela::webgl_target {
+namespace candela::target {
 
 namespace {
 
@@ -53,7 +53,7 @@ std::optional<std::string> content_of(const std::string& html, const std::string
 
 void draw_page(const fs::path& page, const fs::path& picture, ProgramRunner& programs) {
     const char* const browser = browser_among(programs);
-    const target::TemporaryFolder profile("candela-chromium");
+    const TemporaryFolder profile("candela-chromium");
     const std::string profile_option = "--user-data-dir=" + profile.path().string(),
                       url = file_url(page) + "#verify";
     std::vector<const char*> words = {browser,
@@ -81,9 +81,9 @@ void draw_page(const fs::path& page, const fs::path& picture, ProgramRunner& pro
     constexpr std::string_view k_begin = "data:image/png;base64,";
     if (!data || !data->starts_with(k_begin)) {
         throw std::runtime_error(fmt::format("Chromium does not show the page (exit code {}):\n{}",
-                                             result.exit_code, target::tail(result.err)));
+                                             result.exit_code, tail(result.err)));
     }
-    target::write_whole(picture, target::base64_decoded(std::string_view(*data).substr(k_begin.size())));
+    write_whole(picture, base64_decoded(std::string_view(*data).substr(k_begin.size())));
 }
 
-}  // namespace candela::webgl_target
+}  // namespace candela::target

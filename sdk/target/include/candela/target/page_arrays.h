@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace candela::webgl_target {
+#include "candela/target.h"
+
+namespace candela::target {
 
 /// Each is the text of an element of its own, and the scene's JSON has its name, which is made from its
 /// bytes. So a page that shows an earlier state of the scene fetches, decodes and uploads only what is new to
@@ -33,4 +35,16 @@ class PageArrays {
     std::string html_;
 };
 
-}  // namespace candela::webgl_target
+/// A picture of which a page makes the levels.
+struct PageTexture {
+    std::string title;
+    int width = 0;
+    int height = 0;
+    bool is_encoded = false;  // as in TexturePixels
+    std::string pixels;       // the array's name
+};
+
+/// Puts the pictures of the scene's textures. Throws std::runtime_error where they are too large for a page.
+std::vector<PageTexture> put_textures(const ExportedScene& scene, PageArrays& arrays);
+
+}  // namespace candela::target

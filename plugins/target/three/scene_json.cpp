@@ -1,0 +1,202 @@
+#include "scene_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "candela/color.h"
+#include "candela/target/arrays.h"
+#include "candela/target/glsl.h"
+#include "candela/target/kernels.h"
+#include "candela/target/renderers.h"
+#include "lights.h"
+#include "uniforms.h"
+
+namespace candela::three_target {
+
+using namespace target;
+
+namespace {
+
+/// As three.js's own materials fill it, with its uniform variable: a logarithm of the distance.
+constexpr GlslDepth k_logarithmic_depth{
+    .uniform = "uniform float logDepthBufFC;\n",
+    .statement =
+        "    gl_FragDepth = is_orthographic ? gl_FragCoord.z : 0.5 * logDepthBufFC * log2(1.0 + 1.0 / "
+        "gl_FragCoord.w);\n"};
+
+/// Those whose normal is interpolated between the vertices, as three.js does it.
+bool is_smooth(const ExportedShading& shading) {
+    constexpr std::array<std::string_view, 4> k_names{"phong", "angle-weighted", "area-weighted",
+                                                      "max-weighted"};
+    return std::ranges::find(k_names, shading.plugin->name) != k_names.end();
+}
+
+Vec3 intensities(Vec3 color, ColorEncoding encoding) {
+    const Rgb c = decoded(color, encoding);
+    return {c.r, c.g, c.b};
+}
+
+class Writer {
+  public:
+    Writer(const ExportedScene& scene, PageArrays& arrays) : scene_(scene), arrays_(arrays) {}
+
+    Json write() {
+        for (const ExportedModel& model : models_of(scene_)) {
+            if (model.plugin->kernel.text == nullptr)
+                throw std::runtime_error(fmt::format(
+                    "{} has no kernel, and three.js has no model of its own for it", id_of(model)));
+        }
+        std::vector<Json> meshes;
+        std::vector<Box> boxes;
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+            const ExportedMesh mesh = scene_.geometry->in_world_space(i);
+            meshes.push_back(mesh_json(mesh, scene_.objects[i].shading));
+            boxes.push_back(box_of(mesh));
+            is_closed_.push_back(mesh.closed);
+        }
+        const auto lights = own_lights(scene_, boxes);
+        Json objects = Json::array();
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i)
+            objects.push_back(object_json(i, std::move(meshes[i]), lights.has_value()));
+        return {
+            {"title", scene_.title},
+            {"image", image_json()},
+            {"observer", observer_json()},
+            {"shaders", shaders_json()},
+            {"light_counts", light_counts(scene_)},
+            {"light_table", arrays_.put(std::as_bytes(std::span<const std::int32_t>(light_table(scene_))))},
+            {"light_table_width", k_light_table_width},
+            {"tables", arrays_.put(std::as_bytes(scene_.tables))},
+            {"table_width", k_table_width},
+            {"textures", textures_json()},
+            {"lights", lights.value_or(Json::array())},
+            {"objects", std::move(objects)}};
+    }
+
+  private:
+    Json mesh_json(const ExportedMesh& mesh, std::size_t shading) {
+        const std::size_t count = mesh.vertex_count;
+        const auto put = [&](const auto& vectors) {
+            return vectors
+                       ? Json(arrays_.put(std::as_bytes(std::span<const float>(interleaved(vectors, count)))))
+                       : Json();
+        };
+        return {{"indices", arrays_.put(std::as_bytes(mesh.indices))},
+                {"position", put(mesh.position)},
+                {"normals", Json::array({put(mesh.normals[mesh.normals_of[shading]])})},
+                {"uv", scene_.needs_uv ? put(mesh.uv) : Json()},
+                {"dpdu", scene_.needs_derivatives ? put(mesh.dpdu) : Json()},
+                {"dpdv", scene_.needs_derivatives ? put(mesh.dpdv) : Json()},
+                {"color", put(mesh.color)}};
+    }
+
+    static Box box_of(const ExportedMesh& mesh) {
+        const auto range = [&](const float* x) {
+            return std::ranges::minmax(std::span(x, mesh.vertex_count));
+        };
+        if (mesh.vertex_count == 0) return {};
+        const auto x = range(mesh.position.x), y = range(mesh.position.y), z = range(mesh.position.z);
+        return {.low = {x.min, y.min, z.min}, .high = {x.max, y.max, z.max}};
+    }
+
+    /// Lambert's law where three.js has it: with its own lights and normals, and colours that it can express.
+    Json lambert_json(const ExportedObject& object, const Json& mesh, Vec3 color) const {
+        const ExportedReflection& model = scene_.reflections[object.reflection];
+        const ExportedValues& values = object.materials[object.reflection];
+        const auto ka = rgb_value(model, values, "ka"), kd = rgb_value(model, values, "kd");
+        if (std::string_view(model.plugin->name) != "lambert" || !ka || !kd ||
+            !is_smooth(scene_.shadings[object.shading]) ||
+            object.color_texture != ExportedObject::k_no_texture)
+            return {};
+        Vec3 ambient{};
+        for (const ExportedLight& light : scene_.lights)
+            ambient = ambient + Vec3{light.ambient.r, light.ambient.g, light.ambient.b};
+        const Vec3 emissive = times(times(*ka, color), ambient);
+        // What a material emits is not multiplied with the colours of vertices.
+        if (!mesh["color"].is_null() && !(emissive == Vec3{})) return {};
+        return {{"color", vector_json(times(*kd, color))}, {"emissive", vector_json(emissive)}};
+    }
+
+    Json object_json(std::size_t index, Json mesh, bool has_own_lights) const {
+        const ExportedObject& object = scene_.objects[index];
+        const ExportedShading& shading = scene_.shadings[object.shading];
+        const Vec3 color = intensities(object.color, scene_.image.color_management);
+        Json lambert = has_own_lights ? lambert_json(object, mesh, color) : Json();
+        const bool is_textured = object.color_texture != ExportedObject::k_no_texture;
+        return {{"label", object.label},
+                {"closed", is_closed_[index]},
+                {"rate", rate_name(shading.rate)},
+                {"sees_triangle", shading.needs.triangle},
+                {"reflection", object.reflection},
+                {"shading", object.shading},
+                {"lambert", std::move(lambert)},
+                {"uniforms",
+                 {{"object_color", vector_json(color)},
+                  {"material",
+                   struct_json(scene_.reflections[object.reflection], object.materials[object.reflection])},
+                  {"shading", struct_json(shading, object.shadings[object.shading])}}},
+                {"texture", is_textured ? Json(object.color_texture) : Json()},
+                {"texture_repeats", object.color_texture_repeats},
+                {"mesh", std::move(mesh)}};
+    }
+
+    Json shaders_json() const {
+        const GlslParts glsl = glsl_of(scene_, k_logarithmic_depth);
+        return {{"prelude", glsl.prelude},       {"texture", glsl.texture},
+                {"lights", glsl.lights},         {"reflections", glsl.reflections},
+                {"shadings", glsl.shadings},     {"vertex", glsl.vertex},
+                {"fragment", glsl.fragment},     {"screen", glsl.screen},
+                {"accumulate", glsl.accumulate}, {"encode", glsl.encode}};
+    }
+
+    Json textures_json() {
+        Json textures = Json::array();
+        for (const PageTexture& texture : put_textures(scene_, arrays_)) {
+            textures.push_back({{"width", texture.width},
+                                {"height", texture.height},
+                                {"encoded", texture.is_encoded},
+                                {"pixels", texture.pixels}});
+        }
+        return textures;
+    }
+
+    Json image_json() const {
+        const ExportedImage& image = scene_.image;
+        Json samples = Json::array();
+        for (const ExportedSample& s : image.samples) samples.push_back({shortest(s.x), shortest(s.y)});
+        return {{"width", image.width},
+                {"height", image.height},
+                {"samples", std::move(samples)},
+                {"background", vector_json(intensities(image.background, image.color_management))},
+                {"is_srgb", image.color_management == ColorEncoding::srgb}};
+    }
+
+    Json observer_json() const {
+        const ExportedObserver& observer = scene_.observer;
+        const bool is_perspective = observer.projection == Projection::perspective;
+        return {{"position", vector_json(observer.position)},
+                {"look_at", vector_json(observer.look_at)},
+                {"up", vector_json(observer.up)},
+                {"projection", is_perspective ? "perspective" : "orthographic"},
+                {"fov", shortest(observer.fov)},
+                {"height", shortest(observer.height)}};
+    }
+
+    const ExportedScene& scene_;
+    PageArrays& arrays_;
+    std::vector<bool> is_closed_;
+};
+
+}  // namespace
+
+Json scene_json(const ExportedScene& scene, PageArrays& arrays) { return Writer(scene, arrays).write(); }
+
+}  // namespace candela::three_target

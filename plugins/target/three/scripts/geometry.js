@@ -1,0 +1,33 @@
+import { BufferAttribute, BufferGeometry, Mesh } from "three";
+import { floatsOf, indicesOf } from "../../webgl/scripts/arrays.js";
+import { VertexArrays, boxOf, sizeOf } from "../../webgl/scripts/vertex_arrays.js";
+
+/** For three.js's own materials: positions, normals and colours, by their usual names. */
+function usualGeometry({ position, normals, color, indices }) {
+    const geometry = new BufferGeometry();
+    const put = (name, array) => geometry.setAttribute(name, new BufferAttribute(floatsOf(array), 3));
+    put("position", position);
+    put("normal", normals[0]);
+    if (color !== null) put("color", color);
+    return geometry.setIndex(new BufferAttribute(indicesOf(indices), 1));
+}
+
+/** For kernels: all that a shading model may ask for. */
+function kernelGeometry(object) {
+    const geometry = new BufferGeometry(), arrays = new VertexArrays(object.mesh);
+    const sources = arrays.sourcesOf({ rate: object.rate, seesTriangle: object.sees_triangle, isTextured: object.texture !== null }, 0);
+    for (const [name, source] of Object.entries(sources)) {
+        const size = sizeOf(name);
+        const values = typeof source === "string" ? arrays.valuesOf(source)
+            : Float32Array.from({ length: size * arrays.vertexCount }, (_, i) => source[i % size]);
+        geometry.setAttribute(name, new BufferAttribute(values, size));
+    }
+    return geometry;
+}
+
+/** An object's triangles without a material, and the box around them. */
+export function geometryOf(object) {
+    const mesh = new Mesh(object.lambert === null ? kernelGeometry(object) : usualGeometry(object.mesh));
+    mesh.frustumCulled = false;  // the camera's planes lie around the objects anyway
+    return { mesh, bounds: boxOf(object) };
+}

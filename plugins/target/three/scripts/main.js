@@ -1,0 +1,61 @@
+import { element } from "../../webgl/scripts/elements.js";
+import { Gestures } from "../../webgl/scripts/gestures.js";
+import { readScene } from "../../webgl/scripts/scene.js";
+import { Picture } from "./picture.js";
+
+/** The picture as somebody sees it who looks around. */
+class Page {
+    constructor() {
+        this.scene = readScene();
+        this.canvas = document.getElementById("picture-canvas");
+        this.picture = new Picture(this.scene, this.canvas);
+        this.seen = this.scene.observer;
+        this.request = 0;
+        this.picture.draw(this.seen);
+        // Read by `candela verify` from the document that a headless browser prints.
+        if (location.hash === "#verify") document.body.append(element("pre", { id: "picture", hidden: true }, this.canvas.toDataURL("image/png")));
+        new Gestures(this.canvas, this, () => this.moveObserver(this.scene.observer));
+        this.canvas.addEventListener("webglcontextrestored", () => this.redraw());
+    }
+
+    observer() {
+        return this.seen;
+    }
+
+    moveObserver(observer) {
+        this.seen = observer;
+        this.redraw();
+    }
+
+    /** Once before the screen is next drawn. */
+    redraw() {
+        if (this.request !== 0) return;
+        this.request = requestAnimationFrame(() => {
+            this.request = 0;
+            this.picture.draw(this.seen);
+        });
+    }
+
+    /** Rows of RGBA bytes, from the top. */
+    pixels() {
+        const { width, height } = this.canvas, context = new OffscreenCanvas(width, height).getContext("2d", { alpha: false });
+        this.picture.draw(this.seen);
+        context.drawImage(this.canvas, 0, 0);
+        return context.getImageData(0, 0, width, height).data;
+    }
+}
+
+const opened = (async () => new Page())();
+
+/** For scripts: `ready` settles when the page works, or says why it does not; the others are promises of what they are called. */
+window.candela = {
+    ready: opened.then(() => {}),
+    page: opened,
+    render: async () => (await opened).pixels(),
+};
+
+opened.catch((error) => {
+    const text = [error.message, error.detail].filter(Boolean).join("\n");
+    // Read by `candela verify`, too.
+    document.body.append(element("pre", { id: "problem", role: "alert" }, text));
+});

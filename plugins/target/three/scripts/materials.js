@@ -1,0 +1,78 @@
+import { Color, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3, IntType, Matrix4, MeshLambertMaterial, NearestFilter, RawShaderMaterial,
+    RedFormat, RGBAIntegerFormat, UnsignedShortType, Vector3 } from "three";
+import { bytesOf } from "../../webgl/scripts/arrays.js";
+import { levelsOf, sizeWithLevels } from "../../webgl/scripts/texture_levels.js";
+
+export const HEADER = "precision highp float;\nprecision highp int;\n";
+
+/** Numbers as a texture that nobody filters. */
+function dataTexture(array, width, height, format, type, internalFormat) {
+    const texture = new DataTexture(array, width, height, format, type);
+    Object.assign(texture, { internalFormat, minFilter: NearestFilter, magFilter: NearestFilter, needsUpdate: true });
+    return texture;
+}
+
+/** `Type`: of the array; rows of `width` texels, filled up. */
+function tableTexture(Type, bytes, components, width, ...formats) {
+    const numbers = new Type(bytes.buffer), height = Math.max(1, Math.ceil(numbers.length / components / width));
+    const texels = new Type(components * width * height);
+    texels.set(numbers);
+    return dataTexture(texels, width, height, ...formats);
+}
+
+/** What the shader reads of a texture, by the names of its uniforms. */
+function textureUniforms(picture, isSrgb) {
+    const [width, height] = sizeWithLevels(picture), texels = new Uint16Array(4 * width * height);
+    const levels = levelsOf(picture, isSrgb);
+    for (const { place: [left, top], width: columns, height: rows, texels: part } of levels) {
+        for (let y = 0; y < rows; ++y)
+            texels.set(part.subarray(4 * columns * y, 4 * columns * (y + 1)), 4 * (width * (top + y) + left));
+    }
+    return {
+        color_texels: { value: dataTexture(texels, width, height, RGBAIntegerFormat, UnsignedShortType, "RGBA16UI") },
+        size: { width: picture.width, height: picture.height, levels: levels.length },
+    };
+}
+
+const sideOf = ({ closed }) => (closed ? FrontSide : DoubleSide);
+
+/** Lambert's law, as three.js has it; ambient light is what the material emits. */
+function lambertMaterial({ lambert: { color, emissive }, mesh, ...object }) {
+    return new MeshLambertMaterial({ color: new Color(...color), emissive: new Color(...emissive), vertexColors: mesh.color !== null, side: sideOf(object) });
+}
+
+/** Materials whose shaders are made of the formulas of the scene's models. */
+export class KernelMaterials {
+    constructor(json) {
+        this.json = json;
+        /** What the shaders know of the observer: uniforms that all materials share. */
+        this.seen = {
+            view_projection: { value: new Matrix4() }, eye: { value: new Vector3() }, is_orthographic: { value: false },
+            towards_observer: { value: new Vector3() }, pixel_right: { value: new Vector3() }, pixel_up: { value: new Vector3() },
+        };
+        this.lights = Object.fromEntries(Object.entries(json.light_counts).map(([name, value]) => [name, { value }]));
+        this.lights.light_table = { value: tableTexture(Int32Array, bytesOf(json.light_table), 4, json.light_table_width, RGBAIntegerFormat, IntType, "RGBA32I") };
+        this.lights.table_numbers = { value: tableTexture(Float32Array, bytesOf(json.tables), 1, json.table_width, RedFormat, FloatType, "R32F") };
+        this.textures = json.textures.map((picture) => textureUniforms(picture, json.image.is_srgb));
+    }
+
+    of(object) {
+        const { shaders } = this.json, isTextured = object.texture !== null;
+        const common = HEADER + (object.closed ? "" : "#define TWO_SIDED\n") + [
+            shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, shaders.reflections[object.reflection],
+            shaders.shadings[object.shading], "",
+        ].join("\n");
+        const uniforms = { ...this.seen, ...this.lights };
+        for (const [name, value] of Object.entries(object.uniforms)) uniforms[name] = { value };
+        if (isTextured) {
+            const { color_texels, size } = this.textures[object.texture];
+            Object.assign(uniforms, { color_texels, color_texture: { value: { ...size, repeats: object.texture_repeats } } });
+        }
+        return new RawShaderMaterial({
+            glslVersion: GLSL3, vertexShader: common + shaders.vertex, fragmentShader: common + shaders.fragment, uniforms, side: sideOf(object),
+        });
+    }
+}
+
+/** three.js's own material where it is the same formula, else one of the kernels. */
+export const materialOf = (object, kernels) => (object.lambert === null ? kernels.of(object) : lambertMaterial(object));

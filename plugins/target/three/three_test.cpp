@@ -1,0 +1,226 @@
+// Pages with three.js, read as a browser reads them and drawn by one.
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::json;
+
+void require_three() {
+    if (!fs::exists(fs::path(CANDELA_TEST_PLUGINS) / "target-three"))
+        SKIP("there is no three.js: scripts/three.sh brings it");
+}
+
+/// The scene within the page.
+Json generated(const fs::path& folder, const std::string& scene) {
+    require_three();
+    const fs::path file = write_file(folder / "scene.toml", scene);
+    const CommandResult result = run_candela(
+        {"generate", file.string(), "--target", "three", "-o", (folder / "made").string(), "--quiet"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const std::string page = read_file(folder / "made/scene.html");
+    const std::string begin = "id=\"scene\">";
+    const std::size_t at = page.find(begin) + begin.size();
+    return Json::parse(page.substr(at, page.find("</script>", at) - at));
+}
+
+/// The pixel in the middle of what the page draws, in levels.
+std::array<int, 3> drawn_in_the_middle(const fs::path& folder, const std::string& scene) {
+    require_three();
+    const fs::path file = write_file(folder / "scene.toml", scene), report = folder / "report";
+    const CommandResult result =
+        run_candela({"verify", file.string(), "--target", "three", "--report", report.string()});
+    INFO(result.out << result.err);
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    REQUIRE(png_image_begin_read_from_file(&image, (report / "three.png").c_str()) != 0);
+    image.format = PNG_FORMAT_RGB;
+    std::vector<png_byte> bytes(PNG_IMAGE_SIZE(image));
+    REQUIRE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr) != 0);
+    const std::size_t width = image.width, middle = 3 * (width * (image.height / 2) + width / 2);
+    return {bytes[middle], bytes[middle + 1], bytes[middle + 2]};
+}
+
+std::array<int, 3> grey(double intensity) {
+    const int level = static_cast<int>(std::lround(255 * intensity));
+    return {level, level, level};
+}
+
+bool is_near(const Json& a, double b) {
+    return std::abs(a.get<double>() - b) <= 1e-5 * std::max(1.0, std::abs(b));
+}
+
+const std::string k_head = R"(version = 1
+shading = {model = "phong"}
+reflection = {model = "lambert"}
+observer = {position = [0, 0, 4], look_at = [0, 0, 0]}
+image = {width = 64, height = 48}
+)";
+const std::string k_point = "[[light]]\ntype = \"point\"\nposition = [0, 3, 2]\nintensity = 7\n";
+const std::string k_ball =
+    "[[object]]\ntype = \"sphere\"\nradius = 0.5\ncolor = [255, 255, 255]\n"
+    "material = {kd = [0.5, 1, 0.25], ka = 0.5}\n";
+
+/// A white wall in z = 0, seen at its origin.
+std::string wall(const std::string& light) {
+    return R"(version = 1
+shading = {model = "phong"}
+reflection = {model = "lambert"}
+observer = {position = [0, 0, 4], look_at = [0, 0, 0], projection = "orthographic", height = 0.01}
+image = {width = 9, height = 9, color_management = "none"}
+)" + light +
+           "[[object]]\ntype = \"mesh\"\nfile = \"wall.obj\"\ncolor = [255, 255, 255]\n"
+           "material = {kd = 1, ka = 0.5}\n";
+}
+
+fs::path folder_with_wall() {
+    fs::path folder = scratch_directory();
+    write_file(folder / "wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    return folder;
+}
+
+/// RE example 2: a floor with N = (0, 1, 0), seen from (20, 5, 0), lit from (-10, 10, 0).
+std::string example_2(const std::string& reflection, const std::string& material) {
+    return R"(version = 1
+shading = {model = "phong"}
+room = {width = 50, height = 50, depth = 50}
+observer = {position = [20, 5, 0], look_at = [0, 0, 0], fov = 0.01}
+image = {width = 9, height = 9, color_management = "none"}
+reflection = {model = ")" +
+           reflection + R"("}
+[[light]]
+type = "point"
+position = [-10, 10, 0]
+attenuation = "none"
+[[object]]
+type = "mesh"
+file = "floor.obj"
+color = [255, 255, 255]
+[object.material]
+)" + material;
+}
+
+}  // namespace
+
+TEST_CASE("target/three: three.js draws RE example 2 by itself and with a kernel: 0.7071 and 0.8575") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
+    const std::string own = example_2("lambert", "ka = 0\nkd = 1\n");
+    CHECK(generated(folder, own)["objects"][0]["lambert"].is_object());
+    CHECK(drawn_in_the_middle(folder, own) == grey(0.7071));
+    const std::string kernel = example_2("phong", "ka = 0\nkd = 0\nks = 1\nshininess = 1\n");
+    CHECK(drawn_in_the_middle(folder, kernel) == grey(0.8575));
+}
+
+TEST_CASE("target/three: three.js's own lights shine on a wall as strongly as worked out by hand") {
+    const fs::path folder = folder_with_wall();
+    // 2 / 2^2 before it, N.L 0.8 of 0.25 from the sun, and ka 0.5 of 0.2.
+    const std::string lights = wall(
+        "[[light]]\ntype = \"point\"\nposition = [0, 0, 2]\nintensity = 2\n"
+        "[[light]]\ntype = \"directional\"\ndirection = [0, -0.6, -0.8]\nintensity = 0.25\n"
+        "[[light]]\ntype = \"ambient\"\nintensity = 0.2\n");
+    CHECK(generated(folder, lights)["objects"][0]["lambert"].is_object());
+    CHECK(drawn_in_the_middle(folder, lights) == grey(0.5 + 0.2 + 0.1));
+    // Halfway between the cosines of 10 and 40 degrees a smoothstep is 1/2: 3.2 / 2^2 of it.
+    const std::string spot = wall(
+        "[[light]]\ntype = \"spot\"\nposition = [0, 0, 2]\ndirection = [0.48336, 0, -0.87543]\n"
+        "inner_angle = 10\nouter_angle = 40\nintensity = 3.2\n");
+    CHECK(generated(folder, spot)["objects"][0]["lambert"].is_object());
+    CHECK(drawn_in_the_middle(folder, spot) == grey(0.4));
+}
+
+TEST_CASE("target/three: lights and materials of three.js's have the figures worked out by hand") {
+    const Json page = generated(scratch_directory(), k_head + k_point + R"([[light]]
+type = "spot"
+position = [0, 4, 0]
+direction = [0, -2, 0]
+inner_angle = 15
+outer_angle = 30
+[[light]]
+type = "ambient"
+color = [255, 255, 255]
+intensity = 0.25
+)" + k_ball);
+    const Json& point = page["lights"][0];
+    CHECK(point["type"] == "point");
+    CHECK(point["color"] == Json{7, 7, 7});
+    CHECK(is_near(point["intensity"], std::numbers::pi));  // its materials reflect with 1 / pi
+    CHECK(point["decay"] == 2);
+    const Json& spot = page["lights"][1];
+    CHECK(spot["type"] == "spot");
+    CHECK(is_near(spot["angle"], std::numbers::pi / 6));
+    CHECK(is_near(spot["penumbra"], 0.5));
+    CHECK(spot["target"] == Json{0, 3, 0});
+    CHECK(page["objects"][0]["lambert"]["color"] == Json{0.5, 1, 0.25});
+    CHECK(page["objects"][0]["lambert"]["emissive"] == Json{0.125, 0.125, 0.125});
+}
+
+TEST_CASE("target/three: what three.js computes otherwise is left to kernels") {
+    const fs::path folder = scratch_directory();
+    const auto is_own = [&](const std::string& scene) {
+        return generated(folder, scene)["objects"][0]["lambert"].is_object();
+    };
+    CHECK(is_own(k_head + k_point + k_ball));
+    CHECK_FALSE(is_own(k_head + k_point + "attenuation = \"offset-linear\"\n" + k_ball));
+    CHECK_FALSE(is_own(k_head + k_point + "[[light]]\ntype = \"hemisphere\"\n" + k_ball));
+    CHECK_FALSE(is_own(k_head +
+                       "[[light]]\ntype = \"spot\"\nposition = [0, 3, 2]\ndirection = [0, -1, 0]\n"
+                       "falloff = \"linear\"\n" +
+                       k_ball));
+    // Within a tenth of a metre, three.js's lights fade no more.
+    CHECK_FALSE(is_own(k_head + "[[light]]\ntype = \"point\"\nposition = [0, 0.55, 0]\n" + k_ball));
+    CHECK(is_own(k_head + "[[light]]\ntype = \"point\"\nposition = [0, 0.65, 0]\n" + k_ball));
+    CHECK_FALSE(is_own(k_head + k_point + k_ball + "reflection = \"phong\"\n"));
+    for (const std::string& shading : {"flat", "gouraud", "derivative"})
+        CHECK_FALSE(is_own(k_head + k_point + k_ball + "shading = \"" + shading + "\"\n"));
+}
+
+TEST_CASE("target/three: an open mesh with colours at its vertices is right from both sides") {
+    require_three();
+    const fs::path folder = scratch_directory();
+    write_file(folder / "roof.obj",
+               "v -1 -1 0 1 0.2 0.2\nv 1 -1 0 0.2 1 0.2\nv 1 1 0 0.2 0.2 1\nv -1 1 0 1 1 1\n"
+               "f 1 2 3\nf 1 3 4\n");
+    for (const std::string& light : {k_point, k_point + "[[light]]\ntype = \"ambient\"\n"}) {
+        std::string objects;
+        for (const auto& [turn, x] : {std::pair{20, -0.7}, {200, 0.7}})
+            objects += fmt::format(
+                "[[object]]\ntype = \"mesh\"\nfile = \"roof.obj\"\nrotation = [0, {}, 0]\n"
+                "scale = [0.6, 0.6, 0.6]\nposition = [{}, 0, 0]\n",
+                turn, x);
+        const fs::path file = write_file(folder / "scene.toml", k_head + light + objects);
+        const CommandResult result = run_candela({"verify", file.string(), "--target", "three", "--tolerance",
+                                                  "1", "--width", "200", "--height", "120"});
+        INFO(result.out << result.err);
+        CHECK(result.exit_code == 0);
+    }
+}
+
+TEST_CASE("target/three: without three.js, it says which file belongs where") {
+    const fs::path folder = scratch_directory(), plugins = CANDELA_TEST_PLUGINS;
+    for (const char* const name : {"target-three.so", "target-three.json"})
+        fs::copy_file(plugins / name, folder / name, fs::copy_options::overwrite_existing);
+    const CommandResult result = run_candela(
+        {"generate", "--target", "three", "--plugin-dir", folder.string(), "-o", (folder / "made").string()});
+    CHECK(result.exit_code == 1);
+    CHECK(result.err.find("there is no three.js") != std::string::npos);
+    CHECK(result.err.find("npm pack three@") != std::string::npos);
+    CHECK(result.err.find((folder / "target-three").string()) != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "made"));
+}

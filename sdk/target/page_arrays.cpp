@@ -1,0 +1,53 @@
+#include "candela/target/page_arrays.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "candela/target/literals.h"
+#include "candela/target/textures.h"
+
+namespace candela::target {
+
+std::string PageArrays::put(std::span<const std::byte> bytes) {
+    const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string text = base64(bytes);
+    std::string name =
+        fmt::format("array-{:x}-{:016x}", bytes.size(), std::hash<std::string_view>{}(characters));
+    for (auto found = places_.find(name); found != places_.end(); found = places_.find(name)) {
+        const auto [begin, size] = found->second;
+        if (std::string_view(html_).substr(begin, size) == text) return name;
+        name += "-other";
+    }
+    html_ += fmt::format(R"(<script type="text/plain" id="{}">)", name);
+    places_[name] = {html_.size(), text.size()};
+    html_ += text;
+    html_ += "</script>\n";
+    return names_.emplace_back(std::move(name));
+}
+
+std::vector<PageTexture> put_textures(const ExportedScene& scene, PageArrays& arrays) {
+    // Browsers read a page of a hundred megabytes, and none of a few hundred.
+    constexpr std::size_t k_most_bytes = std::size_t{96} << 20;
+    std::vector<PageTexture> textures;
+    std::size_t bytes = 0;
+    for (const ExportedTexture& texture : scene.textures) {
+        const TexturePixels pixels = pixels_of(texture, scene.image.color_management);
+        bytes += pixels.bytes.size();
+        if (bytes > k_most_bytes)
+            throw std::runtime_error(fmt::format(
+                "the scene's textures take more than {} MiB, for which a page has no room; make them "
+                "smaller (the first that is too much is '{}', {} x {} pixels of {} bits)",
+                k_most_bytes >> 20, texture.file, pixels.width, pixels.height, pixels.is_encoded ? 24 : 48));
+        textures.push_back({.title = title_of(texture),
+                            .width = pixels.width,
+                            .height = pixels.height,
+                            .is_encoded = pixels.is_encoded,
+                            .pixels = arrays.put(pixels.bytes)});
+    }
+    return textures;
+}
+
+}  // namespace candela::target
