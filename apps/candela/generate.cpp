@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -32,6 +33,26 @@ void write_inputs(const SceneToExport& scene, const std::string& file) {
     for (const fs::path& input : scene.inputs) names.push_back(fs::absolute(input).string());
     candela::write_text_file(file,
                              names.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+/// Loads what `--models all` will, so that it need not be done when the scene is there. What cannot be loaded
+/// is said when it is needed.
+void load_models(candela::Registry& registry) {
+    for (const auto kind : {candela::PluginKind::shading, candela::PluginKind::reflection}) {
+        for (const std::string& name : registry.names(kind)) {
+            try {
+                registry.require(kind, name);
+            } catch (const Error&) {
+                continue;
+            }
+        }
+    }
+}
+
+/// False if nothing comes.
+bool is_told_to_go_on() {
+    std::string line;
+    return static_cast<bool>(std::getline(std::cin, line));
 }
 
 /// For who reads it as it comes, and wants no file.
@@ -68,6 +89,7 @@ int run_generate(const std::vector<std::string>& arguments) {
         "the output folder; default: scene-NAME; - prints the file of a target that writes one")(
         "inputs", po::value<std::string>()->value_name("FILE"),
         "also write the names of all files that the scene is made from, as a JSON array")(
+        "wait", "load the plugins, and wait for a line on standard input before the scene is read")(
         "build", "also build it")("run", "build it and run it: a picture, a window, or a browser");
     add_models_option(line);
     add_approximate_option(line);
@@ -86,6 +108,10 @@ int run_generate(const std::vector<std::string>& arguments) {
         throw Error(ErrorCategory::bad_request,
                     "what --output - prints cannot be built or run; give a folder");
 
+    if (line.has("wait")) {
+        if (line.has("models")) load_models(registry);
+        if (!is_told_to_go_on()) return 0;
+    }
     candela::Diagnostics diagnostics;
     const auto scene = scene_to_export(line, registry, diagnostics);
     report(diagnostics);

@@ -1,6 +1,7 @@
 #include "viewing.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
@@ -55,6 +56,26 @@ candela::ProgramOutput run_verb(const std::vector<std::string>& verb,
     std::vector<std::string> words{"/proc/self/exe"};
     for (const auto& some : {verb, arguments, options}) words.insert(words.end(), some.begin(), some.end());
     return candela::run_program(words);
+}
+
+constexpr const char* k_inputs = "inputs.json";
+
+std::vector<FileState> states_in(const std::vector<fs::path>& folders) {
+    std::vector<FileState> states;
+    for (const fs::path& folder : folders) {
+        std::error_code problem;
+        for (fs::recursive_directory_iterator file(folder, problem), end; !problem && file != end;
+             file.increment(problem)) {
+            struct stat found{};
+            if (::stat(file->path().c_str(), &found) != 0) continue;
+            states.push_back({.path = file->path(),
+                              .inode = found.st_ino,
+                              .seconds = found.st_ctim.tv_sec,
+                              .nanoseconds = found.st_ctim.tv_nsec});
+        }
+    }
+    std::ranges::sort(states, {}, &FileState::path);
+    return states;
 }
 
 }  // namespace
@@ -144,19 +165,37 @@ void SceneFollower::watch(bool is_right) {
     watcher_.watch(files, folders);
 }
 
+void SceneFollower::get_ready() {
+    std::vector<std::string> words{"/proc/self/exe", "generate", "--wait"};
+    words.insert(words.end(), job_.arguments.begin(), job_.arguments.end());
+    words.insert(words.end(), {"--target", job_.target, "--output", "-", "--inputs",
+                               (folder_.path() / k_inputs).string()});
+    plugins_ = states_in(job_.plugin_folders);
+    waiting_.emplace(words);
+}
+
+candela::ProgramOutput SceneFollower::generated() {
+    std::optional<candela::ProgramOutput> result;
+    if (waiting_ && plugins_ == states_in(job_.plugin_folders)) result = waiting_->go_on();
+    if (!result) {
+        get_ready();
+        result = waiting_->go_on();
+    }
+    if (!result)
+        throw Error(ErrorCategory::failure, "candela generate ends before it has been told anything");
+    return *std::move(result);
+}
+
 bool SceneFollower::make_page() {
-    const fs::path inputs = folder_.path() / "inputs.json";
     const Stopwatch watch;
-    candela::ProgramOutput result =
-        run_verb({"generate"}, job_.arguments,
-                 {"--target", job_.target, "--output", "-", "--inputs", inputs.string()});
+    candela::ProgramOutput result = generated();
     if (is_ending_) return false;
     // While it has errors, the scene's whole folder is watched, and much may happen there.
     const bool is_news = result.err != latest_.problems;
     latest_.problems = result.err;
     const bool is_right = result.exit_code == 0;
     if (is_right) {
-        inputs_ = names_listed_in(inputs);
+        inputs_ = names_listed_in(folder_.path() / k_inputs);
         // Saved as it was: pages that have been made already are not made again.
         if (latest_.page == nullptr || result.out != latest_.page->html()) {
             latest_.page = std::make_shared<const view::Page>(std::move(result.out));
@@ -187,6 +226,7 @@ void SceneFollower::follow() {
             const fs::file_time_type begin = fs::file_time_type::clock::now();
             const std::vector<fs::path> before = inputs_;
             watch(make_page());
+            if (!is_ending_) get_ready();
             // What the scene names for the first time has not been watched while it was read.
             is_changed = (inputs_ != before && has_input_since(begin)) || watcher_.wait();
         }

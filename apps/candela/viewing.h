@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +14,17 @@
 #include "view/publication.h"
 #include "view/server.h"
 #include "view/watcher.h"
+
+import candela.process;
+
+/// A file's, such that a file that has been written or replaced since has another one.
+struct FileState {
+    std::filesystem::path path;
+    std::uint64_t inode = 0;
+    std::int64_t seconds = 0, nanoseconds = 0;  // when it, or what is known of it, was last changed
+
+    bool operator==(const FileState&) const = default;
+};
 
 /// While there is one, programs that this one has started are ended.
 class WithoutDescendants {
@@ -64,6 +77,10 @@ class SceneFollower {
     /// Whether the scene became a page.
     bool make_page();
     void watch(bool is_right);
+    /// Has a program load the plugins, and wait for the next save.
+    void get_ready();
+    /// What the program says that was ready, or another one if plugins have changed since.
+    candela::ProgramOutput generated();
     bool has_input_since(std::filesystem::file_time_type time) const;
 
     Job job_;
@@ -72,6 +89,8 @@ class SceneFollower {
     view::Watcher watcher_;
     view::Publication latest_;
     std::vector<std::filesystem::path> inputs_;
+    std::optional<candela::WaitingProgram> waiting_;
+    std::vector<FileState> plugins_;  // that it has loaded
     std::atomic<bool> is_ending_{false};
     std::thread thread_;  // the last, since it uses all the others
 };

@@ -4,6 +4,7 @@
 #include <sys/signalfd.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -137,7 +138,7 @@ class Server::Implementation {
     asio::steady_timer pause_{context_};
     tcp::acceptor acceptor_{context_};
     asio::posix::stream_descriptor signals_{context_, ending_signals()};
-    signalfd_siginfo signal_{};
+    std::array<signalfd_siginfo, 3> received_{};
     int waiting_ = 0;
     asio::thread_pool worker_{1};
 };
@@ -341,8 +342,8 @@ Server::Implementation::Implementation(std::uint16_t port, Handlers handlers)
             candela::ErrorCategory::failure,
             fmt::format("port {} of 127.0.0.1 cannot be listened on: {}", port, problem.code().message()));
     }
-    // Read, for else it would come once more when it is no longer blocked.
-    signals_.async_read_some(asio::buffer(&signal_, sizeof signal_), [this](error_code problem, std::size_t) {
+    // All that have come: else they would come once more when they are no longer blocked.
+    signals_.async_read_some(asio::buffer(received_), [this](error_code problem, std::size_t) {
         if (!problem) stop();
     });
     accept();

@@ -111,10 +111,10 @@ def main():
 
         for mesh in meshes:
             save(mesh, 0)
+        browser = Browser(*DRAWS_BY_ITSELF)
         window = Window(meshes[1], name)
         server = subprocess.Popen([options.build / "bin" / "candela", "view", "--no-open", "--quiet", folder / "scene.toml"],
                                   stdout=subprocess.PIPE, text=True)
-        browser = Browser(*DRAWS_BY_ITSELF)
         rounds = []
         try:
             browser.open(server.stdout.readline().strip())

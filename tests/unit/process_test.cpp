@@ -55,3 +55,23 @@ TEST_CASE("programs that are started at the same moment do not wait for one anot
     starting.join();
     for (const auto& cat : patient) CHECK(cat->answer("still there", k_patience) == "still there");
 }
+
+TEST_CASE("a program waits until it is told to go on, and then all that it prints is there") {
+    candela::WaitingProgram shell(
+        {"/bin/sh", "-c", "read line; head -c 1000000 /dev/zero | tr '\\0' x; echo so >&2; exit 3"});
+    const auto result = shell.go_on();
+    REQUIRE(result.has_value());
+    CHECK(result->exit_code == 3);
+    CHECK((result->out == std::string(1'000'000, 'x')));
+    CHECK(result->err == "so\n");
+}
+
+TEST_CASE("a program that has ended before it is told to go on says nothing, and one that waits is ended") {
+    {
+        candela::WaitingProgram impatient({"/bin/true"});
+        // Its end of the connection is closed by then.
+        std::this_thread::sleep_for(milliseconds(500));
+        CHECK_FALSE(impatient.go_on().has_value());
+    }
+    const candela::WaitingProgram patient({"/bin/cat"});
+}

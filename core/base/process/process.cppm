@@ -65,4 +65,23 @@ class CANDELA_API AnsweringProgram {
     std::unique_ptr<Implementation> implementation_;
 };
 
+/// A program that gets ready, and waits for a line on its standard input before it does what it is for. One
+/// thread at a time.
+class CANDELA_API WaitingProgram {
+  public:
+    /// Starts it; throws like run_program().
+    explicit WaitingProgram(const std::vector<std::string>& words);
+    WaitingProgram(const WaitingProgram&) = delete;
+    WaitingProgram& operator=(const WaitingProgram&) = delete;
+    /// Ends it, and waits for its end.
+    ~WaitingProgram();
+
+    /// Tells it to go on, and waits for its end. Nothing if it has ended before. Call it once.
+    std::optional<ProgramOutput> go_on();
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
 }  // namespace candela

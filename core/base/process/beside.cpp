@@ -21,10 +21,12 @@ module;
 #include <csignal>
 #include <cstddef>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -72,11 +74,23 @@ std::array<Descriptor, 2> connected() {
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-}  // namespace
+/// What a file in memory holds.
+std::string content_of(const Descriptor& file) {
+    std::string text;
+    std::vector<char> piece(std::size_t{1} << 16);
+    for (;;) {
+        const ssize_t count =
+            ::pread(file.number(), piece.data(), piece.size(), static_cast<off_t>(text.size()));
+        if (count <= 0) return text;
+        text.append(piece.data(), static_cast<std::size_t>(count));
+    }
+}
 
-class AnsweringProgram::Implementation {
+/// A program that runs beside this one, and is told things through its standard input.
+class Beside {
   public:
-    explicit Implementation(const std::vector<std::string>& words)
+    /// `output`: the descriptor that it prints to; -1: what it is told by.
+    explicit Beside(const std::vector<std::string>& words, int output = -1)
         // In memory, so that a program that says much does not wait for a reader.
         : errors_(::memfd_create("errors", MFD_CLOEXEC)) {
         std::array<Descriptor, 2> ends = connected();
@@ -87,7 +101,7 @@ class AnsweringProgram::Implementation {
                 std::filesystem::path(words.front()), process::args(arguments),
                 process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
                 process::posix::fd.bind(STDIN_FILENO, ends[1].number()),
-                process::posix::fd.bind(STDOUT_FILENO, ends[1].number()),
+                process::posix::fd.bind(STDOUT_FILENO, output < 0 ? ends[1].number() : output),
                 process::posix::fd.bind(STDERR_FILENO, errors_.number()));
             process_ = child.id();
             child.detach();
@@ -97,9 +111,10 @@ class AnsweringProgram::Implementation {
         }
         connection_.emplace(std::move(ends[0]));
     }
-    Implementation(const Implementation&) = delete;
-    Implementation& operator=(const Implementation&) = delete;
-    ~Implementation() {
+    Beside(const Beside&) = delete;
+    Beside& operator=(const Beside&) = delete;
+    ~Beside() {
+        if (process_ < 0) return;
         ::kill(process_, SIGTERM);
         const auto end = steady_clock::now() + k_longest_end;
         while (is_running()) {
@@ -108,16 +123,51 @@ class AnsweringProgram::Implementation {
         }
     }
 
+    const Descriptor& connection() const { return *connection_; }
+    std::string errors() const { return content_of(errors_); }
+
+    /// False if it has ended.
+    bool send(std::string_view text) const {
+        while (!text.empty()) {
+            const ssize_t count = ::send(connection_->number(), text.data(), text.size(), MSG_NOSIGNAL);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) return false;
+            text.remove_prefix(static_cast<std::size_t>(count));
+        }
+        return true;
+    }
+
+    /// Waits for its end. Its exit code, 128 + signal where a signal ended it.
+    int wait() {
+        int status = 0;
+        pid_t ended = -1;
+        do {
+            ended = ::waitpid(process_, &status, 0);
+        } while (ended < 0 && errno == EINTR);
+        process_ = -1;
+        // Whoever ends all programs may have waited for this one, too.
+        if (ended < 0) return 128 + SIGKILL;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    /// Likewise.
+    bool is_running() const { return ::waitpid(process_, nullptr, WNOHANG) == 0; }
+
+    Descriptor errors_;
+    std::optional<Descriptor> connection_;
+    pid_t process_ = -1;
+};
+
+}  // namespace
+
+class AnsweringProgram::Implementation {
+  public:
+    explicit Implementation(const std::vector<std::string>& words) : program_(words) {}
+
     std::optional<std::string> answer(std::string line, milliseconds patience) {
         const auto end = steady_clock::now() + patience;
-        line += '\n';
-        for (std::size_t sent = 0; sent < line.size();) {
-            const ssize_t count =
-                ::send(connection_->number(), line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
-            if (count < 0 && errno == EINTR) continue;
-            if (count <= 0) return std::nullopt;
-            sent += static_cast<std::size_t>(count);
-        }
+        if (!program_.send(line += '\n')) return std::nullopt;
         for (;;) {
             if (const std::size_t at = received_.find('\n'); at != std::string::npos) {
                 std::string found = received_.substr(0, at);
@@ -129,37 +179,24 @@ class AnsweringProgram::Implementation {
         }
     }
 
-    std::string errors() const {
-        std::string text;
-        std::array<char, 4096> part{};
-        while (true) {
-            const ssize_t count =
-                ::pread(errors_.number(), part.data(), part.size(), static_cast<off_t>(text.size()));
-            if (count <= 0) return text;
-            text.append(part.data(), static_cast<std::size_t>(count));
-        }
-    }
+    std::string errors() const { return program_.errors(); }
 
   private:
-    /// Whoever ends all programs may have waited for this one, too.
-    bool is_running() const { return ::waitpid(process_, nullptr, WNOHANG) == 0; }
-
     /// False at the end of the program, or of patience.
     bool receive(milliseconds patience) {
-        pollfd source{.fd = connection_->number(), .events = POLLIN, .revents = 0};
+        const int connection = program_.connection().number();
+        pollfd source{.fd = connection, .events = POLLIN, .revents = 0};
         const int ready = ::poll(&source, 1, static_cast<int>(std::max(patience, milliseconds(0)).count()));
         if (ready < 0 && errno == EINTR) return true;
         if (ready <= 0) return false;
         std::array<char, 65536> part{};
-        const ssize_t count = ::recv(connection_->number(), part.data(), part.size(), 0);
+        const ssize_t count = ::recv(connection, part.data(), part.size(), 0);
         if (count <= 0) return count < 0 && errno == EINTR;
         received_.append(part.data(), static_cast<std::size_t>(count));
         return true;
     }
 
-    Descriptor errors_;
-    std::optional<Descriptor> connection_;
-    pid_t process_ = -1;
+    Beside program_;
     std::string received_;
 };
 
@@ -172,5 +209,30 @@ std::optional<std::string> AnsweringProgram::answer(std::string line, millisecon
 }
 
 std::string AnsweringProgram::errors() const { return implementation_->errors(); }
+
+class WaitingProgram::Implementation {
+  public:
+    explicit Implementation(const std::vector<std::string>& words)
+        : output_(::memfd_create("output", MFD_CLOEXEC)), program_(words, output_.number()) {}
+
+    std::optional<ProgramOutput> go_on() {
+        if (!program_.send("\n")) return std::nullopt;
+        ProgramOutput result;
+        result.exit_code = program_.wait();
+        result.out = content_of(output_);
+        result.err = program_.errors();
+        return result;
+    }
+
+  private:
+    Descriptor output_;
+    Beside program_;
+};
+
+WaitingProgram::WaitingProgram(const std::vector<std::string>& words)
+    : implementation_(std::make_unique<Implementation>(words)) {}
+WaitingProgram::~WaitingProgram() = default;
+
+std::optional<ProgramOutput> WaitingProgram::go_on() { return implementation_->go_on(); }
 
 }  // namespace candela
