@@ -21,6 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// To be called first: within CHECK() and REQUIRE(), SKIP() is a failure.
 void require_three() {
     if (!fs::exists(fs::path(CANDELA_TEST_PLUGINS) / "target-three"))
         SKIP("there is no three.js: scripts/three.sh brings it");
@@ -28,7 +29,6 @@ void require_three() {
 
 /// The scene within the page.
 Json generated(const fs::path& folder, const std::string& scene) {
-    require_three();
     const fs::path file = write_file(folder / "scene.toml", scene);
     const CommandResult result = run_candela(
         {"generate", file.string(), "--target", "three", "-o", (folder / "made").string(), "--quiet"});
@@ -42,7 +42,6 @@ Json generated(const fs::path& folder, const std::string& scene) {
 
 /// The pixel in the middle of what the page draws, in levels.
 std::array<int, 3> drawn_in_the_middle(const fs::path& folder, const std::string& scene) {
-    require_three();
     const fs::path file = write_file(folder / "scene.toml", scene), report = folder / "report";
     const CommandResult result =
         run_candela({"verify", file.string(), "--target", "three", "--report", report.string()});
@@ -119,6 +118,7 @@ color = [255, 255, 255]
 }  // namespace
 
 TEST_CASE("target/three: three.js draws RE example 2 by itself and with a kernel: 0.7071 and 0.8575") {
+    require_three();
     const fs::path folder = scratch_directory();
     write_file(folder / "floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
     const std::string own = example_2("lambert", "ka = 0\nkd = 1\n");
@@ -129,6 +129,7 @@ TEST_CASE("target/three: three.js draws RE example 2 by itself and with a kernel
 }
 
 TEST_CASE("target/three: three.js's own lights shine on a wall as strongly as worked out by hand") {
+    require_three();
     const fs::path folder = folder_with_wall();
     // 2 / 2^2 before it, N.L 0.8 of 0.25 from the sun, and ka 0.5 of 0.2.
     const std::string lights = wall(
@@ -146,6 +147,7 @@ TEST_CASE("target/three: three.js's own lights shine on a wall as strongly as wo
 }
 
 TEST_CASE("target/three: lights and materials of three.js's have the figures worked out by hand") {
+    require_three();
     const Json page = generated(scratch_directory(), k_head + k_point + R"([[light]]
 type = "spot"
 position = [0, 4, 0]
@@ -172,6 +174,7 @@ intensity = 0.25
 }
 
 TEST_CASE("target/three: what three.js computes otherwise is left to kernels") {
+    require_three();
     const fs::path folder = scratch_directory();
     const auto is_own = [&](const std::string& scene) {
         return generated(folder, scene)["objects"][0]["lambert"].is_object();
@@ -192,6 +195,7 @@ TEST_CASE("target/three: what three.js computes otherwise is left to kernels") {
 }
 
 TEST_CASE("target/three: an open mesh with colours at its vertices is right from both sides") {
+    require_three();
     require_three();
     const fs::path folder = scratch_directory();
     write_file(folder / "roof.obj",
