@@ -167,7 +167,8 @@ class AnsweringProgram::Implementation {
 
     std::optional<std::string> answer(std::string line, milliseconds patience) {
         const auto end = steady_clock::now() + patience;
-        if (!program_.send(line += '\n')) return std::nullopt;
+        line += '\n';
+        if (!program_.send(line)) return std::nullopt;
         for (;;) {
             if (const std::size_t at = received_.find('\n'); at != std::string::npos) {
                 std::string found = received_.substr(0, at);
