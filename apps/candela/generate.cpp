@@ -61,7 +61,6 @@ void print(const std::vector<candela::ExportedFile>& files, const std::string& t
         throw Error(ErrorCategory::bad_request,
                     fmt::format("target/{} writes {} files, and --output - prints one; give a folder", target,
                                 files.size()));
-    require_no_terminal("-", "a file for another program");
     candela::write_text_file("-", files.front().content);  // as it is: what std::cout gets is made printable
 }
 
@@ -104,6 +103,7 @@ int run_generate(const std::vector<std::string>& arguments) {
         line.has("output") ? line.get<std::string>("output") : fmt::format("scene-{}", target.name());
 
     const bool is_printed = directory == "-";
+    require_no_terminal(directory.string(), "a file for another program");
     if (is_printed && (line.has("build") || line.has("run")))
         throw Error(ErrorCategory::bad_request,
                     "what --output - prints cannot be built or run; give a folder");

@@ -35,6 +35,9 @@ constexpr float k_hair = 1e-5f;  // of the room's size
 /// More would only repeat the first thousand, and there might be billions.
 constexpr std::size_t k_most_overlaps = 1000;
 
+/// Few enough that a scene with too many overlaps is given up before all of its bodies have been made.
+constexpr std::size_t k_bodies_at_once = 64;
+
 constexpr std::array<char, 3> k_axis_names = {'x', 'y', 'z'};
 
 std::array<float, 3> components(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -142,21 +145,19 @@ class Checker {
         }
     }
 
-    /// Those whose boxes meet others, on several threads.
-    void make_bodies() {
-        std::vector<std::size_t> needed;
-        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            if (!surfaces_[i].empty() && !tree_.meeting(i).empty()) needed.push_back(i);
-        }
-        parallel_for(needed.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) body(needed[k]);
+    /// Of the objects from `first` on whose boxes meet others, on several threads.
+    void make_bodies(std::size_t first) {
+        const std::size_t count = std::min(k_bodies_at_once, surfaces_.size() - first);
+        parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = first + begin; i < first + end; ++i)
+                if (!surfaces_[i].empty() && !tree_.meeting(i).empty()) body(i);
         });
     }
 
     void check_overlaps(const std::function<void()>& checked) {
-        if (scene_.constraints.overlap) make_bodies();
         std::size_t found = 0;
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            if (scene_.constraints.overlap && i % k_bodies_at_once == 0) make_bodies(i);
             if (checked) checked();
             if (surfaces_[i].empty() || !scene_.constraints.overlap) continue;
             for (const std::size_t j : tree_.meeting(i)) {
