@@ -70,6 +70,7 @@ done
 
 say "remove it"
 quiet "$scratch/venv/bin/pip" uninstall --yes candela
-left=$(find "$scratch/venv" -path '*candela*')
+# Of paths within it: the checkout may have that name, too.
+left=$(cd "$scratch/venv" && find . -path '*candela*')
 [ -z "$left" ] || fail "this is left behind: $left"
 say "all well"
