@@ -317,6 +317,11 @@ class Viewing(unittest.TestCase):
         self.browser.enter('[data-path="pane.1.reflection"] select', "toon")
         self.browser.unfold_all()
         self.browser.enter('[data-path="object.0.color"] input', "#20c040")
+        # Both have their sizes once they are drawn, and nothing moves any more.
+        self.wait_for("""(() => {
+            const [a, b] = ["#picture-canvas", "canvas.pane"].map((name) => document.querySelector(name).getBoundingClientRect());
+            return a.width === b.width && a.height === b.height && a.width < innerWidth / 2;
+        })()""")
         pictures = []
         for options in ((), ("--reflection", "toon")):
             candela("render", self.file, "-o", self.folder / "pane.ppm", "--set", "object.0.color=[32,192,64]", *options)

@@ -90,7 +90,8 @@ export class Panes {
         this.share.parentElement.hidden = !isWipe;
         while (this.panes.length > count - 1) this.panes.pop().canvas.remove();
         while (this.panes.length < count - 1) {
-            const canvas = element("canvas", { class: "pane", role: "img" }), index = this.panes.length + 1;
+            // Of the first one's size, not a canvas's 300 x 150 until it is drawn on, which moves what lies below.
+            const { width, height } = this.picture, canvas = element("canvas", { class: "pane", role: "img", width, height }), index = this.panes.length + 1;
             new Gestures(canvas, this.settings, this.onReset);
             const last = this.panes.at(-1)?.canvas ?? parent.querySelector(".markers") ?? this.picture;
             last.after(canvas);
