@@ -1,4 +1,5 @@
-"""Frames with a texture against the same without, 1920 x 1080, in turns: the ratio of their times.
+"""Frames with a texture on all objects against the same without, 1920 x 1080, in turns: the ratio of their times. The scenes of
+tests/bench/scenes, and two that textures fill.
 
 textures.py <build folder> <work folder> [--frames N] [--rounds N] [--threads N]
 """
@@ -6,6 +7,7 @@ import argparse
 import json
 import pathlib
 import random
+import re
 import statistics
 import subprocess
 
@@ -65,7 +67,7 @@ rotation = [90.0, 0.0, 0.0]
 
 
 def median_ms(scene):
-    words = [command, "bench", scene, "--frames", str(arguments.frames), "--threads", str(arguments.threads), "--json", "--quiet"]
+    words = [command, "bench", scene, "--width", "1920", "--height", "1080", "--frames", str(arguments.frames), "--threads", str(arguments.threads), "--json", "--quiet"]
     return json.loads(subprocess.run(words, cwd=arguments.work, check=True, capture_output=True).stdout)["frame_ms"]
 
 
@@ -76,13 +78,23 @@ if not texture.exists():
     texture.write_bytes(b"P6\n%d %d\n255\n" % (size, size) + row * (size // 64))
 (arguments.work / "floor.obj").write_text(
     "v -4.9 0 4.9\nv 4.9 0 4.9\nv 4.9 0 -4.9\nv -4.9 0 -4.9\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n")
+
+
+def compare(name, plain, textured):
+    for kind, text in (("plain", plain), ("textured", textured)):
+        (arguments.work / f"{kind}.toml").write_text(text)
+    ratios = []
+    for _ in range(arguments.rounds):
+        plain_ms, textured_ms = median_ms("plain.toml"), median_ms("textured.toml")
+        ratios.append(textured_ms / plain_ms)
+    print(f"{name:15} textured / plain: median {statistics.median(ratios):.2f} "
+          f"({min(ratios):.2f} to {max(ratios):.2f}; the last {textured_ms:.2f} and {plain_ms:.2f} ms)", flush=True)
+
+
+TEXTURE = 'color_texture = "texture.ppm"'
+for file in sorted(pathlib.Path(__file__).with_name("scenes").glob("*.toml")):
+    tables = re.split(r"(?m)^(?=\[)", file.read_text())
+    compare(file.stem, "".join(tables), "".join(f"{t.rstrip()}\n{TEXTURE}\n" if t.startswith("[[object]]") else t for t in tables))
 for name, objects in SCENES.items():
     for model in ("lambert", "phong", "ggx"):
-        for kind, key in (("plain", ""), ("textured", 'color_texture = "texture.ppm"')):
-            (arguments.work / f"{kind}.toml").write_text(HEAD.format(model=model) + objects.format(texture=key))
-        ratios = []
-        for _ in range(arguments.rounds):
-            plain, textured = median_ms("plain.toml"), median_ms("textured.toml")
-            ratios.append(textured / plain)
-        print(f"{name:6} {model:8} textured / plain: median {statistics.median(ratios):.2f} "
-              f"({min(ratios):.2f} to {max(ratios):.2f}; the last {textured:.2f} and {plain:.2f} ms)", flush=True)
+        compare(f"{name} {model}", *(HEAD.format(model=model) + objects.format(texture=key) for key in ("", TEXTURE)))

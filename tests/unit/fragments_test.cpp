@@ -1,4 +1,5 @@
 #include <array>
+#include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 using candela::FragmentRun;
 using candela::Vec3;
+using Catch::Approx;
 
 namespace {
 
@@ -22,6 +24,8 @@ candela::Mesh square() {
         mesh.position.span().set(i, indices[i]);
         mesh.vertices.push_back({.position = indices[i], .normal = {0.1f * static_cast<float>(i), 0.2f, 1}});
     }
+    mesh.u = {0, 1, 0.75f, 0.125f};
+    mesh.v = {0, 0.25f, 1, 0.5f};
     mesh.indices = {0, 1, 2, 0, 2, 3};
     mesh.face_normal.span().set(0, {0, 0, 1});
     mesh.face_normal.span().set(1, {0, 1, 0});
@@ -40,10 +44,12 @@ struct SquareSeen {
 };
 
 /// All that is known of a point.
-using Point = std::array<Vec3, 4>;
+using Point = std::array<Vec3, 7>;
 Point point(const candela::SurfacePoints& points, std::size_t i) {
-    return {points.position.span()[i], points.vertex_normal.span()[i], points.face_normal.span()[i],
-            points.barycentric.span()[i]};
+    return {points.position.span()[i],          points.vertex_normal.span()[i],
+            points.face_normal.span()[i],       points.barycentric.span()[i],
+            {points.u[i], points.v[i], 0},      {points.dudx[i], points.dvdx[i], 0},
+            {points.dudy[i], points.dvdy[i], 0}};
 }
 
 /// Stretches of `lengths` pixels, of the two triangles in turns, each a run of its own.
@@ -91,14 +97,38 @@ TEST_CASE("a batch of fragments is filled up to whole vectors with its last one,
             run.count = 1;
             for (std::uint32_t i = 0; i < length; ++i, run.x += 1) {
                 const std::uint32_t& triangle = stretches.triangles[one_by_one.size()];
-                candela::gather_fragments(seen.projected, {{&run, 1}, {&triangle, 1}}, {}, points);
+                candela::gather_fragments(seen.projected, {{&run, 1}, {&triangle, 1}}, {.uv = true}, points);
                 one_by_one.push_back(point(points, 0));
             }
         }
-        candela::gather_fragments(seen.projected, stretches.batch(), {}, points);
+        candela::gather_fragments(seen.projected, stretches.batch(), {.uv = true}, points);
         require_filled(points, one_by_one.size());
         for (std::size_t i = 0; i < one_by_one.size(); ++i) CHECK(point(points, i) == one_by_one[i]);
     }
+}
+
+TEST_CASE("derivatives of texture coordinates are what these change by from pixel to pixel") {
+    const SquareSeen seen;
+    candela::SurfacePoints points;
+    const std::uint32_t triangle = 0;
+    const auto uv_at = [&](float x, float y) {
+        const FragmentRun run{.pixel = 0, .count = 1, .x = x, .y = y, .weight = 1};
+        candela::gather_fragments(seen.projected, {{&run, 1}, {&triangle, 1}}, {.uv = true}, points);
+        return Vec3{points.u[0], points.v[0], 0};
+    };
+    // Central differences; perspective bends the coordinates a little in between.
+    constexpr float k_step = 0.5f;
+    const float x = 140, y = 150;
+    const Vec3 by_x = uv_at(x + k_step, y) - uv_at(x - k_step, y);
+    const Vec3 by_y = uv_at(x, y + k_step) - uv_at(x, y - k_step);
+    uv_at(x, y);
+    REQUIRE(points.barycentric.span()[0].x > 0.05f);
+    REQUIRE(points.barycentric.span()[0].y > 0.05f);
+    REQUIRE(points.barycentric.span()[0].z > 0.05f);
+    CHECK(points.dudx[0] == Approx(by_x.x).epsilon(0.001));
+    CHECK(points.dvdx[0] == Approx(by_x.y).epsilon(0.001));
+    CHECK(points.dudy[0] == Approx(by_y.x).epsilon(0.001));
+    CHECK(points.dvdy[0] == Approx(by_y.y).epsilon(0.001));
 }
 
 TEST_CASE("batches of faces and of vertices are filled up likewise") {

@@ -170,68 +170,6 @@ bool ProjectedMesh::is_back(std::uint32_t triangle) const {
 
 namespace {
 
-/// How a triangle's texture coordinates change over the picture. Barycentric coordinates are b_k = N_k / S,
-/// where the N_k = A_k + B_k x + C_k y and their sum S are linear in the pixel's position (Blinn 1992), so
-/// that du/dx = sum of B_k (u_k - u) / S, and likewise for the others.
-struct FootprintCoefficients {
-    float a = 0, b = 0, c = 0;  // S
-    float u = 0, v = 0;         // of the first vertex, to which the others are relative
-    float u_b = 0, u_c = 0, v_b = 0, v_c = 0;
-};
-
-FootprintCoefficients footprint_of(const ProjectedMesh& source, std::uint32_t triangle) {
-    const Indices vertices = corners_of(source.mesh, triangle);
-    const AlignedVector<float>&u = source.mesh.u, &v = source.mesh.v;
-    double x[3], y[3], w[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-        const ProjectedVertex& p = source.scene.vertices[source.first_vertex + vertices[k]];
-        x[k] = p.x, y[k] = p.y, w[k] = p.w;
-    }
-    double a[3], b[3], c[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-        a[k] = x[i] * y[j] - x[j] * y[i];
-        b[k] = w[j] * y[i] - w[i] * y[j];
-        c[k] = x[j] * w[i] - x[i] * w[j];
-    }
-    const double u1 = u[vertices[1]] - u[vertices[0]], u2 = u[vertices[2]] - u[vertices[0]];
-    const double v1 = v[vertices[1]] - v[vertices[0]], v2 = v[vertices[2]] - v[vertices[0]];
-    const double all[] = {a[0] + a[1] + a[2],    b[0] + b[1] + b[2],    c[0] + c[1] + c[2],
-                          b[1] * u1 + b[2] * u2, c[1] * u1 + c[2] * u2, b[1] * v1 + b[2] * v2,
-                          c[1] * v1 + c[2] * v2};
-    // The quotients stay as they are; the terms are brought into the range of floats.
-    double largest = 0;
-    for (const double term : all) largest = std::max(largest, std::abs(term));
-    const double scale = largest > 0 ? 1 / largest : 0;
-    float scaled[7];
-    for (std::size_t i = 0; i < 7; ++i) scaled[i] = static_cast<float>(scale * all[i]);
-    return {.a = scaled[0],
-            .b = scaled[1],
-            .c = scaled[2],
-            .u = u[vertices[0]],
-            .v = v[vertices[0]],
-            .u_b = scaled[3],
-            .u_c = scaled[4],
-            .v_b = scaled[5],
-            .v_c = scaled[6]};
-}
-
-struct FootprintLoop {
-    CANDELA_BATCH_LOOP static void run(FootprintCoefficients f, std::size_t count, const float* x,
-                                       const float* y, const float* u, const float* v, float* dudx,
-                                       float* dvdx, float* dudy, float* dvdy) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const float scale = 1.0f / (f.a + f.b * x[i] + f.c * y[i]);
-            const float s = u[i] - f.u, t = v[i] - f.v;
-            dudx[i] = scale * (f.u_b - f.b * s);
-            dvdx[i] = scale * (f.v_b - f.b * t);
-            dudy[i] = scale * (f.u_c - f.c * s);
-            dvdy[i] = scale * (f.v_c - f.c * t);
-        }
-    }
-};
-
 TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t triangle) {
     const Indices vertices = corners_of(source.mesh, triangle);
     TriangleAttributes t;
@@ -240,6 +178,10 @@ TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t tria
         t.corner[k] = source.mesh.vertices[vertices[k]];
     }
     t.face_normal = source.mesh.face_normal.span()[triangle];
+    for (std::size_t k = 0; k < 3 && !source.mesh.u.empty(); ++k) {
+        t.u[k] = source.mesh.u[vertices[k]];
+        t.v[k] = source.mesh.v[vertices[k]];
+    }
     if (!source.scene.is_moderate) keep_in_range(t);
     return t;
 }
@@ -248,7 +190,8 @@ IndexedMesh indexed(const ProjectedMesh& source) {
     return {.indices = source.mesh.indices.data(),
             .projected = source.scene.vertices.data() + source.first_vertex,
             .vertices = source.mesh.vertices.data(),
-            .face_normal = source.mesh.face_normal.span()};
+            .face_normal = source.mesh.face_normal.span(),
+            .uv = {source.mesh.u.data(), source.mesh.v.data()}};
 }
 
 /// Whole vectors are written: the next run overwrites the excess.
@@ -314,7 +257,7 @@ struct Places {
     void prefetch(const Mesh& mesh, std::size_t first, Interpolated what) const {
         for (std::size_t i = first; i < first + k_lanes; ++i) {
             __builtin_prefetch(&mesh.indices[3 * std::size_t{triangle[i]}]);
-            if (what != Interpolated::all) continue;
+            if (!has_faces(what)) continue;
             __builtin_prefetch(&mesh.face_normal.x[triangle[i]]);
             __builtin_prefetch(&mesh.face_normal.y[triangle[i]]);
             __builtin_prefetch(&mesh.face_normal.z[triangle[i]]);
@@ -332,6 +275,13 @@ void each_triangle(std::span<const std::uint32_t> triangles, std::size_t filled,
         visit(triangles[first], first, end == triangles.size() ? filled : end);
         first = end;
     }
+}
+
+/// Of a mesh without texture coordinates.
+void clear_uv(SurfacePoints& points) {
+    for (AlignedVector<float>* const array :
+         {&points.u, &points.v, &points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
+        std::ranges::fill(*array, 0.0f);
 }
 
 /// Of points that belong to no pixel.
@@ -373,10 +323,11 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
 }
 
 Interpolated interpolated_for(PointNeeds needs) {
-    if (needs.face_normal || needs.color || needs.uv || needs.derivatives) return Interpolated::all;
-    const bool has_points = needs.position || needs.vertex_normal;
-    if (needs.barycentric) return has_points ? Interpolated::all : Interpolated::barycentric;
-    return Interpolated::position_and_normal;
+    const bool has_points = needs.position || needs.vertex_normal || needs.uv;
+    if (needs.face_normal || needs.color || needs.derivatives || (needs.barycentric && has_points))
+        return needs.uv ? Interpolated::all : Interpolated::all_but_uv;
+    if (needs.barycentric) return Interpolated::barycentric;
+    return needs.uv ? Interpolated::position_and_normal_and_uv : Interpolated::position_and_normal;
 }
 
 /// Barycentric coordinates of a batch's fragments and what follows from them, vector by vector: those on one
@@ -415,8 +366,13 @@ class BatchInterpolation {
 
   private:
     InterpolatedSpans spans_from(std::size_t first) {
-        return {points_.barycentric.span().from(first), points_.position.span().from(first),
-                points_.vertex_normal.span().from(first), points_.face_normal.span().from(first)};
+        return {points_.barycentric.span().from(first),
+                points_.position.span().from(first),
+                points_.vertex_normal.span().from(first),
+                points_.face_normal.span().from(first),
+                Vec2Span{points_.u.data(), points_.v.data()}.from(first),
+                Vec2Span{points_.dudx.data(), points_.dvdx.data()}.from(first),
+                Vec2Span{points_.dudy.data(), points_.dvdy.data()}.from(first)};
     }
 
     const ProjectedMesh& source_;
@@ -432,6 +388,10 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
     points.has_color = needs.color = needs.color && !source.mesh.color.empty();
     points.count = batch.triangles.size();
     points.filled = whole_vectors(points.count);
+    if (needs.uv && source.mesh.u.empty()) {
+        clear_uv(points);
+        needs.uv = false;
+    }
     const Places places(batch);
     BatchInterpolation interpolation(source, places, interpolated_for(needs), points);
     if (places.is_one_triangle) {
@@ -448,26 +408,19 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
 
     points.any_from_behind = false;
     std::fill_n(points.facing.begin(), points.filled, 1.0f);
+    needs.uv = false;
     if (source.mesh.closed && !needs.more()) return;
-    const bool has_footprint = needs.footprint && !source.mesh.u.empty();
-    if (needs.footprint && !has_footprint) clear_footprint(points);
-    each_triangle(
-        batch.triangles, points.filled, [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
-            if (source.is_back(triangle)) {
-                points.any_from_behind = true;
-                std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
-                          points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
-            }
-            if (needs.more())
-                blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first, end - first,
-                                 points);
-            if (has_footprint)
-                multiversion<FootprintLoop>(footprint_of(source, triangle), end - first, &places.x[first],
-                                            &places.y[first], std::as_const(points.u).data() + first,
-                                            std::as_const(points.v).data() + first,
-                                            points.dudx.data() + first, points.dvdx.data() + first,
-                                            points.dudy.data() + first, points.dvdy.data() + first);
-        });
+    each_triangle(batch.triangles, points.filled,
+                  [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+                      if (source.is_back(triangle)) {
+                          points.any_from_behind = true;
+                          std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
+                                    points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
+                      }
+                      if (needs.more())
+                          blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first,
+                                           end - first, points);
+                  });
 }
 
 void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> triangles, PointNeeds needs,

@@ -16,18 +16,31 @@ struct TriangleAttributes {
     ProjectedVertex projected[3];
     MeshVertex corner[3];
     Vec3 face_normal;
+    float u[3]{}, v[3]{};
 };
 
 /// What is computed at a fragment.
 enum class Interpolated {
-    barycentric,          // nothing else
-    position_and_normal,  // position and vertex normal: what smooth surfaces are lit from
+    barycentric,                 // nothing else
+    position_and_normal,         // position and vertex normal: what smooth surfaces are lit from
+    position_and_normal_and_uv,  // and texture coordinates with their derivatives
+    all_but_uv,
     all,
 };
+
+/// Whether `what` has texture coordinates, which come with their derivatives.
+constexpr bool has_uv(Interpolated what) {
+    return what == Interpolated::position_and_normal_and_uv || what == Interpolated::all;
+}
+/// Whether `what` has barycentric coordinates and face normals.
+constexpr bool has_faces(Interpolated what) {
+    return what == Interpolated::all_but_uv || what == Interpolated::all;
+}
 
 /// Where it goes.
 struct InterpolatedSpans {
     Vec3Span barycentric, position, vertex_normal, face_normal;
+    Vec2Span uv, uv_per_x, uv_per_y;
 };
 
 /// Interpolates over `count` fragments of one triangle, at (x, y), and writes whole vectors, beyond `count`
@@ -41,6 +54,7 @@ struct IndexedMesh {
     const ProjectedVertex* projected;
     const MeshVertex* vertices;
     ConstVec3Span face_normal;
+    ConstVec2Span uv;  // empty where the mesh has none
 };
 
 /// Interpolates over `count` fragments of one triangle each, at (x, y), and writes whole vectors, beyond
