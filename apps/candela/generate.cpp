@@ -15,7 +15,13 @@
 #include "terminal.h"
 #include "verbs.h"
 
+import candela.color;
 import candela.files;
+import candela.light;
+import candela.reflection;
+import candela.registry;
+import candela.shading;
+import candela.shape;
 import candela.text;
 
 namespace po = boost::program_options;
@@ -35,18 +41,32 @@ void write_inputs(const SceneToExport& scene, const std::string& file) {
                              names.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-/// Loads what `--models all` will, so that it need not be done when the scene is there. What cannot be loaded
-/// is said when it is needed.
-void load_models(candela::Registry& registry) {
-    for (const auto kind : {candela::PluginKind::shading, candela::PluginKind::reflection}) {
-        for (const std::string& name : registry.names(kind)) {
-            try {
-                registry.require(kind, name);
-            } catch (const Error&) {
-                continue;
-            }
+/// Loads all plugins of a kind, so that it need not be done when the scene is there. What cannot be loaded is
+/// said when it is needed.
+template <class Interface>
+void load_all(candela::PluginKind kind, candela::Registry& registry) {
+    for (const std::string& name : registry.names(kind)) {
+        try {
+            registry.create<Interface>(name, registry.parameters(kind, name), candela::ColorEncoding::srgb);
+        } catch (const Error&) {
+            continue;
         }
     }
+}
+
+void load_models(candela::Registry& registry) {
+    load_all<candela::Shape>(candela::PluginKind::shape, registry);
+    load_all<candela::Light>(candela::PluginKind::light, registry);
+    load_all<candela::ShadingModel>(candela::PluginKind::shading, registry);
+    load_all<candela::ReflectionModel>(candela::PluginKind::reflection, registry);
+}
+
+/// The heap as large as it will be: the system clears memory page by page where it is touched for the first
+/// time, a third of the time that a page of a scene takes. Blocks that are freed stay there (main.cpp).
+void touch_memory() {
+    constexpr std::size_t k_block = std::size_t{4} << 20;
+    std::vector<std::vector<char>> blocks(10);
+    for (std::vector<char>& block : blocks) block.resize(k_block);
 }
 
 /// False if nothing comes.
@@ -110,6 +130,7 @@ int run_generate(const std::vector<std::string>& arguments) {
 
     if (line.has("wait")) {
         if (line.has("models")) load_models(registry);
+        touch_memory();
         if (!is_told_to_go_on()) return 0;
     }
     candela::Diagnostics diagnostics;

@@ -59,6 +59,8 @@ candela::ProgramOutput run_verb(const std::vector<std::string>& verb,
 }
 
 constexpr const char* k_inputs = "inputs.json";
+// Browsers have both the scene and the processors to themselves until they have drawn it.
+constexpr std::chrono::milliseconds k_until_shown{300};
 
 std::vector<FileState> states_in(const std::vector<fs::path>& folders) {
     std::vector<FileState> states;
@@ -181,6 +183,7 @@ candela::ProgramOutput SceneFollower::generated() {
         get_ready();
         result = waiting_->go_on();
     }
+    waiting_.reset();
     if (!result)
         throw Error(ErrorCategory::failure, "candela generate ends before it has been told anything");
     return *std::move(result);
@@ -226,7 +229,7 @@ void SceneFollower::follow() {
             const fs::file_time_type begin = fs::file_time_type::clock::now();
             const std::vector<fs::path> before = inputs_;
             watch(make_page());
-            if (!is_ending_) get_ready();
+            if (!is_ending_ && watcher_.is_quiet_for(k_until_shown)) get_ready();
             // What the scene names for the first time has not been watched while it was read.
             is_changed = (inputs_ != before && has_input_since(begin)) || watcher_.wait();
         }

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int k_quiet_ms = 8;     // a program that saves several files writes the next within that
-constexpr int k_most_quiet = 25;  // such moments; then a change is a change even if others follow
+constexpr int k_quiet_ms = 4;     // a program that saves several files writes the next within that
+constexpr int k_most_quiet = 50;  // such moments; then a change is a change even if others follow
 // Not IN_CREATE: what has just been made is empty, and closing it is an event of its own.
 constexpr std::uint32_t k_changes = IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_ONLYDIR;
 
@@ -101,6 +101,12 @@ bool Watcher::wait() {
         if (!is_changed) moments = -1;
     }
     return true;
+}
+
+bool Watcher::is_quiet_for(std::chrono::milliseconds time) const {
+    std::array<pollfd, 2> sources{pollfd{.fd = events_.number(), .events = POLLIN, .revents = 0},
+                                  pollfd{.fd = stop_.number(), .events = POLLIN, .revents = 0}};
+    return ::poll(sources.data(), sources.size(), static_cast<int>(time.count())) == 0;
 }
 
 void Watcher::stop() noexcept {

@@ -1,6 +1,7 @@
 // Notices that files change, by the kernel's word (inotify).
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -38,6 +39,8 @@ class Watcher {
     /// Waits until something watched has changed and for a moment has not changed any more. False after
     /// stop().
     bool wait();
+    /// Whether nothing at all happens for so long.
+    bool is_quiet_for(std::chrono::milliseconds time) const;
     void stop() noexcept;
 
   private:

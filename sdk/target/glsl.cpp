@@ -211,7 +211,7 @@ std::string stage_text(const char* text, const std::vector<Feature>& features, V
         values.emplace_back(
             f.place, f.is_there ? fmt::format("#ifdef {}\n    {}\n#endif\n", f.condition, f.statement) : "");
     }
-    return declarations + filled(text, values);
+    return declarations + filled(text, views_of(values));
 }
 
 bool has_trigonometry(const std::string& code) {

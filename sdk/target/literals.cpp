@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -83,18 +85,36 @@ std::string html_text(std::string_view text) {
 
 std::string script_json(std::string json) { return replace_all(std::move(json), "<", "\\u003c"); }
 
-std::string base64(std::span<const std::byte> bytes) {
-    std::string text((bytes.size() + 2) / 3 * 4, '=');
-    const auto byte = [&](std::size_t i) {
-        return i < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i]) : 0u;
+void append_base64(std::span<const std::byte> bytes, std::string& text) {
+    // Two digits at a time, of twelve bits.
+    static const std::array<std::array<char, 2>, 4096> pairs = [] {
+        std::array<std::array<char, 2>, 4096> result{};
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] = {k_digits[i >> 6], k_digits[i & 63u]};
+        return result;
+    }();
+    const std::size_t begin = text.size(), whole = bytes.size() / 3 * 3, rest = bytes.size() - whole;
+    text.resize(begin + (bytes.size() + 2) / 3 * 4, '=');
+    char* to = text.data() + begin;
+    const auto group_at = [&](std::size_t i, std::size_t count) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
+        return group;
     };
-    char* to = text.data();
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::uint32_t group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-        const std::size_t digits = std::min<std::size_t>(3, bytes.size() - i) + 1;
-        for (std::size_t k = 0; k < digits; ++k) to[k] = k_digits[group >> (18 - 6 * k) & 63u];
-        to += 4;
+    for (std::size_t i = 0; i < whole; i += 3, to += 4) {
+        const std::uint32_t group = group_at(i, 3);
+        std::memcpy(to, pairs[group >> 12].data(), 2);
+        std::memcpy(to + 2, pairs[group & 4095u].data(), 2);
     }
+    if (rest == 0) return;
+    const std::uint32_t group = group_at(whole, rest);
+    std::memcpy(to, pairs[group >> 12].data(), 2);
+    if (rest == 2) to[2] = k_digits[group >> 6 & 63u];
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+    std::string text;
+    append_base64(bytes, text);
     return text;
 }
 

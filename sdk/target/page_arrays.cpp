@@ -13,17 +13,17 @@ namespace candela::target {
 
 std::string PageArrays::put(std::span<const std::byte> bytes) {
     const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const std::string text = base64(bytes);
     std::string name =
         fmt::format("array-{:x}-{:016x}", bytes.size(), std::hash<std::string_view>{}(characters));
     for (auto found = places_.find(name); found != places_.end(); found = places_.find(name)) {
         const auto [begin, size] = found->second;
-        if (std::string_view(html_).substr(begin, size) == text) return name;
+        if (std::string_view(html_).substr(begin, size) == base64(bytes)) return name;
         name += "-other";
     }
     html_ += fmt::format(R"(<script type="text/plain" id="{}">)", name);
-    places_[name] = {html_.size(), text.size()};
-    html_ += text;
+    const std::size_t begin = html_.size();
+    append_base64(bytes, html_);
+    places_[name] = {begin, html_.size() - begin};
     html_ += "</script>\n";
     return names_.emplace_back(std::move(name));
 }

@@ -5,6 +5,7 @@ module;
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -76,14 +77,19 @@ std::array<Descriptor, 2> connected() {
 
 /// What a file in memory holds.
 std::string content_of(const Descriptor& file) {
-    std::string text;
-    std::vector<char> piece(std::size_t{1} << 16);
-    for (;;) {
+    struct stat status{};
+    if (::fstat(file.number(), &status) != 0) return {};
+    std::string text(static_cast<std::size_t>(status.st_size), '\0');
+    std::size_t done = 0;
+    while (done < text.size()) {
         const ssize_t count =
-            ::pread(file.number(), piece.data(), piece.size(), static_cast<off_t>(text.size()));
-        if (count <= 0) return text;
-        text.append(piece.data(), static_cast<std::size_t>(count));
+            ::pread(file.number(), text.data() + done, text.size() - done, static_cast<off_t>(done));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        done += static_cast<std::size_t>(count);
     }
+    text.resize(done);
+    return text;
 }
 
 /// A program that runs beside this one, and is told things through its standard input.

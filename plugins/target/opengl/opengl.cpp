@@ -84,11 +84,11 @@ class OpenGlWriter {
             {"PICTURE_FILE", std::string(picture_file_source())}};
         for (const Values& more : {about, texture_values(scene_, glsl.texture)})
             values.insert(values.end(), more.begin(), more.end());
-        write(files, "scene.cpp", filled(candela_opengl_scene, values));
+        write(files, "scene.cpp", filled(candela_opengl_scene, views_of(values)));
         write(files, "meshes.h",
               filled(candela_opengl_meshes, {{"VERSION", CANDELA_PLUGIN_VERSION}, {"ARRAYS", arrays_}}));
         write(files, "CMakeLists.txt", candela_opengl_cmake);
-        write(files, "README.md", filled(candela_opengl_readme, about));
+        write(files, "README.md", filled(candela_opengl_readme, views_of(about)));
         write_textures(scene_, files);
     }
 

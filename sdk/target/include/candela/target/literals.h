@@ -41,6 +41,8 @@ std::string html_text(std::string_view text);
 std::string script_json(std::string json);
 
 std::string base64(std::span<const std::byte> bytes);
+/// The same at the end of a text.
+void append_base64(std::span<const std::byte> bytes, std::string& text);
 /// The bytes that a text of base64 stands for. Throws std::invalid_argument where it is none.
 std::string base64_decoded(std::string_view text);
 
