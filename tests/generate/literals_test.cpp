@@ -1,0 +1,47 @@
+// Texts that stand in generated programs and pages.
+#include "candela/target/literals.h"
+
+#include <catch2/catch_test_macros.hpp>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "candela/target/text_template.h"
+
+using candela::target::append_base64;
+using candela::target::base64;
+using candela::target::base64_decoded;
+using candela::target::filled;
+
+namespace {
+
+std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+
+}  // namespace
+
+TEST_CASE("base64: the test vectors of RFC 4648, section 10") {
+    const std::string_view text = "foobar";
+    const std::string_view expected[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+    for (std::size_t size = 0; size <= text.size(); ++size) {
+        CHECK(base64(bytes_of(text.substr(0, size))) == expected[size]);
+        CHECK(base64_decoded(expected[size]) == text.substr(0, size));
+    }
+}
+
+TEST_CASE("base64: every byte comes back, whatever stands before it") {
+    std::string bytes;
+    for (int i = 0; i < 256; ++i) bytes += static_cast<char>(i);
+    for (std::size_t shift = 0; shift < 3; ++shift, bytes.insert(bytes.begin(), '\xff'))
+        CHECK(base64_decoded(base64(bytes_of(bytes))) == bytes);
+    std::string text = "data:";
+    append_base64(bytes_of("Ma"), text);
+    CHECK(text == "data:TWE=");
+}
+
+TEST_CASE("a template's places are filled in one pass, and one that nothing fills is an error") {
+    CHECK(filled("a @X@ b\n@Y@\nc", {{"X", "@Y@"}, {"Y", ""}}) == "a @Y@ b\nc");
+    CHECK(filled("me@example.org @X", {}) == "me@example.org @X");
+    CHECK_THROWS_AS(filled("@X@", {{"Y", "1"}}), std::logic_error);
+}
