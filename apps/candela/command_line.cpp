@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "completion.h"
 #include "import/import.h"
@@ -137,7 +137,7 @@ const std::string& contents_of(const std::string& stream) {
     };
     const int descriptor = stream == "-" ? STDIN_FILENO : ::open(stream.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) fail();
-    std::array<char, 65536> part;
+    std::vector<char> part(65536);  // on the stack it would cost whoever has no stream its pages, too
     while (text->second.size() <= candela::ReadingLimits::k_most_bytes) {
         const ssize_t count = ::read(descriptor, part.data(), part.size());
         if (count < 0 && errno == EINTR) continue;

@@ -109,9 +109,10 @@ void TileShader::fill_background(const VisibleTile& visible) {
     }
     if (!has_background_) return;
     const bool is_uniform = scene_->environment.is_uniform();
+    const Rgb everywhere = is_uniform ? scene_->environment.seen({}) : Rgb{};
     const auto fill = [&](const BackgroundRun& run) {
         if (is_uniform) {
-            const Rgb background = run.weight * scene_->environment.seen({});
+            const Rgb background = run.weight * everywhere;
             std::fill_n(pixels.x + run.pixel, run.count, background.r);
             std::fill_n(pixels.y + run.pixel, run.count, background.g);
             std::fill_n(pixels.z + run.pixel, run.count, background.b);

@@ -1,5 +1,7 @@
 module;
 
+#include "candela/api.h"
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -22,10 +24,14 @@ inline constexpr std::size_t k_lanes = 16;
 /// `count` rounded up to whole vectors.
 constexpr std::size_t whole_vectors(std::size_t count) { return (count + k_lanes - 1) / k_lanes * k_lanes; }
 
+/// Zeroed memory, which std::free() releases. The system zeroes it page by page, for whichever thread touches
+/// a page first; from two megabytes on in large pages, if it has some, because it takes as long to find forty
+/// small ones as to zero one of two megabytes. Throws std::bad_alloc. Any thread.
+CANDELA_API void* zeroed_memory(std::size_t size);
+
 /// Memory aligned to cache lines, because accessing a 64-byte vector that straddles two lines takes twice as
-/// long. The system zeroes it page by page, for whichever thread touches a page first. Elements constructed
-/// without a value keep the memory's contents: zeros, except where a vector shrank and grew again, which has
-/// its old values.
+/// long. Elements constructed without a value keep the memory's contents: zeros, except where a vector shrank
+/// and grew again, which has its old values.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
@@ -36,20 +42,18 @@ struct CacheLineAllocator {
     // NOLINTNEXTLINE(google-explicit-constructor): what the standard asks of an allocator
     CacheLineAllocator(const CacheLineAllocator<Other>&) noexcept {}
 
-    // NOLINTBEGIN(cppcoreguidelines-no-malloc): only calloc offers such memory
     T* allocate(std::size_t count) {
         if (count > (static_cast<std::size_t>(-1) - 2 * k_line) / sizeof(T))
             throw std::bad_array_new_length();
         std::size_t room = count * sizeof(T) + k_line;
-        void* const whole = std::calloc(room + sizeof whole, 1);
-        if (whole == nullptr) throw std::bad_alloc();
+        void* const whole = zeroed_memory(room + sizeof whole);
         void* line = static_cast<std::byte*>(whole) + sizeof whole;
         std::align(k_line, count * sizeof(T), line, room);
         static_cast<void**>(line)[-1] = whole;
         return static_cast<T*>(line);
     }
+    // NOLINTNEXTLINE(cppcoreguidelines-no-malloc): as zeroed_memory() says
     void deallocate(T* memory, std::size_t) noexcept { std::free(reinterpret_cast<void**>(memory)[-1]); }
-    // NOLINTEND(cppcoreguidelines-no-malloc)
 
     template <class U, class... Arguments>
     void construct(U* place, Arguments&&... arguments) {

@@ -39,6 +39,12 @@ bool is_hidden(char32_t c) {
     return range != k_hidden.end() && range->first <= c;
 }
 
+/// How many at its beginning anybody can see: most text has no others.
+std::size_t plain_characters(std::string_view text) {
+    const auto other = std::ranges::find_if_not(text, [](char c) { return c >= ' ' && c <= '~'; });
+    return static_cast<std::size_t>(other - text.begin());
+}
+
 bool is_invalid(std::string_view character) {
     return character.size() == 1 && static_cast<unsigned char>(character[0]) >= 0x80;
 }
@@ -55,7 +61,11 @@ std::optional<char32_t> hidden_code_point(std::string_view character) {
 std::string printable(std::string_view text, LineBreaks line_breaks) {
     std::string result;
     result.reserve(text.size());
-    while (!text.empty()) {
+    while (true) {
+        const std::size_t plain = plain_characters(text);
+        result += text.substr(0, plain);
+        text.remove_prefix(plain);
+        if (text.empty()) return result;
         const std::string_view character = first_character(text);
         text.remove_prefix(character.size());
         const bool is_kept = character == "\t" || (character == "\n" && line_breaks == LineBreaks::kept);
@@ -68,7 +78,6 @@ std::string printable(std::string_view text, LineBreaks line_breaks) {
             result += character;
         }
     }
-    return result;
 }
 
 std::string printable_json(std::string_view json) {

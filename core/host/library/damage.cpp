@@ -75,14 +75,15 @@ std::vector<Entry> table_at(const File& file, std::uint64_t offset, std::size_t 
     return entries;
 }
 
+/// The header of the library that this code is in; null if it is not known.
+const Header* own_header() {
+    Dl_info info{};
+    const bool is_known = ::dladdr(reinterpret_cast<const void*>(&library_damage), &info) != 0;
+    return is_known ? static_cast<const Header*>(info.dli_fbase) : nullptr;
+}
+
 bool is_of_this_machine(const Header& header) {
-    const auto* const own = reinterpret_cast<const Header*>(
-        // The header of the library that this code is in.
-        [] {
-            Dl_info info{};
-            return ::dladdr(reinterpret_cast<const void*>(&library_damage), &info) != 0 ? info.dli_fbase
-                                                                                        : nullptr;
-        }());
+    static const Header* const own = own_header();  // finding it takes as long as a plugin's file
     return own == nullptr ||
            (std::memcmp(header.e_ident, own->e_ident, EI_VERSION) == 0 && header.e_machine == own->e_machine);
 }

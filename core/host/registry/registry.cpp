@@ -42,6 +42,12 @@ std::string id_of(PluginKind kind, std::string_view name) {
     return fmt::format("{}/{}", name_of(kind), name);
 }
 
+bool is_missing(const fs::path& directory) {
+    return ::access(directory.c_str(), F_OK) != 0 && errno == ENOENT;
+}
+
+bool is_readable(const fs::path& file) { return ::access(file.c_str(), R_OK) == 0; }
+
 bool is_regular(const fs::path& file) {
     std::error_code ignored;
     return fs::is_regular_file(file, ignored);
@@ -64,7 +70,7 @@ fs::path library_of(const fs::path& directory, PluginKind kind, std::string_view
 std::string reading_problem(const fs::path& file) {
     struct stat status{};
     if (::access(file.parent_path().c_str(), X_OK) != 0 || ::lstat(file.c_str(), &status) != 0) return {};
-    if (::access(file.c_str(), R_OK) == 0) return {};
+    if (is_readable(file)) return {};
     return errno == ENOENT ? "it is a link to nowhere" : std::strerror(errno);
 }
 
@@ -117,6 +123,7 @@ Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust, std::si
 
 const PluginFile* Registry::look_at(const fs::path& directory, const std::string& id, PluginKind kind,
                                     std::string_view name) {
+    if (is_missing(directory)) return nullptr;
     const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
     const fs::path manifest_path = directory / (stem + ".json");
     const fs::path library = directory / (stem + ".so");
@@ -125,13 +132,15 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
                              std::move(help)};
         return nullptr;
     };
-    for (const fs::path& part : {library, manifest_path}) {
-        if (const std::string problem = reading_problem(part); !problem.empty())
-            return refuse(
-                fmt::format("{} cannot be read: {}", part == library ? "it" : "its manifest", problem));
+    const auto text = read_text_file(manifest_path, k_largest_manifest);
+    if (!text || !is_readable(library)) {
+        for (const fs::path& part : {library, manifest_path}) {
+            if (const std::string problem = reading_problem(part); !problem.empty())
+                return refuse(
+                    fmt::format("{} cannot be read: {}", part == library ? "it" : "its manifest", problem));
+        }
     }
     const bool has_library = is_regular(library);
-    const auto text = read_text_file(manifest_path, k_largest_manifest);
     if (!text && is_regular(manifest_path)) {
         // That nothing can be read at the moment says nothing of the plugin.
         throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", manifest_path.string()));

@@ -1,26 +1,46 @@
 #include "filter.h"
 
-#include <algorithm>
 #include <cstring>
+
+#include "candela/multiversion.h"
 
 namespace {
 
-/// How many of `count` bytes differ.
-std::size_t differences(const std::uint8_t* a, const std::uint8_t* b, std::size_t count) {
-    constexpr std::size_t k_counted_in_bytes = 240;  // many at a time, in vectors of small numbers
-    std::size_t sum = 0;
-    for (std::size_t begin = 0; begin < count; begin += k_counted_in_bytes) {
-        const std::size_t end = std::min(begin + k_counted_in_bytes, count);
-        std::uint8_t some = 0;
-        for (std::size_t i = begin; i < end; ++i) some = static_cast<std::uint8_t>(some + (a[i] != b[i]));
-        sum += some;
-    }
+/// For less than 256 bytes: many are counted at a time, in vectors of small numbers.
+[[gnu::always_inline]] inline std::uint8_t differences_in_block(const std::uint8_t* a, const std::uint8_t* b,
+                                                                std::size_t count) {
+    std::uint8_t sum = 0;
+    CANDELA_VECTORIZE
+    for (std::size_t i = 0; i < count; ++i) sum = static_cast<std::uint8_t>(sum + (a[i] != b[i]));
     return sum;
 }
 
-void subtract(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* result) {
-    for (std::size_t i = 0; i < count; ++i) result[i] = static_cast<std::uint8_t>(a[i] - b[i]);
+struct DifferencesLoop {
+    CANDELA_BATCH_LOOP static void run(const std::uint8_t* a, const std::uint8_t* b, std::size_t count,
+                                       std::size_t* differences) {
+        constexpr std::size_t k_block = 128;  // whole vectors
+        std::size_t sum = 0, done = 0;
+        for (; done + k_block <= count; done += k_block)
+            sum += differences_in_block(a + done, b + done, k_block);
+        *differences = sum + differences_in_block(a + done, b + done, count - done);
+    }
+};
+
+/// How many of `count` bytes differ.
+std::size_t differences(const std::uint8_t* a, const std::uint8_t* b, std::size_t count) {
+    std::size_t result = 0;
+    std::size_t* const found = &result;
+    candela::multiversion<DifferencesLoop>(a, b, count, found);
+    return result;
 }
+
+struct SubtractLoop {
+    CANDELA_BATCH_LOOP static void run(const std::uint8_t* a, const std::uint8_t* b, std::size_t count,
+                                       std::uint8_t* result) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) result[i] = static_cast<std::uint8_t>(a[i] - b[i]);
+    }
+};
 
 }  // namespace
 
@@ -28,13 +48,16 @@ void filter_row(std::span<const std::uint8_t> row, const std::uint8_t* above, st
     enum : std::uint8_t { k_sub = 1, k_up = 2 };
     const std::uint8_t* const left = row.data();
     const std::span<const std::uint8_t> rest = row.subspan(k_pixel);
-    if (above != nullptr &&
-        differences(row.data(), above, row.size()) <= differences(rest.data(), left, rest.size())) {
+    if (above != nullptr && std::memcmp(row.data(), above, row.size()) == 0) {  // a background is soon done
         *result++ = k_up;
-        subtract(row.data(), above, row.size(), result);
+        std::memset(result, 0, row.size());
+    } else if (above != nullptr &&
+               differences(row.data(), above, row.size()) <= differences(rest.data(), left, rest.size())) {
+        *result++ = k_up;
+        candela::multiversion<SubtractLoop>(row.data(), above, row.size(), result);
     } else {
         *result++ = k_sub;
         std::memcpy(result, row.data(), k_pixel);
-        subtract(rest.data(), left, rest.size(), result + k_pixel);
+        candela::multiversion<SubtractLoop>(rest.data(), left, rest.size(), result + k_pixel);
     }
 }

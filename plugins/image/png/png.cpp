@@ -1,5 +1,6 @@
 // Bands of rows are filtered and compressed by different threads. Where they begin depends only on the
 // picture's size, so that the file is the same for any number of threads.
+#include <isa-l/crc.h>
 #include <isa-l/igzip_lib.h>
 #include <zlib.h>
 
@@ -7,6 +8,7 @@
 #include <array>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "candela/pool.h"
 #include "deflate.h"
 #include "filter.h"
+#include "scratch.h"
 
 using namespace candela::sdk;
 
@@ -45,14 +48,15 @@ void append_chunk(Bytes& bytes, std::string_view type, std::initializer_list<Byt
     const std::size_t checked = bytes.size();
     bytes.insert(bytes.end(), type.begin(), type.end());
     for (const ByteView part : contents) append(bytes, part);
-    append(bytes, big_endian(static_cast<std::uint32_t>(
-                      crc32(0, &bytes[checked], static_cast<uInt>(bytes.size() - checked)))));
+    append(
+        bytes,
+        big_endian(static_cast<std::uint32_t>(crc32_gzip_refl(0, &bytes[checked], bytes.size() - checked))));
 }
 
 struct Tools {
     explicit Tools(int compression) : deflater(Deflater::create(compression)) {}
     std::unique_ptr<Deflater> deflater;
-    Bytes filtered;
+    Scratch filtered;
 };
 
 /// The rows from `begin` to `end`, compressed, and their contribution to the checksum of the whole.
@@ -153,17 +157,18 @@ class Png final : public candela::ImageFormat, public candela::RowFormat {
 
   private:
     void encode(const Rows& rows, Band& band, Tools& tools) const {
-        tools.filtered.resize((rows.size + 1) * (band.end - band.begin));
-        std::uint8_t* out = tools.filtered.data();
+        const std::span<std::uint8_t> filtered =
+            tools.filtered.of_size((rows.size + 1) * (band.end - band.begin));
+        std::uint8_t* out = filtered.data();
         for (std::size_t y = band.begin; y < band.end; ++y, out += rows.size + 1)
             filter_row({rows.at(y), rows.size}, rows.above(y), out);
-        band.adler = isal_adler32(k_adler_of_nothing, tools.filtered.data(), tools.filtered.size());
+        band.adler = isal_adler32(k_adler_of_nothing, filtered.data(), filtered.size());
         const bool is_last = band.end == rows.of_picture;
         // Deflate, with a window of 32 kB.
         static constexpr std::array<std::uint8_t, 2> k_zlib_header = {0x78, 0x01};
         append_chunk(band.chunk, "IDAT",
                      {band.begin == 0 ? ByteView(k_zlib_header) : ByteView(),
-                      tools.deflater->deflate(tools.filtered, is_last)});
+                      tools.deflater->deflate(filtered, is_last)});
     }
 
     PngOptions options_;
