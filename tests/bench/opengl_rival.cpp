@@ -13,6 +13,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -245,13 +246,18 @@ class Rival {
     std::vector<Drawn> drawn_;
 };
 
-/// With libpng's defaults.
+/// As fast as libpng can: differences to the row above, and only runs of them looked for, which makes files
+/// about as large as Candela's. Its defaults would take five times as long, for files of two thirds the size.
 void write_png(const char* path, const std::vector<unsigned char>& pixels, int width, int height) {
     std::FILE* const file = std::fopen(path, "wb");
     if (file == nullptr) throw std::runtime_error("the picture cannot be written");
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     png_init_io(png, file);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+    png_set_compression_level(png, Z_BEST_SPEED);
+    png_set_compression_strategy(png, Z_RLE);
+    png_set_compression_buffer_size(png, std::size_t{1} << 18);
     png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
