@@ -3,6 +3,7 @@
 #   scripts/bench.sh                              all scenes, 512 x 512 to 3840 x 2160, seven rounds (six minutes)
 #   scripts/bench.sh --scenes A --sizes 512x512   less; --threads 1: both with that many, not with all
 #   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
+#   scripts/bench.sh --growth                     how time grows with triangles, objects, lights and pixels; build/bench/growth.{md,json} (a minute)
 #   scripts/bench.sh --programs                   against POV-Ray and VTK, whole processes; build/bench/programs.{md,json} (five minutes)
 #   scripts/bench.sh --mesh-file                  against f3d on a PLY file of ten million triangles (two minutes)
 #   scripts/bench.sh --view                       from a save and from a click to the screen, in a browser (two minutes)
@@ -28,9 +29,9 @@ if [ "${1-}" = --instructions ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
     exec python3 -B "$root/tests/bench/instructions.py" "$root/build/release/bin/candela" "$root/tests/bench/instructions.json" --update
 fi
-if [ "${1-}" = --sweep ]; then
+if [ "${1-}" = --sweep ] || [ "${1-}" = --growth ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
-    exec python3 -B "$root/tests/bench/sweep.py" "$root/build/release" "$root/build/bench" "${@:2}"
+    exec python3 -B "$root/tests/bench/${1#--}.py" "$root/build/release" "$root/build/bench" "${@:2}"
 fi
 if [ "${1-}" = --mesh-file ]; then
     cmake --build --preset release --target candela_runtime >/dev/null
