@@ -11,15 +11,16 @@ namespace candela::python {
 /// Numbers of any strides.
 using Floats = py::array_t<float, py::array::forcecast>;
 
-/// How many points a model is given at a time.
-inline constexpr std::size_t k_batch_size = 256;
+/// How many points a model is given at a time: so few that what is gathered for them stays in the first-level
+/// cache, beside the arrays on their way through it.
+inline constexpr std::size_t k_batch_size = 64;
 
 struct BatchVectors {
-    alignas(64) float x[k_batch_size], y[k_batch_size], z[k_batch_size];
+    alignas(64) std::array<std::array<float, k_batch_size>, 3> channels;
     bool has_one_for_all = false;  // all of them are the one vector that an array has
 
-    Vec3Span span() noexcept { return {x, y, z}; }
-    void clear() noexcept;
+    Vec3Span span() noexcept { return {channels[0].data(), channels[1].data(), channels[2].data()}; }
+    void clear() noexcept { channels = {}; }
 };
 
 /// How the vectors of an array lie in memory.
@@ -40,13 +41,27 @@ class Vectors {
     }
     /// Whether all of them are one.
     bool is_uniform() const noexcept { return step_ == 0; }
-    Vec3 operator[](std::size_t i) const noexcept;
+    Vec3 operator[](std::size_t i) const noexcept { return {at(i, 0), at(i, 1), at(i, 2)}; }
     /// Those of a batch: where they lie if each channel is contiguous, else in `buffer`. Null if there are
     /// none.
-    ConstVec3Span read(std::size_t first, std::size_t count, BatchVectors& buffer) const noexcept;
+    ConstVec3Span read(std::size_t first, std::size_t count, BatchVectors& buffer) const noexcept {
+        if (data_ == nullptr) return {};
+        if (layout() == Layout::channels_apart)
+            return {channel(first, 0), channel(first, 1), channel(first, 2)};
+        if (!buffer.has_one_for_all) gather(first, count, buffer);
+        const Vec3Span gathered = buffer.span();
+        // Of numbers, which are the same in all channels, one channel, to leave more of the cache to others.
+        return channel_ == 0 ? ConstVec3Span{gathered.x, gathered.x, gathered.x} : gathered;
+    }
 
   private:
-    float at(std::size_t i, std::size_t channel) const noexcept;
+    /// Where a number is.
+    const float* channel(std::size_t i, std::size_t c) const noexcept {
+        return reinterpret_cast<const float*>(data_ + static_cast<py::ssize_t>(i) * step_ +
+                                              static_cast<py::ssize_t>(c) * channel_);
+    }
+    float at(std::size_t i, std::size_t c) const noexcept { return *channel(i, c); }
+    void gather(std::size_t first, std::size_t count, BatchVectors& buffer) const noexcept;
 
     const char* data_ = nullptr;
     std::size_t count_ = 0;

@@ -33,20 +33,14 @@ struct Buffers {
 SurfaceBatch batch_of(const Surfaces& surfaces, std::size_t first, std::size_t count,
                       SurfaceBuffers& buffers) {
     const auto uv = surfaces.uv.read(first, count, buffers.uv);
-    SurfaceBatch batch{.count = count,
-                       .normal = surfaces.normals.read(first, count, buffers.normals),
-                       .to_observer = surfaces.to_observer.read(first, count, buffers.to_observer),
-                       .tangent = surfaces.tangents.read(first, count, buffers.tangents),
-                       .color = {},
-                       .position = surfaces.positions.read(first, count, buffers.positions),
-                       .uv = {uv.x, uv.y}};
-    if (surfaces.color.is_uniform()) {
-        const Vec3 color = surfaces.color[0];
-        batch.color = {color.x, color.y, color.z};
-    } else {
-        batch.point_color = surfaces.color.read(first, count, buffers.color);
-    }
-    return batch;
+    return {.count = count,
+            .normal = surfaces.normals.read(first, count, buffers.normals),
+            .to_observer = surfaces.to_observer.read(first, count, buffers.to_observer),
+            .tangent = surfaces.tangents.read(first, count, buffers.tangents),
+            .color = {},
+            .position = surfaces.positions.read(first, count, buffers.positions),
+            .uv = {uv.x, uv.y},
+            .point_color = surfaces.color.read(first, count, buffers.color)};
 }
 
 Surfaces surfaces_from(const Reflection& model, const Floats& normals, const Floats& to_observer,

@@ -79,6 +79,19 @@ class ReflectionModels(unittest.TestCase):
         self.assertEqual(model.evaluate([0, 0, 1], [0, 0, 1], [0, 0, 1]).shape, (3,))
         self.assertEqual(model.evaluate(np.empty((0, 3)), [0, 0, 1], [0, 0, 1]).shape, (0, 3))
 
+    def test_any_number_of_points_of_any_layout_is_the_same_to_the_byte(self):
+        model = candela.reflection("lambert", kd=0.6)
+        for count in (1, 15, 16, 17, 63, 64, 65, 200, 1031):
+            n, l = (directions(count).astype(np.float32) for _ in range(2))
+            color = RANDOM.uniform(size=(count, 3)).astype(np.float32)
+            expected = model.evaluate(n, n, l, color=color)
+            np.testing.assert_allclose(expected, 0.6 * color * np.maximum(dot(n, l), 0), rtol=1e-5, atol=1e-6)
+            layouts = (np.asfortranarray, lambda array: np.repeat(array, 2, axis=0)[::2], lambda array: array.astype(float))
+            for layout in layouts:
+                np.testing.assert_array_equal(model.evaluate(*map(layout, (n, n, l)), color=layout(color)), expected)
+            parts = model.evaluate_parts(n, n, l, color=color)
+            np.testing.assert_array_equal(parts.diffuse + parts.specular, expected)
+
     def test_the_number_of_threads_does_not_matter(self):
         n = directions(100_003)
         model = candela.reflection("cook-torrance")
