@@ -305,8 +305,8 @@ struct MultiplyByHand {
         constexpr std::int32_t k_offset = 32768 << k_weight_bits;
         constexpr std::size_t k_ahead = 32;
         const auto seen = [&](std::size_t i) __attribute__((always_inline)) {
-            FourIntegers sum = finer.weighted(i);
-            if constexpr (between_levels) sum += coarser.weighted(i);
+            const FourIntegers sum =
+                between_levels ? finer.weighted(i) + coarser.weighted(i) : finer.weighted(i);
             return k_scale * __builtin_convertvector(sum + k_offset, Four);
         };
         std::size_t i = 0;
