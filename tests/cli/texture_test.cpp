@@ -56,6 +56,9 @@ TEST_CASE("a texture that cannot be read as a picture is one failure, which name
     write_file(d / "short.ppm", k_picture.substr(0, k_picture.size() - 1));
     write_file(d / "none.pfm",
                std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
+    REQUIRE(run_candela({"render", "--width=16", "--height=8", "-o", (d / "whole.png").string()}).exit_code ==
+            0);
+    const std::string png = read_file(d / "whole.png");
     const auto refused = [&](const std::string& file, const std::string& reason) {
         const CommandResult result = render("color_texture = \"" + file + "\"", d);
         expect(result, 1, {"scene.toml:11:17: error: object 'ring': ", file + "' " + reason});
@@ -66,7 +69,13 @@ TEST_CASE("a texture that cannot be read as a picture is one failure, which name
     refused("plain.ppm", "cannot be read as a picture: it is neither a binary PPM (P6) nor a PFM (PF)");
     refused("short.ppm", "cannot be read as a picture: it ends before its last pixel");
     refused("none.pfm", "cannot be read as a picture: it has a pixel that is no finite number");
+    // Within the header, the pixels and the last chunk, and without that one.
+    for (const std::size_t length : {std::size_t{20}, png.size() / 2, png.size() - 1, png.size() - 12}) {
+        write_file(d / "cut.png", png.substr(0, length));
+        refused("cut.png", "cannot be read as a picture: it is cut off");
+    }
     CHECK_FALSE(fs::exists(d / "out.ppm"));
+    expect(render("color_texture = \"whole.png\"", d), 0, {});
 }
 
 TEST_CASE("a picture of a few bytes that speaks of 400 million pixels takes no memory for them") {
