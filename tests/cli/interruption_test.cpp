@@ -181,7 +181,7 @@ TEST_CASE("killed at any moment, a PNG is the old one or the new one, never half
     kill_a_hundred_times("png");
 }
 
-TEST_CASE("killed at any moment, a PPM is the old one or the new one, never half of it") {
+TEST_CASE("killed at any moment, a PPM is the old one or the new one, never half of it", "[whole]") {
     kill_a_hundred_times("ppm");
 }
 

@@ -66,8 +66,9 @@ void check_refused(const Copy& copy, const std::string& reason) {
     CHECK(holds(named.err, reason));
     CHECK_FALSE(fs::exists(copy.folder.parent_path() / "a.png"));
     // The doctor says the same of both.
-    CHECK(holds(copy.doctor(false), "refused: "));
-    CHECK(holds(copy.doctor(false), "in use: shape/cube"));
+    const std::string diagnosis = copy.doctor(false);
+    CHECK(holds(diagnosis, "refused: "));
+    CHECK(holds(diagnosis, "in use: shape/cube"));
     CHECK(holds(copy.doctor(true), "not used: the one that --plugin-dir names is refused"));
 }
 

@@ -11,10 +11,11 @@ mkdir -p "$scratch"
 "$cmake" --install "$build" --prefix "$scratch/prefix" >/dev/null
 unset CMAKE_GENERATOR
 
-# refused NAME GENERATOR COMPILER BEFORE AFTER WORDS: a project with BEFORE and AFTER find_package() is told WORDS.
+# refused NAME GENERATOR COMPILER BEFORE AFTER WORDS: a project with BEFORE and AFTER find_package() is told WORDS. Those of one
+# generator and compiler have one build folder, for which CMake examines the compiler once.
 refused() {
-    local project=$scratch/$1
-    mkdir "$project"
+    local project="$scratch/$2, ${3##*/}"
+    mkdir -p "$project"
     printf 'cmake_minimum_required(VERSION 3.25)\n%s\nfind_package(candela REQUIRED)\n%s\n' "$4" "$5" >"$project/CMakeLists.txt"
     echo 'int main() {}' >"$project/main.cpp"
     if "$cmake" -G "$2" -S "$project" -B "$project/build" -DCMAKE_CXX_COMPILER="$3" -DCMAKE_PREFIX_PATH="$scratch/prefix" \

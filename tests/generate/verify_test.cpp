@@ -86,7 +86,7 @@ TEST_CASE("verify: a sign in one copy of a kernel is caught") {
     CHECK(result.out.find("MISMATCH") != std::string::npos);
 }
 
-TEST_CASE("verify: a light that is five centimetres beside its place is caught") {
+TEST_CASE("verify: a light that is five centimetres beside its place is caught", "[whole]") {
     const CommandResult result = verify_changed("cpp", "scene.cpp", "PointLight{vec3(1.0f), 2.5f, vec3(0.0f)",
                                                 "PointLight{vec3(1.0f), 2.5f, vec3(0.05f, 0.0f, 0.0f)");
     INFO(result.out << result.err);
@@ -100,7 +100,7 @@ TEST_CASE("verify: half Lambert instead of Lambert is caught, in GLSL") {
     CHECK(result.exit_code == 4);
 }
 
-TEST_CASE("verify: an object that is not drawn is caught") {
+TEST_CASE("verify: an object that is not drawn is caught", "[whole]") {
     const CommandResult result = verify_changed("cpp", "scene.cpp", "all.push_back(o);", "");
     INFO(result.out << result.err);
     CHECK(result.exit_code == 4);

@@ -8,8 +8,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
 import scenes
-from browser import WINDOW
-from generated import COMMAND, ENVIRONMENT, MOST_DIFFERENT, SCRATCH, TWO_STEPS, Generated, PageTest, candela
+from generated import COMMAND, ENVIRONMENT, MOST_DIFFERENT, SMALL_WINDOW, TWO_STEPS, Generated, PageTest, candela
 from pictures import Picture
 from viewing import Viewing
 
@@ -52,6 +51,8 @@ class Editing:
 
 
 class Formulas(Editing, PageTest):
+    window = SMALL_WINDOW
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -136,7 +137,7 @@ class Formulas(Editing, PageTest):
         self.browser.wait_for("document.getElementById('formula-status').textContent.includes('picture is that of the shipped')")
 
     def test_the_keyboard_gets_in_and_out(self):
-        self.addCleanup(self.browser.resize, *WINDOW)
+        self.addCleanup(self.browser.resize, *self.window)
         self.browser.resize(1200, 900)
         self.open_editor()
         keys = lambda *words: ActionChains(self.browser.driver).send_keys(*words).perform()
