@@ -60,7 +60,7 @@ export class Explanation {
             const pane = this.pictures().indexOf(event.target);
             if (pane >= 0 && from !== null && Math.hypot(event.clientX - from[0], event.clientY - from[1]) <= CLICK_DISTANCE) this.explainAt(pane, event);
         });
-        onMoved(this.arrows, canvas, () => layOver(this.arrows, this.canvas));
+        onMoved(this.arrows, canvas, () => this.placeArrows());
         settings.listeners.push(() => this.clear());
         this.fit();
     }
@@ -98,9 +98,10 @@ export class Explanation {
     }
 
     explainAt(pane, { clientX, clientY }) {
+        const box = this.pictures()[pane].getBoundingClientRect();  // before a change has the page laid out anew
         this.pane.value = pane;
         this.fit();
-        const { width, height } = this.settings.scene.image, box = this.canvas.getBoundingClientRect();
+        const { width, height } = this.settings.scene.image;
         const pixel = (at, begin, size, count) => Math.max(0, Math.min(count - 1, Math.floor(((at - begin) / size) * count)));
         this.explain(pixel(clientX, box.left, box.width, width), pixel(clientY, box.top, box.height, height));
     }
@@ -202,6 +203,11 @@ export class Explanation {
     drawVectors(point, vectors) {
         const { width, height } = this.settings.scene.image;
         drawArrows(this.arrows, this.settings.observer(), width, height, point.position, vectors);
+        if (this.pictureWithArrows !== this.canvas) this.placeArrows();
+    }
+
+    placeArrows() {
         layOver(this.arrows, this.canvas);
+        this.pictureWithArrows = this.canvas;
     }
 }
