@@ -38,12 +38,12 @@ at_least() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$2"; }
 
 packages=(
   ca-certificates git make
-  clang-19 clang-tools-19 lld-19 libstdc++-12-dev ninja-build cmake cmake-data
+  libstdc++-12-dev ninja-build cmake cmake-data
   libeigen3-dev libtomlplusplus-dev libtbb-dev libembree-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev
   libtinygltf-dev libstb-dev libopenimageio-dev esbuild libjs-codemirror
 )
 if [ "$everything" = yes ]; then
-  packages+=(catch2 clang-format-19 clang-tidy-19 libclang-rt-19-dev glslang-tools python3 python3-jsonschema dpkg-dev file lintian
+  packages+=(catch2 clang-format-19 glslang-tools python3 python3-jsonschema dpkg-dev file lintian
     g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libopengl-dev libegl1 libgl1-mesa-dri libpng-dev
     chromium chromium-sandbox chromium-driver firefox-esr xvfb python3-selenium python3-websocket valgrind
     zsh fish ffmpeg mkdocs mkdocs-material doxygen assimp-testmodels pybind11-dev python3-dev python3-numpy python3-build python3-venv povray)
@@ -56,10 +56,12 @@ else
   boost=(libboost-dev libboost-program-options-dev)
 fi
 
-# clang-tidy 22 takes half the time of 19, for it skips the system's headers; not every release has it.
-linter() {
-  [ "$everything" = yes ] || return 0
-  if installed clang-tidy-22 || [ -n "$(candidate clang-tidy-22)" ]; then echo clang-22 clang-tidy-22; fi
+# With clang 22, builds and clang-tidy take less than half the time of 19; not every release has it.
+compiler() {
+  local version=19
+  if installed clang-22 || [ -n "$(candidate clang-22)" ]; then version=22; fi
+  echo clang-$version clang-tools-$version lld-$version
+  if [ "$everything" = yes ]; then echo clang-tidy-$version libclang-rt-$version-dev; fi
 }
 
 # The oldest clang that builds plugins, for a test; not every release has it.
@@ -85,7 +87,7 @@ missing=()
 find_missing() {
   local package
   missing=()
-  for package in "${packages[@]}" "${boost[@]}" $(linter) $(oldest_clang) $(wheel_backend) $(programs); do
+  for package in "${packages[@]}" "${boost[@]}" $(compiler) $(oldest_clang) $(wheel_backend) $(programs); do
     installed "$package" || missing+=("$package")
   done
   at_least "$(installed_version cmake)" "$k_cmake_at_least" || missing+=(cmake cmake-data)

@@ -2,6 +2,8 @@
 add_library(candela_flags INTERFACE)
 target_compile_options(candela_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    # Catch2's macros count.
+    $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,22>>:-Wno-c2y-extensions>
     $<$<BOOL:${CANDELA_WERROR}>:-Werror>)
 
 if(NOT CANDELA_SANITIZE)
@@ -20,7 +22,7 @@ if(CANDELA_SANITIZE)
 endif()
 
 # lld links the plugins and the test programs in a fraction of the time.
-find_program(CANDELA_LLD NAMES ld.lld-19 ld.lld-20 ld.lld-21 ld.lld)
+find_program(CANDELA_LLD NAMES ld.lld-22 ld.lld-21 ld.lld-20 ld.lld-19 ld.lld)
 if(CANDELA_LLD)
     add_link_options(--ld-path=${CANDELA_LLD})
 endif()

@@ -33,7 +33,7 @@ function(candela_add_thread_sanitized target)
     candela_find_thread_sanitizer(is_there)
     if(NOT is_there)
         message(WARNING "CANDELA_SANITIZE is thread, but ${CMAKE_CXX_COMPILER} makes no programs with -fsanitize=thread: data races are "
-            "not looked for (of clang 19, Debian has what is missing in libclang-rt-19-dev)")
+            "not looked for (of clang 22, Debian has what is missing in libclang-rt-22-dev)")
         return()
     endif()
     if(NOT TARGET candela_threads)

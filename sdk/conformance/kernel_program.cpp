@@ -252,7 +252,7 @@ KernelProgram::KernelProgram() try : KernelProgram(std::string(subject().kernel.
 }
 
 KernelProgram::KernelProgram(const std::string& text) {
-    const auto compiler = program_called({"clang++-19", "clang++", "g++"});
+    const auto compiler = program_called({"clang++-22", "clang++-19", "clang++", "g++"});
     if (!compiler) SKIP("there is no C++ compiler here");
     const fs::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");

@@ -45,7 +45,7 @@ refused modules-by-old-cmake Ninja "$cxx" "$project
 set(CMAKE_VERSION 3.27.1)" "$program" "candela::core, whose C++ modules need CMake 3.28 or newer, and this is 3.27.1"
 refused modules-without-scanner Ninja "$cxx" "$project
 set(CMAKE_CXX_COMPILER_CLANG_SCAN_DEPS CMAKE_CXX_COMPILER_CLANG_SCAN_DEPS-NOTFOUND)" "$program" \
-    "candela::core, whose C++ modules need clang-scan-deps, which is not beside the compiler (package clang-tools-19)"
+    "candela::core, whose C++ modules need clang-scan-deps, which is not beside the compiler (package clang-tools-$("$cxx" -dumpversion | cut -d. -f1))"
 
 # A project's own older standard is raised for the plugin.
 mkdir "$scratch/old-standard"

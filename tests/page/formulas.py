@@ -228,7 +228,8 @@ class Keeping(Editing, Viewing):
         project, build = self.folder / "my-blinn", self.folder / "build"
         prefix = self.folder / "prefix"
         subprocess.run(["cmake", "--install", os.path.dirname(os.path.dirname(COMMAND)), "--prefix", prefix], check=True, capture_output=True)
-        compiler = {"CXX": "clang++-19"} if shutil.which("clang++-19") else {}
+        installed = [name for name in ("clang++-22", "clang++-19") if shutil.which(name)]
+        compiler = {"CXX": installed[0]} if installed else {}
         for words in (["cmake", "-B", build, "-S", project, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={prefix}"],
                       ["cmake", "--build", build], ["ctest", "--test-dir", build, "--output-on-failure"]):
             done = subprocess.run(list(map(str, words)), env={**ENVIRONMENT, **compiler}, capture_output=True, text=True)

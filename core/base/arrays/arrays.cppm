@@ -94,20 +94,24 @@ struct Columns {
     /// `record(i)` is the address of record i: 16 bytes.
     template <class Record>
     [[gnu::always_inline]] inline void gather(Record record) {
-        using Four = float __attribute__((vector_size(16)));
+        Four records[k_lanes];
+        for (std::size_t i = 0; i < k_lanes; ++i) std::memcpy(&records[i], record(i), sizeof(Four));
+        transpose(records);
+    }
+
+  private:
+    using Four = float __attribute__((vector_size(16)));
+
+    // Not within gather(): clang 22 crashes on a template whose variables are initialised by others.
+    [[gnu::always_inline]] inline void transpose(const Four (&records)[k_lanes]) {
         using Eight = float __attribute__((vector_size(32)));
         using Sixteen = float __attribute__((vector_size(64)));
         // Row r consists of records r, r + 4, r + 8 and r + 12: transposed quarter by quarter, all come out
         // in order.
         Sixteen row[4];
         for (std::size_t r = 0; r < 4; ++r) {
-            Four a, b, c, d;
-            std::memcpy(&a, record(r), sizeof a);
-            std::memcpy(&b, record(r + 4), sizeof b);
-            std::memcpy(&c, record(r + 8), sizeof c);
-            std::memcpy(&d, record(r + 12), sizeof d);
-            const Eight ab = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-            const Eight cd = __builtin_shufflevector(c, d, 0, 1, 2, 3, 4, 5, 6, 7);
+            const Eight ab = __builtin_shufflevector(records[r], records[r + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+            const Eight cd = __builtin_shufflevector(records[r + 8], records[r + 12], 0, 1, 2, 3, 4, 5, 6, 7);
             row[r] = __builtin_shufflevector(ab, cd, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
         }
         const Sixteen low_01 =
