@@ -56,7 +56,7 @@ else
   boost=(libboost-dev libboost-program-options-dev)
 fi
 
-# With clang 22, builds and clang-tidy take less than half the time of 19; not every release has it.
+# With clang 22, compiling the core and clang-tidy take half the time of 19 or less; not every release has it.
 compiler() {
   local version=19
   if installed clang-22 || [ -n "$(candidate clang-22)" ]; then version=22; fi
