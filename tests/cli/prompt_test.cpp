@@ -203,7 +203,7 @@ TEST_CASE("with NO_COLOR, a question has no colour, nor has what follows from th
     CHECK_FALSE(holds(result.out, "\x1b["));
 }
 
-TEST_CASE("a long render shows its progress on a terminal, and nowhere else") {
+TEST_CASE("a long render shows its progress on a terminal, and nowhere else", "[whole]") {
     std::string text = scene(
         "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\ntype = \"sphere\"\n");
     for (int i = 0; i < 500; ++i) {
@@ -227,18 +227,12 @@ TEST_CASE("a long render shows its progress on a terminal, and nowhere else") {
     CHECK(unseen.out.empty());
 }
 
-TEST_CASE("a long check shows its progress on a terminal, and nowhere else") {
+TEST_CASE("a long check shows its progress on a terminal, and nowhere else", "[whole]") {
     std::string text = scene(
         "[room]\nwidth = 40\nheight = 30\ndepth = 30\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = "
         "\"phong\"\n");
-    // Rods side by side, whose boxes meet those of thousands of others. A sanitizer takes long for half as
-    // many.
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-    constexpr int k_rods = 3000;
-#else
-    constexpr int k_rods = 6000;
-#endif
-    for (int i = 0; i < k_rods; ++i)
+    // Rods side by side, whose boxes meet those of thousands of others.
+    for (int i = 0; i < 6000; ++i)
         text += fmt::format(
             "[[object]]\ntype = \"cube\"\nscale = [10, 0.0002, 0.0002]\nrotation = [0, 0, 45]\nposition = "
             "[{}, 0, -8]\n",

@@ -115,8 +115,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "generate: the C++ program of a scene with many models runs clean under AddressSanitizer and UBSan") {
+TEST_CASE("generate: the C++ program of a scene with many models runs clean under AddressSanitizer and UBSan",
+          "[whole]") {
     const fs::path directory = scratch_directory();
     const fs::path scene = write_file(directory / "scene.toml", k_coarse);
     generate({scene.string(), "--target", "cpp", "-o", directory.string(), "--models", "all"});

@@ -99,8 +99,8 @@ std::vector<std::string> tame_names(std::size_t count) {
 
 }  // namespace
 
-TEST_CASE(
-    "names: C++ programs of scenes with hostile names compile and draw what those with tame names draw") {
+TEST_CASE("names: C++ programs of scenes with hostile names compile and draw what those with tame names draw",
+          "[whole]") {
     const fs::path directory = scratch_directory();
     const std::vector<std::string> names = all_names();
     const auto picture = [&](const std::vector<std::string>& with, const std::string& file) {

@@ -128,7 +128,8 @@ TEST_CASE("target/three: three.js draws RE example 2 by itself and with a kernel
     CHECK(drawn_in_the_middle(folder, kernel) == grey(0.8575));
 }
 
-TEST_CASE("target/three: three.js's own lights shine on a wall as strongly as worked out by hand") {
+TEST_CASE("target/three: three.js's own lights shine on a wall as strongly as worked out by hand",
+          "[whole]") {
     require_three();
     const fs::path folder = folder_with_wall();
     // 2 / 2^2 before it, N.L 0.8 of 0.25 from the sun, and ka 0.5 of 0.2.
@@ -173,7 +174,7 @@ intensity = 0.25
     CHECK(page["objects"][0]["lambert"]["emissive"] == Json{0.125, 0.125, 0.125});
 }
 
-TEST_CASE("target/three: what three.js computes otherwise is left to kernels") {
+TEST_CASE("target/three: what three.js computes otherwise is left to kernels", "[whole]") {
     require_three();
     const fs::path folder = scratch_directory();
     const auto is_own = [&](const std::string& scene) {
@@ -194,7 +195,7 @@ TEST_CASE("target/three: what three.js computes otherwise is left to kernels") {
         CHECK_FALSE(is_own(k_head + k_point + k_ball + "shading = \"" + shading + "\"\n"));
 }
 
-TEST_CASE("target/three: an open mesh with colours at its vertices is right from both sides") {
+TEST_CASE("target/three: an open mesh with colours at its vertices is right from both sides", "[whole]") {
     require_three();
     require_three();
     const fs::path folder = scratch_directory();
