@@ -167,6 +167,7 @@ TEST_CASE("a picture, and a shape, that do not fit into memory are errors that s
 TEST_CASE(
     "wherever a library runs out of memory, while it is loaded or later, that is a message, and no abort",
     "[whole]") {
+    if (k_has_shadow_memory) SKIP("sanitizers need more address space");
     const fs::path directory = scratch_directory();
     const auto rendered = [&](rlim_t megabytes, const char* picture) {
         CommandSetup setup;

@@ -92,7 +92,8 @@ TEST_CASE("generate: -o - prints the file that a target writes, byte for byte, a
 }
 
 TEST_CASE(
-    "generate: the C++ programs compile with g++ and clang++ without a warning, and give the same picture") {
+    "generate: the C++ programs compile with g++ and clang++ without a warning, and give the same picture",
+    "[programs]") {
     const fs::path directory = scratch_directory();
     for (const std::string& scene : {std::string(), k_still_life}) {
         std::vector<std::string> words{"--target", "cpp", "-o",       directory.string(),
@@ -133,7 +134,8 @@ TEST_CASE("generate: the C++ program of a scene with many models runs clean unde
     }
 }
 
-TEST_CASE("generate: scenes without lights, without objects and without both become programs that compile") {
+TEST_CASE("generate: scenes without lights, without objects and without both become programs that compile",
+          "[programs]") {
     const fs::path directory = scratch_directory();
     const std::string head =
         "version = 1\n[observer]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n[image]\nwidth = 32\nheight = "

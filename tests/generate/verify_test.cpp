@@ -78,7 +78,7 @@ TEST_CASE("verify: a program that nobody has changed matches, also where it was 
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("verify: a sign in one copy of a kernel is caught") {
+TEST_CASE("verify: a sign in one copy of a kernel is caught", "[programs]") {
     const CommandResult result =
         verify_changed("cpp", "scene.cpp", "s.normal - to_light", "s.normal + to_light");
     INFO(result.out << result.err);
@@ -93,7 +93,7 @@ TEST_CASE("verify: a light that is five centimetres beside its place is caught",
     CHECK(result.exit_code == 4);
 }
 
-TEST_CASE("verify: half Lambert instead of Lambert is caught, in GLSL") {
+TEST_CASE("verify: half Lambert instead of Lambert is caught, in GLSL", "[programs]") {
     const CommandResult result = verify_changed("opengl", "scene.cpp", "max(n_dot_l, 0.0f)",
                                                 "(0.5f * n_dot_l + 0.5f) * (0.5f * n_dot_l + 0.5f)");
     INFO(result.out << result.err);
@@ -106,14 +106,15 @@ TEST_CASE("verify: an object that is not drawn is caught", "[whole]") {
     CHECK(result.exit_code == 4);
 }
 
-TEST_CASE("verify: a wrong formula in a page is caught") {
+TEST_CASE("verify: a wrong formula in a page is caught", "[programs]") {
     const CommandResult result = verify_changed("webgl", "scene.html", "s.color * max(n_dot_l, 0.0f)",
                                                 "s.color * max(1.1f * n_dot_l, 0.0f)");
     INFO(result.out << result.err);
     CHECK(result.exit_code == 4);
 }
 
-TEST_CASE("verify: a program that does not compile, or does not run, is an error that shows why") {
+TEST_CASE("verify: a program that does not compile, or does not run, is an error that shows why",
+          "[programs]") {
     const CommandResult compiled = verify_changed("cpp", "scene.cpp", "int main(", "int main(nonsense ");
     CHECK(compiled.exit_code == 1);
     CHECK(compiled.err.find("nonsense") != std::string::npos);
@@ -151,7 +152,7 @@ CommandResult verify_grey(const std::vector<std::string>& more) {
 
 }  // namespace
 
-TEST_CASE("verify: a tolerance of 0 does not make every pixel an edge") {
+TEST_CASE("verify: a tolerance of 0 does not make every pixel an edge", "[programs]") {
     const CommandResult grey = verify_grey({"--tolerance", "0"});
     INFO(grey.out << grey.err);
     CHECK(grey.exit_code == 4);
@@ -160,7 +161,8 @@ TEST_CASE("verify: a tolerance of 0 does not make every pixel an edge") {
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("verify: a program that draws nothing is not saved by a picture of an earlier report") {
+TEST_CASE("verify: a program that draws nothing is not saved by a picture of an earlier report",
+          "[programs]") {
     const fs::path directory = scratch_directory(), report = directory / "report", program = report / "cpp";
     std::vector<std::string> words{"--target", "cpp", "--report", report.string()};
     words.insert(words.end(), k_small.begin(), k_small.end());
@@ -177,7 +179,7 @@ TEST_CASE("verify: a program that draws nothing is not saved by a picture of an 
           std::string::npos);
 }
 
-TEST_CASE("verify: a picture of another size is a mismatch that says so") {
+TEST_CASE("verify: a picture of another size is a mismatch that says so", "[programs]") {
     const CommandResult result =
         verify_changed("cpp", "scene.cpp", "k_width = 160, k_height = 120", "k_width = 80, k_height = 60");
     INFO(result.out << result.err);
@@ -185,7 +187,8 @@ TEST_CASE("verify: a picture of another size is a mismatch that says so") {
     CHECK(result.out.find("80 x 60") != std::string::npos);
 }
 
-TEST_CASE("verify: where hardly a pixel is away from edges, there is no verdict, and it says what to do") {
+TEST_CASE("verify: where hardly a pixel is away from edges, there is no verdict, and it says what to do",
+          "[programs]") {
     for (const std::string& size : {std::string("12"), std::string("30")}) {
         const CommandResult result = verify({"--target", "cpp", "--width", size, "--height", size});
         INFO(result.out << result.err);
@@ -195,7 +198,7 @@ TEST_CASE("verify: where hardly a pixel is away from edges, there is no verdict,
     }
 }
 
-TEST_CASE("verify: --json has the figures, and how many pixels the verdict rests on") {
+TEST_CASE("verify: --json has the figures, and how many pixels the verdict rests on", "[programs]") {
     std::vector<std::string> words{"--target", "cpp", "--json"};
     words.insert(words.end(), k_small.begin(), k_small.end());
     const CommandResult result = verify(words);

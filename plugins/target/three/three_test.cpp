@@ -117,7 +117,8 @@ color = [255, 255, 255]
 
 }  // namespace
 
-TEST_CASE("target/three: three.js draws RE example 2 by itself and with a kernel: 0.7071 and 0.8575") {
+TEST_CASE("target/three: three.js draws RE example 2 by itself and with a kernel: 0.7071 and 0.8575",
+          "[programs]") {
     require_three();
     const fs::path folder = scratch_directory();
     write_file(folder / "floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
@@ -196,7 +197,6 @@ TEST_CASE("target/three: what three.js computes otherwise is left to kernels", "
 }
 
 TEST_CASE("target/three: an open mesh with colours at its vertices is right from both sides", "[whole]") {
-    require_three();
     require_three();
     const fs::path folder = scratch_directory();
     write_file(folder / "roof.obj",
