@@ -8,6 +8,15 @@ namespace {
 
 constexpr py::ssize_t k_float = sizeof(float);
 
+/// Fetches the rows of the next batch, as many of those that are `left` as this one has, to be in the cache
+/// when the model has done with this one.
+template <bool is_written>
+void prefetch(const float* rows, std::size_t count, std::size_t left) noexcept {
+    constexpr std::size_t k_line = 64 / sizeof(float);
+    for (std::size_t i = 0; i < 3 * std::min(count, left); i += k_line)
+        __builtin_prefetch(rows + i, is_written);
+}
+
 /// Rows, the vectors of a C-ordered array, into channels.
 struct TakeApartLoop {
     CANDELA_BATCH_LOOP static void run(const float* rows, std::size_t count, Vec3Span to) {
@@ -60,7 +69,9 @@ void Vectors::gather(std::size_t first, std::size_t count, BatchVectors& buffer)
         for (std::size_t c = 0; c < 3; ++c) buffer.channels[c].fill(at(0, c));
         buffer.has_one_for_all = true;
     } else if (step_ == 3 * k_float && channel_ == k_float) {
-        multiversion<TakeApartLoop>(reinterpret_cast<const float*>(data_) + 3 * first, count, buffer.span());
+        const float* const rows = reinterpret_cast<const float*>(data_) + 3 * first;
+        prefetch<false>(rows + 3 * count, count, count_ - first - count);
+        multiversion<TakeApartLoop>(rows, count, buffer.span());
     } else {
         for (std::size_t i = 0; i < count; ++i) buffer.span().set(i, (*this)[first + i]);
     }
@@ -77,21 +88,29 @@ void require_same_count(std::initializer_list<const Vectors*> all) {
 }
 
 Results::Results(std::size_t count, Layout layout)
-    : step_(layout == Layout::interleaved ? 3 : 1),
+    : count_(count),
+      step_(layout == Layout::interleaved ? 3 : 1),
       apart_(layout == Layout::interleaved ? 1 : count),
       array_({static_cast<py::ssize_t>(count), py::ssize_t{3}},
              {static_cast<py::ssize_t>(step_) * k_float, static_cast<py::ssize_t>(apart_) * k_float}),
       data_(array_.mutable_data()) {}
 
+template <class... Terms>
+void Results::write_rows(std::size_t first, std::size_t count, Terms... terms) noexcept {
+    float* const rows = channel(first, 0);
+    prefetch<true>(rows + 3 * count, count, count_ - first - count);
+    multiversion<PutTogetherLoop>(count, rows, terms...);
+}
+
 void Results::write(std::size_t first, std::size_t count, ConstVec3Span vectors) noexcept {
-    if (step_ != 1) return multiversion<PutTogetherLoop>(count, channel(first, 0), vectors);
+    if (step_ != 1) return write_rows(first, count, vectors);
     std::copy_n(vectors.x, count, channel(first, 0));
     std::copy_n(vectors.y, count, channel(first, 1));
     std::copy_n(vectors.z, count, channel(first, 2));
 }
 
 void Results::write(std::size_t first, std::size_t count, ConstVec3Span a, ConstVec3Span b) noexcept {
-    if (step_ != 1) return multiversion<PutTogetherLoop>(count, channel(first, 0), a, b);
+    if (step_ != 1) return write_rows(first, count, a, b);
     multiversion<AddLoop>(count, channel(first, 0), a.x, b.x);
     multiversion<AddLoop>(count, channel(first, 1), a.y, b.y);
     multiversion<AddLoop>(count, channel(first, 2), a.z, b.z);

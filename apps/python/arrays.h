@@ -82,11 +82,15 @@ class Results {
     Floats take() { return std::move(array_); }
 
   private:
+    template <class... Terms>
+    void write_rows(std::size_t first, std::size_t count, Terms... terms) noexcept;
+
     /// Where the first vector's channel is; the others' are step_ apart.
     float* channel(std::size_t first, std::size_t c) const noexcept {
         return data_ + first * step_ + c * apart_;
     }
 
+    std::size_t count_;
     std::size_t step_, apart_;  // numbers
     Floats array_;
     float* data_;
