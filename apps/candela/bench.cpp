@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
 #include "exit_code.h"
+#include "json/json.h"
 #include "reporting.h"
 #include "stopwatch.h"
 #include "terminal.h"
@@ -77,7 +77,7 @@ Times measure(const candela::CompiledScene& scene, const Plan& plan, candela::Fi
     return times;
 }
 
-void print_text(const nlohmann::ordered_json& f) {
+void print_text(const Json& f) {
     const auto number = [&](const char* key) { return f.at(key).get<double>(); };
     std::cout << fmt::format("{} x {}, {} sample(s), {} triangles, {}\n", f.at("width").get<int>(),
                              f.at("height").get<int>(), f.at("samples").get<int>(),
@@ -132,27 +132,26 @@ int run_bench(const std::vector<std::string>& arguments) {
     const double frame = median_of(times.frame);
     const auto per_second = [&](double count) { return count / frame / 1e3; };  // in millions
     const double pixels = static_cast<double>(film.width()) * static_cast<double>(film.height());
-    const nlohmann::ordered_json figures = {
-        {"width", film.width()},
-        {"height", film.height()},
-        {"samples", image.samples},
-        {"triangles", statistics.triangles},
-        {"frames", plan.frames},
-        {"threads", plan.threads},
-        {"instruction_set", candela::name_of(candela::instruction_set())},
-        {"read_ms", read_ms},
-        {"meshes_ms", compile_ms},
-        {"projection_ms", median_of(times.projection)},
-        {"tiles_ms", median_of(times.tiles)},
-        {"frame_ms", frame},
-        {"fastest_frame_ms", std::ranges::min(times.frame)},
-        {"relit_frame_ms", median_of(times.relit)},
-        {"mpixels_per_second", per_second(pixels)},
-        {"msamples_per_second", per_second(pixels * image.samples)},
-        {"mpoints_lit_per_second", per_second(static_cast<double>(statistics.points_lit))},
-        {"mtriangles_per_second", per_second(static_cast<double>(statistics.triangles))}};
+    const Json figures = {{"width", film.width()},
+                          {"height", film.height()},
+                          {"samples", image.samples},
+                          {"triangles", statistics.triangles},
+                          {"frames", plan.frames},
+                          {"threads", plan.threads},
+                          {"instruction_set", candela::name_of(candela::instruction_set())},
+                          {"read_ms", read_ms},
+                          {"meshes_ms", compile_ms},
+                          {"projection_ms", median_of(times.projection)},
+                          {"tiles_ms", median_of(times.tiles)},
+                          {"frame_ms", frame},
+                          {"fastest_frame_ms", std::ranges::min(times.frame)},
+                          {"relit_frame_ms", median_of(times.relit)},
+                          {"mpixels_per_second", per_second(pixels)},
+                          {"msamples_per_second", per_second(pixels * image.samples)},
+                          {"mpoints_lit_per_second", per_second(static_cast<double>(statistics.points_lit))},
+                          {"mtriangles_per_second", per_second(static_cast<double>(statistics.triangles))}};
     if (line.has("json")) {
-        std::cout << figures.dump(2) << '\n';
+        std::cout << json_text(figures, 2) << '\n';
     } else {
         print_text(figures);
     }

@@ -5,7 +5,6 @@
 #include <iostream>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "diagnostics_text.h"
 #include "exit_code.h"
 #include "frame_pattern.h"
+#include "json/json.h"
 #include "reporting.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -68,8 +68,8 @@ std::string animation_text(const Scene& scene) {
                        animation.frames / animation.fps, in_parentheses(moved));
 }
 
-nlohmann::ordered_json animation_json(const candela::Animation& animation) {
-    nlohmann::ordered_json tracks = nlohmann::ordered_json::array();
+Json animation_json(const candela::Animation& animation) {
+    Json tracks = Json::array();
     for (const candela::Track& track : animation.tracks) tracks.push_back(track.path);
     return {{"frames", animation.frames},
             {"fps", animation.fps},
@@ -109,9 +109,8 @@ void print_summary(const Scene& scene, const CompiledScene& compiled) {
 
 void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene,
                 const Diagnostics& diagnostics) {
-    using Json = nlohmann::ordered_json;
     Json result = {{"valid", compiled.has_value()},
-                   {"diagnostics", Json::parse(diagnostics_json(diagnostics))}};
+                   {"diagnostics", parse_json(diagnostics_json(diagnostics))}};
     if (compiled) {
         Json objects = Json::array();
         for (std::size_t i = 0; i < scene->objects.size(); ++i) {
@@ -133,7 +132,7 @@ void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene
                            {"objects", std::move(objects)}};
         if (scene->animation) result["scene"]["animation"] = animation_json(*scene->animation);
     }
-    std::cout << candela::printable_json(result.dump(2)) << '\n';
+    std::cout << json_text(result, 2) << '\n';
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -19,6 +18,7 @@
 #include "compiling.h"
 #include "contact_sheet.h"
 #include "exit_code.h"
+#include "json/json.h"
 #include "picture_comparison/differences.h"
 #include "reporting.h"
 #include "terminal.h"
@@ -111,15 +111,15 @@ void show_differences(std::vector<Pane>& panes, candela::PixelType pixels) {
 }
 
 std::string json_of(const std::vector<Pane>& panes, int columns) {
-    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    Json all = Json::array();
     for (std::size_t i = 0; i < panes.size(); ++i) {
-        nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+        Json settings = Json::object();
         for (const Variant& variant : panes[i].variants)
             settings[variant.option.starts_with("--") ? variant.option.substr(2) : variant.option] =
                 variant.value;
-        nlohmann::ordered_json pane{{"column", i % static_cast<std::size_t>(columns)},
-                                    {"row", i / static_cast<std::size_t>(columns)},
-                                    {"settings", settings}};
+        Json pane{{"column", i % static_cast<std::size_t>(columns)},
+                  {"row", i / static_cast<std::size_t>(columns)},
+                  {"settings", settings}};
         if (panes[i].difference) {
             pane["difference"] = {{"mean", panes[i].difference->mean},
                                   {"rmse", panes[i].difference->rmse},
@@ -127,8 +127,7 @@ std::string json_of(const std::vector<Pane>& panes, int columns) {
         }
         all.push_back(pane);
     }
-    return nlohmann::ordered_json{{"pictures", all}}.dump(2, ' ', false,
-                                                          nlohmann::json::error_handler_t::replace);
+    return json_text({{"pictures", all}}, 2);
 }
 
 bool has_several_terms(const std::vector<Axis>& axes) {

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "json/json.h"
 
 import candela.text;
 
@@ -167,7 +168,6 @@ std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_co
 }
 
 std::string diagnostics_json(const candela::Diagnostics& diagnostics) {
-    using Json = nlohmann::ordered_json;
     Json all = Json::array();
     for (const Diagnostic& d : diagnostics.sorted()) {
         all.push_back({{"severity", word(d.severity)},
@@ -178,5 +178,5 @@ std::string diagnostics_json(const candela::Diagnostics& diagnostics) {
                        {"message", full_message(d.message, d.help)},
                        {"hint", full_hint(d)}});
     }
-    return candela::printable_json(all.dump(2, ' ', false, Json::error_handler_t::replace));
+    return json_text(all, 2);
 }

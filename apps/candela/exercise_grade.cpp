@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 #include <string>
@@ -15,6 +14,7 @@
 #include "exercises.h"
 #include "exit_code.h"
 #include "helper.h"
+#include "json/json.h"
 #include "kernel_language.h"
 #include "reporting.h"
 #include "temporary_folder.h"
@@ -29,7 +29,6 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
-using nlohmann::json;
 
 namespace {
 
@@ -60,7 +59,7 @@ struct Grade {
     Result result = Result::is_no_answer;
     std::string message;         // what is wrong, where it is not in the numbers
     std::size_t line = 0;        // of the answer, where the message is about one
-    json terms = json::array();  // as the conformance kit says them
+    Json terms = Json::array();  // as the conformance kit says them
 };
 
 /// What the compiler says about the first error in the answer's own lines; in other lines, an error is about
@@ -80,17 +79,17 @@ void take_refusal(Grade& grade, const std::string& log, const Exercise& exercise
 }
 
 /// What the kit says of the kernel in `text`, with an answer in it.
-json judged_by_kit(const fs::path& kit, const Exercise& exercise, const fs::path& text, double seconds) {
+Json judged_by_kit(const fs::path& kit, const Exercise& exercise, const fs::path& text, double seconds) {
     const candela::ProgramOutput output =
         candela::run_program({kit.string(), exercise.plugin->library.string(), "--answer", text.string(),
                               "--json", "--time-limit", fmt::format("{}", seconds)});
-    const json report = json::parse(output.out, nullptr, false);
+    const Json report = json_or_discarded(output.out);
     if (report.is_array() && !report.empty()) {
-        const json& check = report[0]["checks"][0];
+        const Json& check = report[0]["checks"][0];
         const std::string outcome = check["outcome"];
         if (outcome == "timed out") return {{"hangs", true}};
-        for (const json& message : check["messages"]) {
-            const json found = json::parse(message.get<std::string>(), nullptr, false);
+        for (const Json& message : check["messages"]) {
+            const Json found = json_or_discarded(message.get<std::string>());
             if (found.is_object()) return found;
             if (outcome == "failed" || outcome == "skipped" || outcome == "crashed")
                 throw Error(ErrorCategory::failure,
@@ -129,7 +128,7 @@ class Grader {
         }
         const fs::path text = folder_.path() / "answer.kernel";
         candela::write_text_file(text, exercise->with(body_for_cpp(answer->body)));
-        const json found = judged_by_kit(kit_, *exercise, text, seconds_);
+        const Json found = judged_by_kit(kit_, *exercise, text, seconds_);
         if (found.contains("refused")) {
             take_refusal(grade, found["refused"], *exercise, answer->body);
         } else if (found.contains("hangs")) {
@@ -158,7 +157,7 @@ std::string percent(double share) {
 }
 
 /// "specular: 3.9 % of the points differ, by up to 100 % of the largest value".
-std::string term_text(const json& term) {
+std::string term_text(const Json& term) {
     const std::string text = fmt::format("{}: {} of the points differ", term["term"].get<std::string>(),
                                          percent(term["share"].get<double>()));
     if (!term["largest"].is_number()) return text + "; some are not numbers";
@@ -195,7 +194,7 @@ std::string table(const std::vector<Grade>& grades) {
         text += padded(cells[row][0], widths[0]) + padded(cells[row][1], widths[1]) +
                 candela::printable(summary_of(grade)) + "\n";
         if (grade.result != Result::differs) continue;
-        for (const json& term : grade.terms) {
+        for (const Json& term : grade.terms) {
             if (!term.contains("at")) continue;
             text += fmt::format("{}{}\n", indent, term_text(term));
             text += fmt::format("{}  most for {}\n{}  with {}\n", indent, term["at"].get<std::string>(),
@@ -205,11 +204,11 @@ std::string table(const std::vector<Grade>& grades) {
     return text;
 }
 
-json json_of(const Grade& grade) {
-    json result = {{"file", grade.file.string()}, {"model", grade.model},
+Json json_of(const Grade& grade) {
+    Json result = {{"file", grade.file.string()}, {"model", grade.model},
                    {"function", grade.function},  {"result", name_of(grade.result)},
                    {"message", grade.message},    {"terms", grade.terms}};
-    result["line"] = grade.line > 0 ? json(grade.line) : json();
+    result["line"] = grade.line > 0 ? Json(grade.line) : Json();
     return result;
 }
 
@@ -247,9 +246,9 @@ int run_exercise_grade(const std::vector<std::string>& arguments) {
         }
     }
     if (line.has("json")) {
-        json all = json::array();
+        Json all = Json::array();
         for (const Grade& grade : grades) all.push_back(json_of(grade));
-        std::cout << candela::printable_json(all.dump(2, ' ', false, json::error_handler_t::replace)) << '\n';
+        std::cout << json_text(all, 2) << '\n';
     } else {
         std::cout << table(grades);
     }

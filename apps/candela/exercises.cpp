@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 #include <system_error>
 
 #include "candela/target/kernels.h"
+#include "json/json.h"
 
 import candela.color;
 import candela.diagnostics;
@@ -124,7 +124,7 @@ Answer answer_from(const fs::path& file) {
     if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file.string()));
     if (text->size() > k_largest_file)
         throw no_answer(file, fmt::format("it is larger than {} bytes", k_largest_file));
-    const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
+    const Json json = json_or_discarded(*text);
     if (!json.is_object()) throw no_answer(file, "it is no JSON object, as the exercise's page saves it");
     const auto text_of = [&](const char* key) {
         if (!json.contains(key) || !json[key].is_string())
@@ -136,7 +136,7 @@ Answer answer_from(const fs::path& file) {
     Answer answer{.file = file, .model = text_of("model"), .function = text_of("function"), .body = {}};
     if (!json.contains("answer") || !json["answer"].is_array())
         throw no_answer(file, "'answer' is missing, an array of lines");
-    for (const nlohmann::json& line : json["answer"]) {
+    for (const Json& line : json["answer"]) {
         if (!line.is_string() || line.get_ref<const std::string&>().find('\n') != std::string::npos)
             throw no_answer(file, "'answer' holds something that is not a line of text");
         answer.body += (answer.body.empty() ? "" : "\n") + line.get<std::string>();

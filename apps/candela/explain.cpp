@@ -4,7 +4,6 @@
 #include <charconv>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,11 +13,11 @@
 #include "compiling.h"
 #include "exit_code.h"
 #include "explanation/explanation.h"
+#include "json/json.h"
 #include "reporting.h"
 #include "verbs.h"
 
 import candela.render;
-import candela.text;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
@@ -70,8 +69,7 @@ int explain_all(const candela::ImageSettings& image, bool is_json, const Explain
         } catch (const Error& problem) {
             code = static_cast<int>(exit_code_of(problem.category()));
             if (is_json) {
-                const nlohmann::json answer{{"error", problem.what()}};
-                std::cout << candela::printable_json(answer.dump()) << '\n';
+                std::cout << json_text({{"error", problem.what()}}) << '\n';
             } else {
                 fail(exit_code_of(problem.category()), problem.what());
             }
@@ -126,7 +124,7 @@ int run_explain(const std::vector<std::string>& arguments) {
         } else {
             const auto text =
                 explanation_json(explanation, is_for_many ? JsonLayout::one_line : JsonLayout::indented);
-            std::cout << candela::printable_json(text) << '\n';
+            std::cout << text << '\n';
         }
     };
     if (is_for_many) {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
+
+#include "json/json.h"
 
 namespace {
 
@@ -104,7 +105,7 @@ view::Outcome Explainer::explain(const std::vector<view::Change>& changes) try {
         return failed(why.empty() ? "The pixel is not explained: the program that does it has ended.\n"
                                   : why);
     }
-    if (answer->starts_with("{\"error\"")) return failed(nlohmann::json::parse(*answer)["error"]);
+    if (answer->starts_with("{\"error\"")) return failed(parse_json(*answer)["error"]);
     return {.is_success = true, .content = *std::move(answer)};
 } catch (const std::exception& problem) {
     return failed(problem.what());

@@ -3,13 +3,13 @@
 
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
 #include "exit_code.h"
 #include "generating.h"
+#include "json/json.h"
 #include "reporting.h"
 #include "targets.h"
 #include "terminal.h"
@@ -35,10 +35,9 @@ namespace {
 void write_inputs(const SceneToExport& scene, const std::string& file) {
     require_no_input(file, scene.inputs, "the files that the scene is made from",
                      "give --inputs another name");
-    nlohmann::json names = nlohmann::json::array();
+    Json names = Json::array();
     for (const fs::path& input : scene.inputs) names.push_back(fs::absolute(input).string());
-    candela::write_text_file(file,
-                             names.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    candela::write_text_file(file, json_text(names, 2) + "\n");
 }
 
 /// Loads all plugins of a kind, so that it need not be done when the scene is there. What cannot be loaded is

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "json/json.h"
 #include "output_folder.h"
 
 import candela.diagnostics;
@@ -13,26 +13,23 @@ import candela.files;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
-using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json as_json(const JobFile& file) { return {{"path", file.path.string()}, {"inputs", file.inputs}}; }
+Json as_json(const JobFile& file) { return {{"path", file.path.string()}, {"inputs", file.inputs}}; }
 
-JobFile file_from(const ordered_json& json) {
-    return {json.at("path").get<std::string>(), json.at("inputs")};
-}
+JobFile file_from(const Json& json) { return {json.at("path").get<std::string>(), json.at("inputs")}; }
 
-ordered_json as_json(const JobPlan& plan) {
-    ordered_json tasks = ordered_json::array();
+Json as_json(const JobPlan& plan) {
+    Json tasks = Json::array();
     for (const JobTask& task : plan.tasks) {
-        ordered_json files = ordered_json::array();
+        Json files = Json::array();
         for (const JobFile& file : task.files) files.push_back(as_json(file));
         tasks.push_back({{"name", task.name}, {"files", std::move(files)}});
     }
-    ordered_json results = ordered_json::array();
+    Json results = Json::array();
     for (const fs::path& result : plan.results) results.push_back(result.string());
-    const auto whole = plan.whole.path.empty() ? ordered_json() : as_json(plan.whole);
+    const auto whole = plan.whole.path.empty() ? Json() : as_json(plan.whole);
     return {{"version", 1},
             {"directory", plan.directory.string()},
             {"output", plan.output},
@@ -44,7 +41,7 @@ ordered_json as_json(const JobPlan& plan) {
             {"whole", whole}};
 }
 
-JobPlan plan_from(const ordered_json& json) {
+JobPlan plan_from(const Json& json) {
     JobPlan plan{.directory = json.at("directory").get<std::string>(),
                  .output = json.at("output"),
                  .engine = json.at("engine"),
@@ -53,13 +50,12 @@ JobPlan plan_from(const ordered_json& json) {
                  .tasks = {},
                  .results = {},
                  .whole = {}};
-    if (const ordered_json& whole = json.at("whole"); !whole.is_null()) plan.whole = file_from(whole);
-    for (const ordered_json& task : json.at("tasks")) {
+    if (const Json& whole = json.at("whole"); !whole.is_null()) plan.whole = file_from(whole);
+    for (const Json& task : json.at("tasks")) {
         JobTask& made = plan.tasks.emplace_back(task.at("name").get<std::string>());
-        for (const ordered_json& file : task.at("files")) made.files.push_back(file_from(file));
+        for (const Json& file : task.at("files")) made.files.push_back(file_from(file));
     }
-    for (const ordered_json& result : json.at("results"))
-        plan.results.emplace_back(result.get<std::string>());
+    for (const Json& result : json.at("results")) plan.results.emplace_back(result.get<std::string>());
     return plan;
 }
 
@@ -85,8 +81,7 @@ std::vector<JobFolder> JobFolder::all_in(const fs::path& directory) {
 
 void write_plan(const JobPlan& plan, const JobFolder& folder) {
     make_folder(folder.path());
-    candela::write_text_file(
-        folder.plan(), as_json(plan).dump(1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
+    candela::write_text_file(folder.plan(), json_text(as_json(plan), 1) + '\n');
 }
 
 JobPlan read_plan(const JobFolder& folder) {
@@ -94,8 +89,8 @@ JobPlan read_plan(const JobFolder& folder) {
     if (!text)
         throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", folder.plan().string()));
     try {
-        return plan_from(ordered_json::parse(*text));
-    } catch (const ordered_json::exception& problem) {
+        return plan_from(parse_json(*text));
+    } catch (const Json::exception& problem) {
         throw Error(ErrorCategory::failure, fmt::format("'{}' is not a job's plan: {}; submit the job again",
                                                         folder.plan().string(), problem.what()));
     }

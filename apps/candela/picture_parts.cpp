@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
+#include "json/json.h"
 #include "output_folder.h"
 #include "shell_words.h"
 
@@ -19,7 +19,6 @@ using candela::ColorEncoding;
 using candela::Error;
 using candela::ErrorCategory;
 using candela::PixelType;
-using nlohmann::json;
 
 namespace {
 
@@ -79,14 +78,14 @@ std::size_t PartedPicture::row_size() const {
 }
 
 void write_description(const PartedPicture& parted, const fs::path& picture) {
-    const json description = {{"version", 1},
+    const Json description = {{"version", 1},
                               {"width", parted.whole.width},
                               {"height", parted.whole.height},
                               {"pixels", parted.whole.pixels == PixelType::byte ? "byte" : "float"},
                               {"srgb", parted.whole.encoding == ColorEncoding::srgb},
                               {"parts", parted.parts},
                               {"inputs", parted.inputs}};
-    const std::string text = description.dump(1) + '\n';
+    const std::string text = json_text(description, 1) + '\n';
     make_folder(folder_of_parts(picture));
     // Every part says the same.
     if (candela::read_text_file(description_of(picture)) != text)
@@ -104,7 +103,7 @@ PartedPicture read_description(const fs::path& picture) {
                 picture.string(), file.string(), quoted_for_shell(picture.string())));
     }
     try {
-        const json description = json::parse(*text);
+        const Json description = parse_json(*text);
         PartedPicture parted{.whole = {.width = description.at("width"), .height = description.at("height")},
                              .parts = description.at("parts"),
                              .inputs = description.at("inputs")};
@@ -115,7 +114,7 @@ PartedPicture read_description(const fs::path& picture) {
         if (parted.whole.width < 1 || parted.parts < 1 || parted.parts > parted.whole.height)
             throw Error(ErrorCategory::failure, fmt::format("'{}' describes no picture", file.string()));
         return parted;
-    } catch (const json::exception& problem) {
+    } catch (const Json::exception& problem) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' does not describe a picture: {}", file.string(), problem.what()));
     }

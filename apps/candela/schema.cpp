@@ -53,7 +53,6 @@ int run_schema(const std::vector<std::string>& arguments) {
     std::vector<candela::Manifest> installed;
     for (const candela::PluginFile* file : registry.list()) installed.push_back(file->manifest);
     report_refusals(registry);
-    const std::string text = format.write(installed);
-    std::cout << (format.write == candela::scene_json_schema ? candela::printable_json(text) : text);
+    std::cout << format.write(installed);
     return 0;
 }

@@ -2,16 +2,15 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
 #include "job_plan.h"
 #include "job_state.h"
+#include "json/json.h"
 #include "verbs.h"
 
-using nlohmann::ordered_json;
 using Kind = TaskState::Kind;
 
 namespace {
@@ -77,12 +76,12 @@ std::string text_of(const JobState& job) {
     return text;
 }
 
-ordered_json json_of(const TaskState& task) {
-    ordered_json json{{"name", task.name},
-                      {"state", name_of(task.kind)},
-                      {"files", task.files},
-                      {"files_done", task.files_done},
-                      {"files_made_from_something_else", task.files_other}};
+Json json_of(const TaskState& task) {
+    Json json{{"name", task.name},
+              {"state", name_of(task.kind)},
+              {"files", task.files},
+              {"files_done", task.files_done},
+              {"files_made_from_something_else", task.files_other}};
     if (task.journal) {
         json["host"] = task.journal->host;
         json["began"] = task.journal->began;
@@ -92,13 +91,13 @@ ordered_json json_of(const TaskState& task) {
     return json;
 }
 
-ordered_json json_of(const JobState& job) {
-    ordered_json tasks = ordered_json::array();
+Json json_of(const JobState& job) {
+    Json tasks = Json::array();
     for (const TaskState& task : job.tasks) tasks.push_back(json_of(task));
-    ordered_json json{{"output", job.plan.output},
-                      {"engine", job.plan.engine},
-                      {"number", job.plan.number},
-                      {"submitted", job.plan.submitted}};
+    Json json{{"output", job.plan.output},
+              {"engine", job.plan.engine},
+              {"number", job.plan.number},
+              {"submitted", job.plan.submitted}};
     for (const Kind kind : {Kind::done, Kind::running, Kind::failed, Kind::waiting})
         json[name_of(kind)] = job.count(kind);
     json["tasks"] = std::move(tasks);
@@ -120,9 +119,9 @@ int run_status(const std::vector<std::string>& arguments) {
     for (const JobFolder& folder : JobFolder::all_in(given.empty() ? "." : given.front()))
         jobs.push_back(state_of(folder));
     if (line.has("json")) {
-        ordered_json json = ordered_json::array();
+        Json json = Json::array();
         for (const JobState& job : jobs) json.push_back(json_of(job));
-        std::cout << json.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
+        std::cout << json_text(json, 2) << '\n';
     } else {
         for (const JobState& job : jobs) std::cout << text_of(job);
     }

@@ -13,10 +13,10 @@
 #include <csignal>
 #include <ctime>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <thread>
 
+#include "json/json.h"
 #include "output_folder.h"
 #include "reporting.h"
 
@@ -25,7 +25,6 @@ import candela.files;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
-using nlohmann::json;
 using std::chrono::seconds;
 
 namespace {
@@ -67,14 +66,14 @@ std::string as_date(double time) {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(time)));
 }
 
-bool is_there(const json& entry) {
+bool is_there(const Json& entry) {
     if (entry.value("machine", "") != where_processes_are()) return true;  // cannot be known from here
     return ::kill(entry.value("pid", 0), 0) == 0 || errno == EPERM;
 }
 
-void write(const fs::path& file, const json& entry) {
+void write(const fs::path& file, const Json& entry) {
     // What a plugin says may be in any encoding.
-    candela::write_text_file(file, entry.dump(2, ' ', false, json::error_handler_t::replace) + '\n');
+    candela::write_text_file(file, json_text(entry, 2) + '\n');
 }
 
 /// A process says that it works on a task.
@@ -98,14 +97,14 @@ class Journal {
 
     void done() const { write(file_, entry("done")); }
     void failed(int exit_code, const std::string& why) const {
-        json failure = entry("failed");
+        Json failure = entry("failed");
         failure["exit_code"] = exit_code;
         failure["why"] = why;
         write(file_, failure);
     }
 
   private:
-    json entry(const char* state) const {
+    Json entry(const char* state) const {
         return {{"state", state},           {"host", host_name()},
                 {"pid", ::getpid()},        {"machine", where_processes_are()},
                 {"began", as_date(began_)}, {"began_seconds", began_},
@@ -133,7 +132,7 @@ class Journal {
 std::optional<JournalEntry> read_journal(const fs::path& file) {
     const auto text = candela::read_text_file(file);
     if (!text) return std::nullopt;
-    const json entry = json::parse(*text, nullptr, false);
+    const Json entry = json_or_discarded(*text);
     if (!entry.is_object()) return std::nullopt;
     JournalEntry result;
     try {
@@ -155,7 +154,7 @@ std::optional<JournalEntry> read_journal(const fs::path& file) {
                 fmt::format("its process on {} ended without a word; its last sign of life was at {}",
                             result.host, as_date(last));
         }
-    } catch (const json::exception&) {
+    } catch (const Json::exception&) {
         return std::nullopt;
     }
     return result;
@@ -163,8 +162,8 @@ std::optional<JournalEntry> read_journal(const fs::path& file) {
 
 void write_failure(const fs::path& file, const std::string& why) {
     const auto known = candela::read_text_file(file);
-    json entry = known ? json::parse(*known, nullptr, false) : json::object();
-    if (!entry.is_object()) entry = json::object();
+    Json entry = known ? json_or_discarded(*known) : Json::object();
+    if (!entry.is_object()) entry = Json::object();
     entry["state"] = "failed";
     entry["why"] = why;
     write(file, entry);

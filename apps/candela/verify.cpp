@@ -26,7 +26,6 @@
 #include "workplace.h"
 
 import candela.files;
-import candela.text;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
@@ -227,8 +226,7 @@ int run_verify(const std::vector<std::string>& arguments) {
         workplace.finish(what.targets);
         throw Error(problem.category(), workplace.in_place(problem.what()), problem.help());
     }
-    std::cout << (line.has("json") ? candela::printable_json(verify::json_of(verdicts, limits))
-                                   : verify::table_of(verdicts, limits));
+    std::cout << (line.has("json") ? verify::json_of(verdicts, limits) : verify::table_of(verdicts, limits));
     bool all_match = true;
     for (const verify::Verdict& v : verdicts)
         all_match = all_match && v.outcome(limits) == verify::Outcome::match;

@@ -7,13 +7,13 @@
 #include <chrono>
 #include <exception>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "descendants.h"
+#include "json/json.h"
 #include "plugin_project.h"
 #include "reporting.h"
 #include "stopwatch.h"
@@ -37,8 +37,7 @@ std::string content_of(const fs::path& file) {
 
 std::vector<fs::path> names_listed_in(const fs::path& list) {
     std::vector<fs::path> names;
-    for (const auto& name : nlohmann::json::parse(content_of(list)))
-        names.emplace_back(name.get<std::string>());
+    for (const auto& name : parse_json(content_of(list))) names.emplace_back(name.get<std::string>());
     return names;
 }
 

@@ -1,12 +1,12 @@
 #include "exercise/exercise_page.h"
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include "candela/embed.h"
 #include "candela/target/arrays.h"
 #include "candela/target/literals.h"
 #include "candela/target/text_template.h"
+#include "json/json.h"
 
 CANDELA_EMBED(candela_exercise_page, CANDELA_EXERCISE_TEMPLATES "/page.html");
 CANDELA_EMBED(candela_exercise_style, CANDELA_EXERCISE_TEMPLATES "/page.css");
@@ -20,12 +20,10 @@ namespace exercise {
 
 namespace {
 
-using nlohmann::json;
+Json packed(std::span<const float> numbers) { return candela::target::base64(std::as_bytes(numbers)); }
 
-json packed(std::span<const float> numbers) { return candela::target::base64(std::as_bytes(numbers)); }
-
-json json_of(const Case& one) {
-    json material = json::array();
+Json json_of(const Case& one) {
+    Json material = Json::array();
     for (const Uniform& uniform : one.material)
         material.push_back({{"name", uniform.name}, {"kind", uniform.kind}, {"value", uniform.value}});
     return {{"label", one.label},
@@ -36,8 +34,8 @@ json json_of(const Case& one) {
             {"specular", packed(one.specular)}};
 }
 
-json json_of(const Content& content) {
-    json cases = json::array(), pixels = json::array();
+Json json_of(const Content& content) {
+    Json cases = Json::array(), pixels = Json::array();
     for (const Case& one : content.cases) cases.push_back(json_of(one));
     const std::vector<std::uint32_t> places(content.pixels.begin(), content.pixels.end());
     return {{"candela_exercise", 1},
@@ -62,7 +60,7 @@ json json_of(const Content& content) {
 }  // namespace
 
 std::string page_of(const Content& content) {
-    const std::string data = json_of(content).dump(-1, ' ', false, json::error_handler_t::replace);
+    const std::string data = json_text(json_of(content));
     const std::string style =
         std::string(candela_exercise_page_style) + candela_exercise_editor_style + candela_exercise_style;
     return candela::target::filled(candela_exercise_page,

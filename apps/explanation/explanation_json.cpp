@@ -1,10 +1,10 @@
 // An explanation for a program.
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
 
 #include "explanation/explanation.h"
+#include "json/json.h"
 
 import candela.color;
 import candela.math;
@@ -14,7 +14,6 @@ using candela::FragmentProbe;
 using candela::LightTrace;
 using candela::PointTrace;
 using candela::Vec3;
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -143,5 +142,5 @@ std::string explanation_json(const Explanation& e, JsonLayout layout) {
     const auto difference = e.kernel_difference();
     result["kernel_difference"] = difference ? Json(*difference) : Json();
     if (!e.why_no_steps().empty()) result["note"] = e.why_no_steps();
-    return result.dump(layout == JsonLayout::indented ? 2 : -1);
+    return json_text(result, layout == JsonLayout::indented ? 2 : -1);
 }

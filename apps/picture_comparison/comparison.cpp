@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <optional>
 
-using Json = nlohmann::ordered_json;
+#include "json/json.h"
 
 namespace {
 
@@ -48,19 +47,19 @@ std::string to_json(const Comparison& comparison) {
                    {"interior", json_of(differences.interior)}};
     result["edges"] = differences.edges ? json_of(*differences.edges) : nullptr;
     result["perceptible"] = {{"pixels", comparison.perceptible}, {"share", comparison.perceptible_share()}};
-    return result.dump(2);
+    return json_text(result, 2);
 }
 
 Comparison comparison_from_json(const std::string& text) {
     try {
-        const Json json = Json::parse(text);
+        const Json json = parse_json(text);
         Comparison result{.width = json.at("width"), .height = json.at("height")};
         result.differences.interior = statistics_from(json.at("interior"));
         if (const Json& edges = json.at("edges"); !edges.is_null())
             result.differences.edges = statistics_from(edges);
         result.perceptible = json.at("perceptible").at("pixels");
         return result;
-    } catch (const nlohmann::json::exception& problem) {
+    } catch (const Json::exception& problem) {
         throw candela::Error(candela::ErrorCategory::failure, problem.what());
     }
 }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "candela/target/literals.h"
+#include "json/json.h"
 
 namespace verify {
 
@@ -156,7 +156,6 @@ std::string table_of(const std::vector<Verdict>& verdicts, const Limits& limits)
 }
 
 std::string json_of(const std::vector<Verdict>& verdicts, const Limits& limits) {
-    using Json = nlohmann::ordered_json;
     const auto json = [](const Estimate& estimate) {
         return Json{{"value", estimate.value}, {"deviations", estimate.deviations}};
     };
@@ -166,7 +165,7 @@ std::string json_of(const std::vector<Verdict>& verdicts, const Limits& limits) 
                     {"outcome", name_of(v.outcome(limits))},
                     {"remarks", remarks_on(v, limits)}};
         if (v.failure.empty()) {
-            one["comparison"] = Json::parse(to_json(v.comparison));
+            one["comparison"] = parse_json(to_json(v.comparison));
             one["shown"] = {{"pixels", v.bias.shown}, {"away_from_edges", v.bias.interior}};
             one["bias"] = {{"gain", json(v.bias.gain)}, {"right", json(v.bias.right)},
                            {"down", json(v.bias.down)}, {"zoom", json(v.bias.zoom)},
@@ -175,7 +174,7 @@ std::string json_of(const std::vector<Verdict>& verdicts, const Limits& limits) 
         }
         all.push_back(std::move(one));
     }
-    return all.dump(2) + "\n";
+    return json_text(all, 2) + "\n";
 }
 
 std::string report_page(const std::string& title, const std::vector<Verdict>& verdicts,

@@ -22,7 +22,6 @@
 #include <cstring>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -30,6 +29,7 @@
 #include <utility>
 #include <vector>
 
+#include "json/json.h"
 #include "view/waiting_page.h"
 
 import candela.diagnostics;
@@ -76,9 +76,9 @@ std::string event_text(std::string_view name, std::string_view data) {
 }
 
 std::string events_of(const Publication& state) {
-    const nlohmann::json problems(state.problems);
+    const Json problems(state.problems);
     return event_text("scene", fmt::to_string(state.generation)) +
-           event_text("problems", problems.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+           event_text("problems", json_text(problems));
 }
 
 /// Those that end a program, to be read; but what the caller ignores (nohup) stays ignored.

@@ -252,7 +252,7 @@ TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, 
 TEST_CASE(
     "pixels on standard input are explained line by line, as each of them alone; what is none is said") {
     CommandSetup setup;
-    setup.input = "256,300\n9,9\nnothing\n512,0\n250,290\n";
+    setup.input = "256,300\n9,9\nnothing\nno UTF-8: \xff\n512,0\n250,290\n";
     const CommandResult all = run_candela({"explain", "--pixel", "-", "--json", "--quiet"}, setup);
     CHECK(all.exit_code == 2);
     std::istringstream lines(all.out);
@@ -267,6 +267,7 @@ TEST_CASE(
     CHECK(next() == alone("256,300"));
     CHECK(next() == alone("9,9"));
     CHECK(next().at("error").get<std::string>().find("'nothing'") != std::string::npos);
+    CHECK(next().at("error").get<std::string>().find("'no UTF-8: \xef\xbf\xbd'") != std::string::npos);
     CHECK(next().at("error").get<std::string>().find("0,0 to 511,511") != std::string::npos);
     CHECK(next() == alone("250,290"));
     CHECK(lines.peek() == std::istringstream::traits_type::eof());

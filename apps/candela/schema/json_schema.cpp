@@ -9,13 +9,14 @@ module;
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "json/json.h"
 
 module candela.schema;
 
@@ -27,9 +28,7 @@ namespace candela {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json value_json(const Parameter& p) { return Json::parse(value_schema(p)); }
+Json value_json(const Parameter& p) { return parse_json(value_schema(p)); }
 
 std::string description_of(const Parameter& p) {
     // That a place is in metres is part of what is expected.
@@ -41,7 +40,7 @@ void put_default(Json& schema, const Parameter& p) {
     const auto text = default_text(p);
     if (!text) return;
     const auto* const word = std::get_if<std::string>(&*p.default_value);
-    schema["default"] = word != nullptr ? Json(*word) : Json::parse(*text);
+    schema["default"] = word != nullptr ? Json(*word) : parse_json(*text);
 }
 
 Json parameter_schema(const Parameter& p) {
@@ -319,7 +318,7 @@ class SchemaWriter {
 }  // namespace
 
 std::string scene_json_schema(std::span<const Manifest> installed) {
-    return SchemaWriter(installed).write().dump(2) + "\n";
+    return json_text(SchemaWriter(installed).write(), 2) + "\n";
 }
 
 }  // namespace candela

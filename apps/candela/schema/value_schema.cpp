@@ -5,9 +5,10 @@ module;
 
 #include <cstdint>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+
+#include "json/json.h"
 
 module candela.schema;
 
@@ -17,10 +18,8 @@ namespace candela {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// A float in as few digits as name it: 0.1, not 0.10000000149011612.
-Json number_json(float x) { return Json::parse(fmt::format("{}", x)); }
+Json number_json(float x) { return parse_json(fmt::format("{}", x)); }
 
 /// The range that the parameter declares; where it declares none, what its type can hold.
 template <class Number>
@@ -58,9 +57,9 @@ Json integer_schema(const Parameter& p) {
     if (p.choices.empty()) {
         put_range(schema, p, std::numeric_limits<std::int32_t>::max());
     } else if (p.choices.size() == 1) {
-        schema["const"] = Json::parse(p.choices.front());
+        schema["const"] = parse_json(p.choices.front());
     } else {
-        for (const std::string& choice : p.choices) schema["enum"].push_back(Json::parse(choice));
+        for (const std::string& choice : p.choices) schema["enum"].push_back(parse_json(choice));
     }
     return schema;
 }
@@ -129,6 +128,6 @@ Json schema_of(const Parameter& p) {
 
 }  // namespace
 
-std::string value_schema(const Parameter& p) { return schema_of(p).dump(); }
+std::string value_schema(const Parameter& p) { return json_text(schema_of(p)); }
 
 }  // namespace candela
