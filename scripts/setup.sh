@@ -39,12 +39,12 @@ at_least() { [ -n "$1" ] && dpkg --compare-versions "$1" ge "$2"; }
 packages=(
   ca-certificates git make
   libstdc++-12-dev ninja-build cmake cmake-data
-  libeigen3-dev libtomlplusplus-dev libtbb-dev libembree-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev
+  libeigen3-dev libtomlplusplus-dev libtbb-dev libembree-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev libpng-dev
   libtinygltf-dev libstb-dev libopenimageio-dev esbuild libjs-codemirror
 )
 if [ "$everything" = yes ]; then
   packages+=(catch2 clang-format-19 glslang-tools python3 python3-jsonschema dpkg-dev file lintian
-    g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libopengl-dev libegl1 libgl1-mesa-dri libpng-dev
+    g++ pkg-config libglfw3-dev libepoxy-dev libegl-dev libopengl-dev libegl1 libgl1-mesa-dri
     chromium chromium-sandbox chromium-driver firefox-esr xvfb python3-selenium python3-websocket valgrind
     zsh fish ffmpeg mkdocs mkdocs-material doxygen assimp-testmodels pybind11-dev python3-dev python3-numpy python3-build python3-venv povray)
 fi

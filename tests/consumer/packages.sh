@@ -80,6 +80,9 @@ quiet "$candela" render -o "$scratch/picture.png"
 cmp -s "$scratch/picture.png" "$scratch/built.png" || fail "the installed command renders another picture than the built one"
 for target in cpp opengl webgl; do quiet "$candela" generate --target $target -o "$scratch/$target"; done
 
+say "a PNG file is read without candela-openimageio"
+quiet "$candela" render "$here/../../docs/examples/glass.toml" --width 64 --height 40 -o "$scratch/glass.png"
+
 say "what is in candela-openimageio is asked for by that name, and is there when it is installed"
 asks() {
     local code=0

@@ -16,6 +16,7 @@
 #include "candela/image_plugin.h"
 #include "candela/parallel.h"
 #include "candela/pool.h"
+#include "decode.h"
 #include "deflate.h"
 #include "filter.h"
 #include "scratch.h"
@@ -155,6 +156,8 @@ class Png final : public candela::ImageFormat, public candela::RowFormat {
         sink.write(std::as_bytes(std::span(tail)));
     }
 
+    void read(const char* path, candela::PictureSink& sink) const override { read_png(path, sink); }
+
   private:
     void encode(const Rows& rows, Band& band, Tools& tools) const {
         const std::span<std::uint8_t> filtered =
@@ -177,7 +180,8 @@ class Png final : public candela::ImageFormat, public candela::RowFormat {
 constexpr auto k_fields = fields(
     integer(&PngOptions::compression, "compression", 1, "from 0, none, to 9, smallest file").range(0, 9));
 
-constexpr candela::FileFormat k_formats[] = {{"png", "Portable Network Graphics, 8 bits per channel"}};
+constexpr candela::FileFormat k_formats[] = {
+    {.extension = "png", .title = "Portable Network Graphics, 8 bits per channel", .reads = true}};
 
 }  // namespace
 
