@@ -39,6 +39,7 @@ class Decoder {
     /// Calls `function(png, info)`, which may be left at any call of libpng.
     template <class Function>
     void calls(const Function& function) {
+        // NOLINTNEXTLINE(modernize-avoid-setjmp-longjmp)
         if (setjmp(error_) != 0) throw std::runtime_error(message_.data());
         function(png_, info_);
     }
@@ -48,7 +49,7 @@ class Decoder {
   private:
     [[noreturn]] void fail(const char* message) {
         std::snprintf(message_.data(), message_.size(), "%s", message);
-        std::longjmp(error_, 1);
+        std::longjmp(error_, 1);  // NOLINT(modernize-avoid-setjmp-longjmp)
     }
     [[noreturn]] static void report_error(png_structp png, png_const_charp message) {
         static_cast<Decoder*>(LibPng::instance().get_error_ptr(png))->fail(message);
