@@ -1,8 +1,12 @@
 #include "import/framing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <unordered_map>
 
 #include "import/vectors.h"
 
@@ -12,6 +16,8 @@ namespace {
 
 constexpr double k_fov = 35;
 constexpr double k_margin = 1.08;
+
+bool has_position(const Light& light) { return light.type == "point" || light.type == "spot"; }
 
 }  // namespace
 
@@ -77,6 +83,28 @@ double expose(std::vector<Light>& lights, const Bounds& bounds) {
     return factor;
 }
 
+bool separate(std::vector<Light>& lights, const Camera& camera, const Bounds& bounds) {
+    // As places are written, in six digits.
+    const auto written = [](const Vector& p) {
+        return fmt::format("{:.6g} {:.6g} {:.6g}", p[0] + 0.0, p[1] + 0.0, p[2] + 0.0);
+    };
+    const Vector view = length(camera.towards) > 0 ? unit(camera.towards) : Vector{0, 0, -1};
+    std::unordered_map<std::string, int> used{{written(camera.position), 1}};
+    bool has_moved = false;
+    for (Light& light : lights) {
+        if (!has_position(light)) continue;
+        for (;;) {
+            const int count = used[written(light.position)]++;
+            if (count == 0) break;
+            // Not away from the origin: nothing may be too far out.
+            const double step = 1e-3 * count * std::max(bounds.radius(), length(light.position));
+            light.position = light.position + (dot(light.position, view) > 0 ? -step : step) * view;
+            has_moved = true;
+        }
+    }
+    return has_moved;
+}
+
 Vector room_for(const Bounds& bounds, const Camera& camera, const std::vector<Light>& lights) {
     Vector half{};
     const auto contain = [&](Vector p) {
@@ -86,8 +114,9 @@ Vector room_for(const Bounds& bounds, const Camera& camera, const std::vector<Li
     contain(bounds.high);
     contain(camera.position);
     for (const Light& light : lights)
-        if (light.type == "point" || light.type == "spot") contain(light.position);
-    const double least = 0.1 * std::max({half[0], half[1], half[2]});
+        if (has_position(light)) contain(light.position);
+    const double largest = std::max({half[0], half[1], half[2]});
+    const double least = largest > 0 ? 0.1 * largest : 1;  // even where all is at the origin
     for (double& extent : half) extent = 2.1 * std::max(extent, least);
     return half;
 }

@@ -24,6 +24,10 @@ std::vector<Light> lights_for(const Camera& camera, double brightness);
 /// multiplied with.
 double expose(std::vector<Light>& lights, const Bounds& bounds);
 
+/// Moves lights a thousandth of their distance along the line of sight where there is another already, or the
+/// camera: a scene has one thing at a place. Whether any has been moved.
+bool separate(std::vector<Light>& lights, const Camera& camera, const Bounds& bounds);
+
 /// The extent of a room around the origin that contains all of these: width, height and depth.
 Vector room_for(const Bounds& bounds, const Camera& camera, const std::vector<Light>& lights);
 

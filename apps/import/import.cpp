@@ -139,7 +139,8 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     const Bounds& bounds = geometry.bounds;
     setting.camera = model.camera ? *model.camera : camera_for(bounds, k_aspect);
     const Vector to_center = bounds.center() - setting.camera.position;
-    const double ahead = std::max(dot(to_center, unit(setting.camera.towards)), 0.1 * bounds.radius());
+    const double least_ahead = std::max(0.1 * bounds.radius(), 1e-3 * length(setting.camera.position));
+    const double ahead = std::max(dot(to_center, unit(setting.camera.towards)), least_ahead);
     setting.look_at = setting.camera.position + ahead * unit(setting.camera.towards);
     if (!model.camera) setting.look_at = bounds.center();
     setting.lights = model.lights;
@@ -153,6 +154,9 @@ Imported import_model(const Request& request, candela::Registry& registry) {
             model.note(fmt::format(
                 "its lights are {:.3g} times as bright as in the file, for which it has no exposure",
                 factor));
+        if (separate(setting.lights, setting.camera, bounds))
+            model.note(
+                "lights at one place, or where the camera is, are moved a little along the line of sight");
     }
     setting.room = room_for(bounds, setting.camera, setting.lights);
     return {.scene = scene_text(model, setting),

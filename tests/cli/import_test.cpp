@@ -8,6 +8,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -357,6 +359,28 @@ TEST_CASE("lights that would burn out the picture, or leave it black, are scaled
         CHECK(middle > 60);
         CHECK(middle < 255);
     }
+}
+
+TEST_CASE("lamps at the camera, or at one place, are moved apart with a note, and make a sound scene") {
+    const fs::path folder = scratch_directory();
+    const char* const lamp =
+        R"({"translation": [0, 0, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}})";
+    write_file(folder / "a.gltf",
+               gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{"translation": [0, 0, 3], "camera": 0}},
+  {{"children": [3, 4, 5]}}, {0}, {0}, {0}],
+"cameras": [{{"type": "perspective", "perspective": {{"yfov": 0.8, "znear": 0.1}}}}],
+"extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point"}}]}}}})",
+                                lamp)));
+    const CommandResult result = candela(folder, {"import", "a.gltf", "-o", "a.toml"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(holds(result.err, "lights at one place, or where the camera is, are moved"));
+    CHECK(candela(folder, {"check", "a.toml"}).exit_code == 0);
+    std::set<std::string> positions;
+    std::istringstream scene(read_file(folder / "a.toml"));
+    for (std::string line; std::getline(scene, line);)
+        if (line.starts_with("position")) positions.insert(line.substr(line.find('[')));
+    CHECK(positions.size() == 4);
 }
 
 TEST_CASE("colours of vertices are shown as they are, and z is up in STL files") {
