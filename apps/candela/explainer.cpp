@@ -94,16 +94,23 @@ view::Outcome Explainer::explain(const std::vector<view::Change>& changes) try {
     }
     const bool is_new = !program_ || options_ != options;
     if (is_new) start(options);
-    std::optional<std::string> answer = program_->answer(pixel, k_patience);
-    if (!answer && !is_new) {  // something has ended it while it waited
+    const Clock::time_point end = Clock::now() + k_patience;
+    const auto answered = [&] {
+        return program_->answer(pixel, std::chrono::duration_cast<milliseconds>(end - Clock::now()));
+    };
+    std::optional<std::string> answer = answered();
+    if (!answer && !is_new && Clock::now() < end) {  // something has ended it while it waited
         start(options);
-        answer = program_->answer(pixel, k_patience);
+        answer = answered();
     }
     if (!answer) {
-        const std::string why = program_->errors();
+        std::string why = program_->errors();
         program_.reset();
-        return failed(why.empty() ? "The pixel is not explained: the program that does it has ended.\n"
-                                  : why);
+        if (why.empty()) {
+            why = Clock::now() < end ? "The pixel is not explained: the program that does it has ended.\n"
+                                     : "The pixel is not explained: it has taken more than a minute.\n";
+        }
+        return failed(std::move(why));
     }
     if (answer->starts_with("{\"error\"")) return failed(parse_json(*answer)["error"]);
     return {.is_success = true, .content = *std::move(answer)};

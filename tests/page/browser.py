@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import tempfile
 
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
@@ -25,7 +26,14 @@ class Chromium(webdriver.Chrome):
         for option in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", *options):
             chrome.add_argument(option)
         chrome.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        super().__init__(service=Service("/usr/bin/chromedriver"), options=chrome)
+        # It leaves a socket there when the driver ends it.
+        self.scratch = tempfile.TemporaryDirectory(prefix="candela-chromium-", ignore_cleanup_errors=True)
+        service = Service("/usr/bin/chromedriver", env={**os.environ, "TMPDIR": self.scratch.name})
+        super().__init__(service=service, options=chrome)
+
+    def quit(self):
+        super().quit()
+        self.scratch.cleanup()
 
     def resize(self, width, height, is_phone=False):
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": is_phone}
