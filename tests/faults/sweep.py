@@ -117,9 +117,7 @@ def complaint(case, call, run, whole):
         if "error: " not in message and b'"severity": "error"' not in run.out:
             return "exit code 1 without a message"
         old = {} if case.old is None else {case.result: case.old}
-        # Once the file has its name, only its folder can still fail to be synced; the message says so.
-        is_in_place = "its folder cannot be synced" in message and run.files == whole.files
-        return None if run.files == old or is_in_place else "exit code 1, but there are files: " + ", ".join(run.files)
+        return None if run.files == old else "exit code 1, but there are files: " + ", ".join(run.files)
     if run.files != whole.files:
         return "exit code 0, but not the whole result"
     return None if run.out == whole.out else "exit code 0, but not the whole output"

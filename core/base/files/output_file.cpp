@@ -61,24 +61,6 @@ bool name_file(int descriptor, const char* name) {
     return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
 }
 
-}  // namespace
-
-namespace {
-
-/// Some file systems have nothing to sync.
-bool is_synced(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP; }
-
-/// A name lasts only once its folder has been synced. A folder that may be written to but not read cannot be.
-bool is_folder_synced(const fs::path& folder) {
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return errno == EACCES;
-    const bool synced = is_synced(descriptor);
-    const int problem = errno;
-    ::close(descriptor);
-    errno = problem;
-    return synced;
-}
-
 /// Keeps a nameless file while it is closed: what closing it reports must be known before it gets its name.
 class Handle {
   public:
@@ -162,7 +144,9 @@ void OutputFile::finish() {
 }
 
 void OutputFile::sync() {
-    if (!is_synced(descriptor_)) fail(shown_, "cannot be written to the disk");
+    // Some file systems have nothing to sync.
+    if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+        fail(shown_, "cannot be written to the disk");
 }
 
 void OutputFile::close() {
@@ -180,11 +164,8 @@ void OutputFile::put_in_place() {
     if (is_there && ::fchmod(descriptor_, before.st_mode & 07777) != 0) {
         fail(shown_, "cannot be given its rights");
     }
-    // Once the file is in its place, nothing may fail for want of memory.
-    const fs::path folder = directory_of(target_);
     sync();
     replace(is_there);
-    if (!is_folder_synced(folder)) fail(shown_, "is written, but its folder cannot be synced");
 }
 
 void OutputFile::replace(bool is_there) {
