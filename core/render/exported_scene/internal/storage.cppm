@@ -1,0 +1,97 @@
+// What stands behind the spans of an ExportedScene.
+module;
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+module candela.exported_scene:storage;
+
+import candela.light;
+import candela.mesh;
+import candela.parameters;
+import candela.punctual;
+import candela.registry;
+import candela.shading;
+import candela.shape;
+import candela.target;
+import candela.texture;
+
+namespace candela {
+
+struct ExportStorage : ExportedGeometry {
+    struct Object {
+        std::string label;
+        std::unique_ptr<Shape> tessellator;
+        Transform transform;
+        std::vector<ExportedValues> shadings, materials;
+        std::vector<ParamSet> shading_values;
+    };
+
+    explicit ExportStorage(Registry& plugins) : registry(plugins) {}
+
+    ExportedMesh in_object_space(std::size_t object) override;
+    ExportedMesh in_world_space(std::size_t object) override;
+    bool has_default_normals(std::size_t object, std::size_t shading) override;
+
+    /// The values of a set, which is kept as long as they are.
+    ExportedValues kept(const ParamSet& values);
+
+    /// The same of a plugin whose kernel may have tables: those of the instance that `make` makes.
+    template <class Make>
+    ExportedValues kept(const PluginDescriptor& plugin, const ParamSet& values, Make make) {
+        const ExportedValues result = kept(values);
+        if (has_tables(plugin)) put_tables(plugin, *make());
+        return result;
+    }
+
+    /// When all tables are there, and stay where they are.
+    void connect_tables();
+
+    struct PlacedTable {
+        ParamValue* value;
+        std::size_t size;
+    };
+
+    Registry& registry;
+    bool has_vertex_colors = false;  // the target's ability
+    std::string title, environment;
+    std::vector<ExportedSample> samples;
+    std::deque<ParamSet> sets;                    // whose texts the values point into
+    std::deque<std::vector<ParamValue>> numbers;  // a deque, so that what is there stays where it is
+    std::deque<std::string> labels;
+    std::vector<float> tables;
+    std::vector<PlacedTable> placed_tables;
+    std::vector<ExportedModel> light_models;
+    std::vector<ExportedLight> lights;
+    std::deque<std::vector<PunctualLight>> punctual;  // which the lights point into
+    std::vector<ExportedShading> shadings;
+    std::vector<ExportedReflection> reflections;
+    std::vector<ExportedObject> exported_objects;
+    std::vector<Object> objects;
+    std::deque<std::shared_ptr<const MipMap>> mip_maps;  // which the textures point into
+    std::deque<std::vector<ExportedTextureLevel>> levels;
+    std::vector<ExportedTexture> textures;
+    ExportedScene scene;
+
+    // Of the mesh that was asked for last:
+    PlacedShape placed;
+    std::vector<Vec3Arrays> normal_sets;
+    std::vector<ConstVec3Span> normals_view;
+    std::vector<std::size_t> normals_of;
+
+  private:
+    static bool has_tables(const PluginDescriptor& plugin);
+    /// Of an instance whose values were kept last.
+    void put_tables(const PluginDescriptor& plugin, const Instance& instance);
+    void put_table(std::span<const float> table, ParamValue& value);
+
+    MeshRequest request(bool needs_uv) const;
+    /// Unless the target can express them.
+    void require_no_colors(std::size_t object) const;
+};
+
+}  // namespace candela
