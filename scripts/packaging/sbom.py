@@ -28,6 +28,7 @@ LICENCES = {
     "imath": "BSD-3-Clause",
     "isa-l": "BSD-3-Clause",
     "libisal": "BSD-3-Clause",
+    "libjpeg-turbo": "BSD-3-Clause AND IJG",
     "libpng1.6": "libpng-2.0",
     "libstb": "MIT",
     "linux": "GPL-2.0-only WITH Linux-syscall-note",

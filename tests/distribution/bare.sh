@@ -68,8 +68,11 @@ mount --rbind /sys "$system/sys"
 home=$(chroot "$system" sh -c "echo ~$user")
 if [ ! -d "$system$home/candela" ]; then
     git -c safe.directory="$root" clone --quiet --no-hardlinks "$root" "$system$home/candela"
-    chroot "$system" chown -R "$user:" "$home/candela"
+else
+    git -c safe.directory='*' -C "$system$home/candela" fetch --quiet "$root" HEAD
+    git -c safe.directory='*' -C "$system$home/candela" reset --quiet --hard FETCH_HEAD
 fi
+chroot "$system" chown -R "$user:" "$home/candela"
 for command in "${commands[@]}"; do
     started=$EPOCHREALTIME
     status=0

@@ -27,9 +27,8 @@ bool is_missing(Registry& registry) {
 }  // namespace
 
 std::string possible_formats(Registry& registry, FormatUse use) {
-    return fmt::format(
-        " (possible: {}){}", fmt::join(registry.extensions(use), ", "),
-        is_missing(registry) ? "; install candela-openimageio for EXR, TIFF, JPEG and others" : "");
+    return fmt::format(" (possible: {}){}", fmt::join(registry.extensions(use), ", "),
+                       is_missing(registry) ? "; install candela-openimageio for EXR, TIFF and others" : "");
 }
 
 }  // namespace candela

@@ -315,7 +315,7 @@ CANDELA_PLUGIN(
     image, OpenImageIo, k_no_fields,
     {.title = "OpenImageIO",
      .summary =
-         "Every other format: OpenEXR, TIFF, JPEG, Radiance and more. Yields to plugins made for one format.",
+         "Every other format: OpenEXR, TIFF, Radiance and more. Yields to plugins made for one format.",
      .reference = "Gritz and contributors (2008-), OpenImageIO",
      .properties = k_properties,
      .formats = k_formats})

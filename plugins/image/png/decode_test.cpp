@@ -12,39 +12,16 @@
 #include <initializer_list>
 #include <memory>
 #include <random>
-#include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "support/command.h"
-#include "support/plugins.h"
+#include "support/decoded.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-class Picture final : public candela::PictureSink {
-  public:
-    std::span<float> allocate(int its_width, int its_height, bool encoded) override {
-        width = its_width;
-        height = its_height;
-        is_encoded = encoded;
-        values.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), -1);
-        return values;
-    }
-
-    int width = 0, height = 0;
-    bool is_encoded = false;
-    std::vector<float> values;
-};
-
-Picture read_by(const char* plugin, const fs::path& file) {
-    Picture picture;
-    instance<candela::ImageFormat>(plugin)->read(file.c_str(), picture);
-    return picture;
-}
 
 constexpr int k_width = 37, k_height = 23;  // of which Adam7's passes leave remainders
 
@@ -136,15 +113,6 @@ std::vector<float> write_random_png(const fs::path& file, const Kind& kind) {
     return colors;
 }
 
-std::string problem_of(const fs::path& file) {
-    try {
-        static_cast<void>(read_by("png", file));
-        return "";
-    } catch (const std::runtime_error& problem) {
-        return problem.what();
-    }
-}
-
 }  // namespace
 
 TEST_CASE("a PNG of any kind is read as what was written, whatever its transparency and gamma") {
@@ -153,12 +121,12 @@ TEST_CASE("a PNG of any kind is read as what was written, whatever its transpare
         INFO("colour type " << kind.color_type << ", " << kind.depth << " bits"
                             << (kind.is_interlaced ? ", interlaced" : ""));
         const std::vector<float> expected = write_random_png(file, kind);
-        const Picture picture = read_by("png", file);
+        const Decoded picture = read_by("png", file);
         CHECK(picture.width == k_width);
         CHECK(picture.height == k_height);
         CHECK(picture.is_encoded);
         CHECK((picture.values == expected));
-        const Picture theirs = read_by("openimageio", file);
+        const Decoded theirs = read_by("openimageio", file);
         CHECK(std::ranges::equal(theirs.values, picture.values,
                                  [](float a, float b) { return std::abs(a - b) <= 1e-7f; }));
     }
@@ -169,16 +137,16 @@ TEST_CASE("a PNG that is cut off anywhere, or damaged, is an error") {
     for (const bool is_interlaced : {false, true}) {
         write_random_png(file, {PNG_COLOR_TYPE_RGB, 8, is_interlaced});
         const std::string whole = read_file(file);
-        REQUIRE(problem_of(file).empty());
+        REQUIRE(problem_of("png", file).empty());
         for (std::size_t size = 0; size < whole.size(); size += size < 100 ? 1 : 97) {
             INFO(size);
             write_file(file, whole.substr(0, size));
-            CHECK(problem_of(file) == (size < 8 ? "it is no PNG file" : "it is cut off"));
+            CHECK(problem_of("png", file) == (size < 8 ? "it is no PNG file" : "it is cut off"));
         }
         std::string damaged = whole;
         damaged[whole.size() / 2] ^= 1;
         write_file(file, damaged);
-        CHECK_FALSE(problem_of(file).empty());
+        CHECK_FALSE(problem_of("png", file).empty());
     }
 }
 
@@ -194,14 +162,14 @@ TEST_CASE("a PNG whose header speaks of more pixels than its bytes can hold is r
         ::crc32(0, reinterpret_cast<const Bytef*>(header.data()), static_cast<uInt>(header.size())));
     for (std::size_t i = 0; i < 4; ++i) checksum[i] = static_cast<char>(crc >> (24 - 8 * i));
     write_file(picture, whole.substr(0, 12) + header + checksum + whole.substr(33));
-    CHECK(problem_of(picture).find("too small a file for its pixels") != std::string::npos);
+    CHECK(problem_of("png", picture).find("too small a file for its pixels") != std::string::npos);
 }
 
 TEST_CASE("what is no PNG is said to be none, and a JPEG by its name") {
     const fs::path file = scratch_directory() / "other.png";
     write_file(file, "\xff\xd8\xff\xe0 the rest");
-    CHECK(problem_of(file).find("JPEG") != std::string::npos);
+    CHECK(problem_of("png", file).find("JPEG") != std::string::npos);
     write_file(file, "GIF89a and so on");
-    CHECK(problem_of(file) == "it is no PNG file");
-    CHECK(problem_of(scratch_directory() / "nowhere.png") == "it cannot be opened");
+    CHECK(problem_of("png", file) == "it is no PNG file");
+    CHECK(problem_of("png", scratch_directory() / "nowhere.png") == "it cannot be opened");
 }

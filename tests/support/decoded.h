@@ -1,0 +1,42 @@
+// A picture as an image plugin reads it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "support/plugins.h"
+
+class Decoded final : public candela::PictureSink {
+  public:
+    std::span<float> allocate(int its_width, int its_height, bool encoded) override {
+        width = its_width;
+        height = its_height;
+        is_encoded = encoded;
+        values.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), -1);
+        return values;
+    }
+
+    int width = 0, height = 0;
+    bool is_encoded = false;
+    std::vector<float> values;
+};
+
+inline Decoded read_by(const char* plugin, const std::filesystem::path& file) {
+    Decoded picture;
+    instance<candela::ImageFormat>(plugin)->read(file.c_str(), picture);
+    return picture;
+}
+
+/// What the plugin says is wrong with a file; empty if nothing is.
+inline std::string problem_of(const char* plugin, const std::filesystem::path& file) {
+    try {
+        static_cast<void>(read_by(plugin, file));
+        return "";
+    } catch (const std::runtime_error& problem) {
+        return problem.what();
+    }
+}
