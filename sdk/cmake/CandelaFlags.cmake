@@ -56,7 +56,9 @@ function(candela_add_headers name)
     target_link_libraries(${name} PRIVATE candela_flags ${ARG_LIBRARIES})
     # The core's, which it gives to all who import its modules.
     target_compile_options(${name} PRIVATE -fno-math-errno ${ARG_OPTIONS})
-    target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+    # <cstdint> first, as in the core: what libstdc++ 14's <memory> means by uintptr_t depends on what was included before, and clang
+    # compares its functions with those that come with modules.
+    target_precompile_headers(${name} PRIVATE <cstdint> ${ARG_HEADERS})
     candela_compile_as_program(${name})
     set_target_properties(${name} PROPERTIES CANDELA_HEADER_OPTIONS "${ARG_OPTIONS}")
 endfunction()
