@@ -31,6 +31,12 @@ if(CANDELA_SANITIZE AND NOT CANDELA_SANITIZE MATCHES fuzzer)
     set(CANDELA_COLD_CODE_OPTIONS -O0)
 endif()
 
+# {fmt} 10 has format strings of its own that are no constants for clang 20 and newer.
+find_package(fmt REQUIRED)
+if(fmt_VERSION VERSION_GREATER_EQUAL 10 AND fmt_VERSION VERSION_LESS 11)
+    add_compile_definitions(FMT_CONSTEVAL=)
+endif()
+
 # lld links the plugins and the test programs in a fraction of the time.
 find_program(CANDELA_LLD NAMES ld.lld-22 ld.lld-21 ld.lld-20 ld.lld-19 ld.lld)
 if(CANDELA_LLD)
