@@ -88,8 +88,7 @@ void require_same_count(std::initializer_list<const Vectors*> all) {
 }
 
 Results::Results(std::size_t count, Layout layout)
-    : count_(count),
-      step_(layout == Layout::interleaved ? 3 : 1),
+    : step_(layout == Layout::interleaved ? 3 : 1),
       apart_(layout == Layout::interleaved ? 1 : count),
       array_({static_cast<py::ssize_t>(count), py::ssize_t{3}},
              {static_cast<py::ssize_t>(step_) * k_float, static_cast<py::ssize_t>(apart_) * k_float}),
@@ -98,7 +97,7 @@ Results::Results(std::size_t count, Layout layout)
 template <class... Terms>
 void Results::write_rows(std::size_t first, std::size_t count, Terms... terms) noexcept {
     float* const rows = channel(first, 0);
-    prefetch<true>(rows + 3 * count, count, count_ - first - count);
+    prefetch<true>(rows + 3 * count, count, static_cast<std::size_t>(array_.shape(0)) - first - count);
     multiversion<PutTogetherLoop>(count, rows, terms...);
 }
 

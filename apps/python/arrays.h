@@ -90,7 +90,6 @@ class Results {
         return data_ + first * step_ + c * apart_;
     }
 
-    std::size_t count_;
     std::size_t step_, apart_;  // numbers
     Floats array_;
     float* data_;

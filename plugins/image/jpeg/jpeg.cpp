@@ -48,16 +48,8 @@ bool is_whole(std::string_view file) {
     return scan != std::string_view::npos && end != std::string_view::npos && end > scan;
 }
 
-/// Refuses files of a few bytes that speak of a hundred million pixels, before memory is asked for them.
-void require_plausible(int width, int height, std::size_t file_size) {
-    // A bit may stand for a block of 16 x 16 pixels in each of a progressive file's scans; there is one at
-    // least.
-    constexpr std::size_t k_most_pixels_per_byte = std::size_t{8} * 16 * 16;
-    if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) >
-        k_most_pixels_per_byte * file_size)
-        throw std::runtime_error(
-            "it is too small a file for its pixels: it is cut off, or its header is wrong");
-}
+// A bit may stand for a block of 16 x 16 pixels in each of a progressive file's scans; there is one at least.
+constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{8} * 16 * 16;
 
 struct JpegOptions {
     std::int32_t quality;
@@ -92,7 +84,8 @@ class Jpeg final : public candela::ImageFormat {
         int width = 0, height = 0, subsampling = 0, space = 0;
         if (tjDecompressHeader3(handle.get(), bytes, file.size(), &width, &height, &subsampling, &space) != 0)
             fail(handle);
-        require_plausible(width, height, file.size());
+        require_plausible(static_cast<std::uintmax_t>(width) * static_cast<std::uintmax_t>(height),
+                          file.size(), k_most_pixels_per_byte);
         const std::span<float> pixels = sink.allocate(width, height, true);
         // Inks are kept apart, and multiplied below.
         const bool is_cmyk = space == TJCS_CMYK || space == TJCS_YCCK;

@@ -107,17 +107,14 @@ bool is_cut_off_png(const char* path) {
     return true;
 }
 
-/// Refuses files of a few bytes that speak of a hundred million pixels, before memory is asked for them. Only
-/// of formats that bound how much they compress: a picture of one colour is a few bytes of WebP at any size.
-void require_plausible(const OIIO::ImageInput& input, const char* path) {
+/// Only of formats that bound how much they compress: a picture of one colour is a few bytes of WebP at any
+/// size.
+void require_plausible_size(const OIIO::ImageInput& input, const char* path) {
     constexpr std::array<std::string_view, 5> k_bounded = {"png", "bmp", "targa", "hdr", "jpeg"};
     if (std::ranges::find(k_bounded, input.format_name()) == k_bounded.end()) return;
     // Deflate makes up to 1032 bytes of one, each of which is eight pixels of one bit; the others less.
     constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
-    const OIIO::ImageSpec& spec = input.spec();
-    if (spec.image_pixels() > k_most_pixels_per_byte * std::filesystem::file_size(path))
-        throw std::runtime_error(
-            "it is too small a file for its pixels: it is cut off, or its header is wrong");
+    require_plausible(input.spec().image_pixels(), std::filesystem::file_size(path), k_most_pixels_per_byte);
 }
 
 /// A file that the host writes, as OpenImageIO writes it.
@@ -271,7 +268,7 @@ class OpenImageIo final : public candela::ImageFormat, public candela::RowFormat
             throw std::runtime_error("it is cut off");
         const OIIO::ImageSpec& spec = input->spec();
         if (spec.nchannels < 1) throw std::runtime_error("it has no channels");
-        require_plausible(*input, path);
+        require_plausible_size(*input, path);
         const bool is_float = spec.format.is_floating_point();
         const std::span<float> pixels = sink.allocate(spec.width, spec.height, !is_float);
         // Grey pictures have one channel; channels after the third are alpha and the like.

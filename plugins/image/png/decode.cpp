@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "candela/image_plugin.h"
 #include "libpng.h"
 
 namespace {
@@ -81,14 +82,8 @@ void require_signature(std::FILE* file) {
                                  : "it is no PNG file");
 }
 
-/// Refuses files of a few bytes that speak of a hundred million pixels, before memory is asked for them.
-void require_plausible(png_uint_32 width, png_uint_32 height, std::uintmax_t file_size) {
-    // Deflate makes up to 1032 bytes of one, each of which is eight pixels of one bit.
-    constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
-    if (std::uintmax_t{width} * height > k_most_pixels_per_byte * file_size)
-        throw std::runtime_error(
-            "it is too small a file for its pixels: it is cut off, or its header is wrong");
-}
+// Deflate makes up to 1032 bytes of one, each of which is eight pixels of one bit.
+constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
 
 /// A row's samples of 8 or 16 bits as numbers from 0 to 1.
 void convert(std::span<const png_byte> row, int depth, std::size_t channels, float* to) {
@@ -116,7 +111,8 @@ void read_png(const char* path, candela::PictureSink& sink) {
         width = libpng.get_image_width(png, info);
         height = libpng.get_image_height(png, info);
     });
-    require_plausible(width, height, std::filesystem::file_size(path));
+    candela::sdk::require_plausible(std::uintmax_t{width} * height, std::filesystem::file_size(path),
+                                    k_most_pixels_per_byte);
     int passes = 1, depth = 0;
     std::size_t channels = 0, row_size = 0;
     decoder.calls([&](png_structp png, png_infop info) {

@@ -4,6 +4,23 @@
 //     CANDELA_PLUGIN(image, MyFormat, candela::sdk::k_no_fields, {.title = …, .formats = k_formats})
 #pragma once
 
+#include <cstdint>
+#include <stdexcept>
+
 #include "candela/image.h"
 #include "candela/picture_rows.h"
 #include "candela/plugin.h"
+
+namespace candela::sdk {
+
+/// For readers of formats that bound how much they compress: refuses a file of a few bytes that speaks of a
+/// hundred million pixels, before memory is asked for them. `pixels_per_byte`: the most that there can be.
+/// Throws std::runtime_error.
+inline void require_plausible(std::uintmax_t pixels, std::uintmax_t file_size,
+                              std::uintmax_t pixels_per_byte) {
+    if (pixels > pixels_per_byte * file_size)
+        throw std::runtime_error(
+            "it is too small a file for its pixels: it is cut off, or its header is wrong");
+}
+
+}  // namespace candela::sdk
