@@ -1,13 +1,12 @@
 #include "import/framing.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <unordered_map>
 
+#include "import/scene_text.h"
 #include "import/vectors.h"
 
 namespace importing {
@@ -16,8 +15,6 @@ namespace {
 
 constexpr double k_fov = 35;
 constexpr double k_margin = 1.08;
-
-bool has_position(const Light& light) { return light.type == "point" || light.type == "spot"; }
 
 }  // namespace
 
@@ -84,17 +81,13 @@ double expose(std::vector<Light>& lights, const Bounds& bounds) {
 }
 
 bool separate(std::vector<Light>& lights, const Camera& camera, const Bounds& bounds) {
-    // As places are written, in six digits.
-    const auto written = [](const Vector& p) {
-        return fmt::format("{:.6g} {:.6g} {:.6g}", p[0] + 0.0, p[1] + 0.0, p[2] + 0.0);
-    };
     const Vector view = length(camera.towards) > 0 ? unit(camera.towards) : Vector{0, 0, -1};
-    std::unordered_map<std::string, int> used{{written(camera.position), 1}};
+    std::unordered_map<std::string, int> used{{vector_text(camera.position), 1}};
     bool has_moved = false;
     for (Light& light : lights) {
-        if (!has_position(light)) continue;
+        if (!light.has_position()) continue;
         for (;;) {
-            const int count = used[written(light.position)]++;
+            const int count = used[vector_text(light.position)]++;
             if (count == 0) break;
             // Not away from the origin: nothing may be too far out.
             const double step = 1e-3 * count * std::max(bounds.radius(), length(light.position));
@@ -114,7 +107,7 @@ Vector room_for(const Bounds& bounds, const Camera& camera, const std::vector<Li
     contain(bounds.high);
     contain(camera.position);
     for (const Light& light : lights)
-        if (has_position(light)) contain(light.position);
+        if (light.has_position()) contain(light.position);
     const double largest = std::max({half[0], half[1], half[2]});
     const double least = largest > 0 ? 0.1 * largest : 1;  // even where all is at the origin
     for (double& extent : half) extent = 2.1 * std::max(extent, least);

@@ -51,6 +51,8 @@ struct Light {
     double intensity = 1;  // as Candela has it: at one metre, before 1 / pi
     Vector position{}, direction{};
     double inner_angle = 0, outer_angle = 45;  // half angles, degrees
+
+    bool has_position() const { return type == "point" || type == "spot"; }
 };
 
 /// What a file says, and what of it was lost.

@@ -22,9 +22,6 @@ std::string real(double x) {
     const std::string text = fmt::format("{:.6g}", x == 0 ? 0.0 : x);
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
-std::string vector(const Vector& v) {
-    return fmt::format("[{}, {}, {}]", real(v[0]), real(v[1]), real(v[2]));
-}
 std::string color(const Vector& v) { return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v[0], v[1], v[2]); }
 
 /// A vector that is close to zero in some direction is so.
@@ -67,9 +64,9 @@ class Writer {
         end();
         const Camera& camera = setting_.camera;
         begin("[observer]");
-        add("position", vector(camera.position));
-        add("look_at", vector(setting_.look_at));
-        if (const Vector up = direction(camera.up); up != Vector{0, 1, 0}) add("up", vector(up));
+        add("position", vector_text(camera.position));
+        add("look_at", vector_text(setting_.look_at));
+        if (const Vector up = direction(camera.up); up != Vector{0, 1, 0}) add("up", vector_text(up));
         if (camera.is_orthographic) add("projection", "\"orthographic\"");
         add(camera.is_orthographic ? "height" : "fov", real(camera.extent));
         end();
@@ -112,9 +109,9 @@ class Writer {
         add("type", candela::toml_text(light.type));
         add("color", color(light.color));
         add("intensity", real(light.intensity));
-        if (light.type == "point" || light.type == "spot") add("position", vector(light.position));
+        if (light.has_position()) add("position", vector_text(light.position));
         if (light.type == "directional" || light.type == "spot")
-            add("direction", vector(direction(light.direction)));
+            add("direction", vector_text(direction(light.direction)));
         if (light.type == "spot") {
             add("inner_angle", real(light.inner_angle));
             add("outer_angle", real(light.outer_angle));
@@ -157,7 +154,7 @@ class Writer {
             add("shininess", "40.0");
         } else {
             for (const auto& [name, value] : material->values)
-                add(name, value.size() == 3 ? vector({value[0], value[1], value[2]}) : real(value[0]));
+                add(name, value.size() == 3 ? vector_text({value[0], value[1], value[2]}) : real(value[0]));
         }
         end();
     }
@@ -172,6 +169,10 @@ class Writer {
 };
 
 }  // namespace
+
+std::string vector_text(const Vector& v) {
+    return fmt::format("[{}, {}, {}]", real(v[0]), real(v[1]), real(v[2]));
+}
 
 std::string scene_text(const Model& model, const Setting& setting) { return Writer(model, setting).write(); }
 

@@ -21,6 +21,9 @@ struct Setting {
     bool is_closed = false;
 };
 
+/// A place or a direction as the scene has it, in six digits.
+std::string vector_text(const Vector& v);
+
 std::string scene_text(const Model& model, const Setting& setting);
 
 }  // namespace importing
