@@ -37,7 +37,8 @@ class ServerTest(unittest.TestCase):
     def check_end(self):
         if self.view.process.poll() is None:
             self.assertEqual(self.view.end(), 0)
-        self.assertEqual(list(self.view.temporary.iterdir()), [])
+        # ThreadSanitizer makes a file as a process starts, and removes it at once unless the process is killed in between.
+        self.assertEqual([left for left in self.view.temporary.iterdir() if not left.name.startswith("tsan.rodata.")], [])
 
     def test_it_listens_on_this_machine_alone_and_asks_nobody(self):
         self.explained("pixel=1%2C2")
