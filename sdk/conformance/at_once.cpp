@@ -8,21 +8,26 @@
 #include <cerrno>
 #include <csignal>
 #include <ctime>
+#include <random>
 #include <thread>
 #include <vector>
 
 namespace {
 
-constexpr int k_meetings = 40;
-constexpr long k_work = 100'000, k_pause = 50'000;  // nanoseconds
+constexpr int k_meetings = 80;
+constexpr long k_shortest_work = 20'000, k_longest_work = 180'000, k_pause = 50'000;  // nanoseconds
 
 /// Of this thread; null while it is not to be interrupted.
 thread_local timer_t* volatile timer_of_this_thread = nullptr;
 
+thread_local std::minstd_rand chance;
+
 /// Once: a signal that already waits when the thread gets its turn again would stop it before it has done
-/// anything.
+/// anything. After a time that varies: calls that take equally long would always be stopped at the same
+/// place.
 void interrupt_later(timer_t timer) {
-    const itimerspec once{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = k_work}};
+    const long work = k_shortest_work + static_cast<long>(chance() % (k_longest_work - k_shortest_work));
+    const itimerspec once{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = work}};
     ::timer_settime(timer, 0, &once, nullptr);
 }
 

@@ -46,11 +46,12 @@ class ServerTest(unittest.TestCase):
             until(connection, b"event: problems")
             own = set()
             for process in (self.view.process.pid, *children_of(self.view.process.pid)):
-                for descriptor in pathlib.Path(f"/proc/{process}/fd").iterdir():
+                # A child may end, and a descriptor be closed, while they are looked at.
+                for descriptor in pathlib.Path("/proc").glob(f"{process}/fd/*"):
                     try:
                         own.update(re.findall(r"socket:\[(\d+)\]", os.readlink(descriptor)))
                     except FileNotFoundError:
-                        pass  # closed since
+                        pass
             listening, connected = [], []
             for table in ("tcp", "tcp6", "udp", "udp6"):
                 for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
