@@ -13,10 +13,6 @@ module;
 #include <utility>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 module candela.texture;
 
 import candela.simd;
@@ -47,20 +43,24 @@ CANDELA_KERNEL_INLINE float wrapped(float x, bool repeats) {
     return within(repeats ? x - kernel::floor(x) : x, 0.0f, 1.0f);
 }
 
-/// The levels of points: the finer of the two between which each lies, and how far it is from it.
-struct Levels {
-    alignas(64) std::array<std::int32_t, k_block> finer;
-    alignas(64) std::array<float, k_block> fraction;
+/// Points in the picture: where, from its upper left corner, which is 0, to its lower right, which is 1; the
+/// finer of the two levels between which each lies, and how much of its weight is the coarser one's.
+struct Points {
+    alignas(64) std::array<float, k_block> u, v;
+    alignas(64) std::array<std::int32_t, k_block> finer, coarser_weight;
 };
 
-/// The level of detail is the binary logarithm of how many texels a pixel's footprint is long. `fractions` is
+/// To the nearest whole number, of what is not negative.
+CANDELA_KERNEL_INLINE std::int32_t rounded(float x) { return static_cast<std::int32_t>(x + 0.5f); }
+
+/// The level of detail is the binary logarithm of how many texels a pixel's footprint is long. `between` is
 /// zero where all points lie in a level, not between two.
-struct LevelLoop {
-    CANDELA_BATCH_LOOP static void run(TextureCoordinates at, float width, float height, float last,
-                                       std::size_t count, Levels* levels, std::int32_t* fractions) {
-        std::int32_t* const finer = levels->finer.data();
-        float* const fraction = levels->fraction.data();
-        std::int32_t bits = 0;
+struct PointsLoop {
+    CANDELA_BATCH_LOOP static void run(TextureCoordinates at, bool repeats, float width, float height,
+                                       float last, std::size_t count, Points* points, std::int32_t* between) {
+        float *const u = points->u.data(), *const v = points->v.data();
+        std::int32_t *const finer = points->finer.data(), *const weight = points->coarser_weight.data();
+        std::int32_t any = 0;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const float ax = at.per_x.x[i] * width, ay = at.per_x.y[i] * height;
@@ -68,19 +68,15 @@ struct LevelLoop {
             const float squared = within(kernel::max(ax * ax + ay * ay, bx * bx + by * by), 1.0f, 1e18f);
             const float detail = kernel::min(0.5f * kernel::log2(squared), last);
             const float level = kernel::floor(detail);
+            u[i] = wrapped(at.uv.x[i], repeats);
+            v[i] = 1.0f - wrapped(at.uv.y[i], repeats);
             finer[i] = static_cast<std::int32_t>(level);
-            fraction[i] = detail - level;
-            bits |= std::bit_cast<std::int32_t>(detail - level);
+            weight[i] = rounded(k_whole_weight * (detail - level));
+            any |= weight[i];
         }
-        *fractions = bits;
+        *between = any;
     }
 };
-
-CANDELA_KERNEL_INLINE float rounded(float x) { return kernel::floor(x + 0.5f); }
-
-CANDELA_KERNEL_INLINE std::int32_t both(float low, float high) {
-    return static_cast<std::int32_t>(low) | static_cast<std::int32_t>(high) << 16;
-}
 
 /// Where a point lies between the centres of texels.
 struct Cell {
@@ -88,41 +84,44 @@ struct Cell {
     std::int32_t left_weights, right_weights;
 };
 
-CANDELA_KERNEL_INLINE Cell cell_of(std::int32_t width, std::int32_t height, float u, float v, float weight) {
+/// `weight`: of the four texels together.
+CANDELA_KERNEL_INLINE Cell cell_of(std::int32_t width, std::int32_t height, float u, float v,
+                                   std::int32_t weight) {
     const float x = u * static_cast<float>(width) - 0.5f, y = v * static_cast<float>(height) - 0.5f;
     const float left = kernel::floor(x), top = kernel::floor(y);
-    const float lower = rounded(weight * (y - top)), upper = weight - lower;
-    const float lower_right = rounded(lower * (x - left)), upper_right = rounded(upper * (x - left));
+    const std::int32_t lower = rounded(static_cast<float>(weight) * (y - top)), upper = weight - lower;
+    const std::int32_t lower_right = rounded(static_cast<float>(lower) * (x - left));
+    const std::int32_t upper_right = rounded(static_cast<float>(upper) * (x - left));
+    const std::int32_t right_weights = upper_right | lower_right << 16;
     return {static_cast<std::int32_t>(left), static_cast<std::int32_t>(top),
-            both(upper - upper_right, lower - lower_right), both(upper_right, lower_right)};
+            (upper | lower << 16) - right_weights, right_weights};
 }
 
-/// How much of a point's weight is its finer level's, or its coarser one's.
+/// The weight of the finer level of a point, or of the coarser one.
 template <int coarser>
-CANDELA_KERNEL_INLINE float weight_of_level(float fraction) {
-    const float weight = rounded(k_whole_weight * fraction);
-    return coarser == 0 ? k_whole_weight - weight : weight;
+CANDELA_KERNEL_INLINE std::int32_t weight_of_level(std::int32_t coarser_weight) {
+    return coarser == 0 ? (1 << k_weight_bits) - coarser_weight : coarser_weight;
 }
 
 /// Level `coarser` of the two between which points lie, which are the same for all of them. Not for points
 /// whose texels are on both sides of the picture's border; `border` says whether there are any.
 template <int coarser>
 struct InteriorLoop {
-    CANDELA_BATCH_LOOP static void run(MipMap::Level level, ConstVec2Span uv, bool repeats,
-                                       const float* fraction, std::size_t count, Places* places,
-                                       std::int32_t* border) {
+    CANDELA_BATCH_LOOP static void run(MipMap::Level level, const Points* points, std::size_t count,
+                                       Places* places, std::int32_t* border) {
+        const float *const u = points->u.data(), *const v = points->v.data();
+        const std::int32_t* const weight = points->coarser_weight.data();
         std::int32_t* const texel = places->texel.data();
         std::int32_t* const left_weights = places->left_weights.data();
         std::int32_t* const right_weights = places->right_weights.data();
-        const std::int32_t width = level.width, first = static_cast<std::int32_t>(level.first);
-        const auto columns = static_cast<std::uint32_t>(level.width - 1),
-                   rows = static_cast<std::uint32_t>(level.height - 1);
+        const std::int32_t width = level.width, height = level.height,
+                           first = static_cast<std::int32_t>(level.first);
+        const auto columns = static_cast<std::uint32_t>(width - 1),
+                   rows = static_cast<std::uint32_t>(height - 1);
         std::int32_t any = 0;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const Cell cell =
-                cell_of(width, level.height, wrapped(uv.x[i], repeats), 1.0f - wrapped(uv.y[i], repeats),
-                        weight_of_level<coarser>(fraction[i]));
+            const Cell cell = cell_of(width, height, u[i], v[i], weight_of_level<coarser>(weight[i]));
             texel[i] = first + cell.row * width + cell.column;
             left_weights[i] = cell.left_weights;
             right_weights[i] = cell.right_weights;
@@ -136,10 +135,10 @@ struct InteriorLoop {
 /// The same for points of any levels, anywhere.
 template <int coarser>
 struct PlacesLoop {
-    CANDELA_BATCH_LOOP static void run(const std::int32_t* sizes, ConstVec2Span uv, bool repeats,
-                                       const Levels* levels, int last, std::size_t count, Places* places) {
-        const std::int32_t* const level = levels->finer.data();
-        const float* const fraction = levels->fraction.data();
+    CANDELA_BATCH_LOOP static void run(const std::int32_t* sizes, bool repeats, const Points* points,
+                                       int last, std::size_t count, Places* places) {
+        const float *const u = points->u.data(), *const v = points->v.data();
+        const std::int32_t *const level = points->finer.data(), *const weight = points->coarser_weight.data();
         std::int32_t* const texel = places->texel.data();
         std::int32_t *const right = places->right.data(), *const below = places->below.data();
         std::int32_t* const left_weights = places->left_weights.data();
@@ -149,9 +148,7 @@ struct PlacesLoop {
             const int wanted = level[i] + coarser;
             const int number = 4 * (wanted < last ? wanted : last);
             const std::int32_t width = sizes[number], height = sizes[number + 1], first = sizes[number + 2];
-            const Cell cell =
-                cell_of(width, height, wrapped(uv.x[i], repeats), 1.0f - wrapped(uv.y[i], repeats),
-                        weight_of_level<coarser>(fraction[i]));
+            const Cell cell = cell_of(width, height, u[i], v[i], weight_of_level<coarser>(weight[i]));
             const std::int32_t before_x = repeats ? width - 1 : 0, after_x = repeats ? 0 : width - 1;
             const std::int32_t before_y = repeats ? height - 1 : 0, after_y = repeats ? 0 : height - 1;
             const std::int32_t x0 = cell.column < 0 ? before_x : cell.column;
@@ -167,37 +164,19 @@ struct PlacesLoop {
     }
 };
 
-using Four = float __attribute__((vector_size(16)));
-using FourIntegers = std::int32_t __attribute__((vector_size(16)));
+/// A texel and its neighbour; of two points.
 using EightShorts = std::int16_t __attribute__((vector_size(16)));
+using SixteenShorts = std::int16_t __attribute__((vector_size(32)));
+/// Four channels of two points.
+using EightIntegers = std::int32_t __attribute__((vector_size(32)));
+using EightFloats = float __attribute__((vector_size(32)));
+using SixteenIntegers = std::int32_t __attribute__((vector_size(64)));
 
-/// a0 b0 + a1 b1, a2 b2 + a3 b3, …
-[[gnu::always_inline]] inline FourIntegers sums_of_products(EightShorts a, EightShorts b) {
-#if defined(__SSE2__)
-    return reinterpret_cast<FourIntegers>(
-        _mm_madd_epi16(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
-#else
-    FourIntegers sums;
-    for (int i = 0; i < 4; ++i) sums[i] = a[2 * i] * b[2 * i] + a[2 * i + 1] * b[2 * i + 1];
-    return sums;
-#endif
-}
-
-/// A texel and its neighbour to the right, less 32768: the products are of signed numbers.
-template <bool is_interior>
-[[gnu::always_inline]] inline EightShorts load_pair(const std::uint16_t* texel, std::ptrdiff_t right) {
-    EightShorts pair;
-    if (is_interior || right == 1) [[likely]] {
-        std::memcpy(&pair, texel, sizeof pair);
-    } else {
-        std::memcpy(&pair, texel, sizeof pair / 2);
-        std::memcpy(reinterpret_cast<char*>(&pair) + sizeof pair / 2, texel + 4 * right, sizeof pair / 2);
-    }
-    return pair ^ std::int16_t{-32768};
-}
+constexpr std::size_t k_group = 8;
 
 /// A level's texels for points that were found in it. `is_interior`: none of them is at the border, so that
-/// their neighbours are the next ones, and `stride` texels on.
+/// their neighbours are the next ones, and `stride` texels on. Vectors are handed over by reference: their
+/// registers are not those of every instruction set.
 template <bool is_interior>
 struct LevelTexels {
     const std::uint16_t* texels;
@@ -215,30 +194,73 @@ struct LevelTexels {
         __builtin_prefetch(lower(i));
     }
 
-    /// The weighted sum of a point's four texels, channel by channel.
-    [[gnu::always_inline]] FourIntegers weighted(std::size_t i) const {
-        const std::ptrdiff_t right = is_interior ? 1 : places->right[i];
-        const EightShorts above = load_pair<is_interior>(upper(i), right),
-                          below = load_pair<is_interior>(lower(i), right);
-        const auto everywhere = [](std::int32_t weights) __attribute__((always_inline)) {
-            return reinterpret_cast<EightShorts>(FourIntegers{weights, weights, weights, weights});
-        };
-        return sums_of_products(__builtin_shufflevector(above, below, 0, 8, 1, 9, 2, 10, 3, 11),
-                                everywhere(places->left_weights[i])) +
-               sums_of_products(__builtin_shufflevector(above, below, 4, 12, 5, 13, 6, 14, 7, 15),
-                                everywhere(places->right_weights[i]));
+    /// A texel and its neighbour to the right.
+    [[gnu::always_inline]] EightShorts load_pair(const std::uint16_t* texel, std::size_t i) const {
+        EightShorts pair;
+        if (is_interior || places->right[i] == 1) [[likely]] {
+            std::memcpy(&pair, texel, sizeof pair);
+        } else {
+            std::memcpy(&pair, texel, sizeof pair / 2);
+            std::memcpy(reinterpret_cast<char*>(&pair) + sizeof pair / 2,
+                        texel + 4 * std::ptrdiff_t{places->right[i]}, sizeof pair / 2);
+        }
+        return pair;
+    }
+
+    /// Adds the weighted texels of point k of the group from `first` on, and of point k + 4, to `sums`,
+    /// channel by channel, less 32768 each: products are of signed numbers.
+    template <int k>
+    [[gnu::always_inline]] void add_weighted(std::size_t first, EightIntegers& sums) const {
+        const std::size_t i = first + k, j = i + 4;
+        EightIntegers left_weights, right_weights;  // of the whole group
+        std::memcpy(&left_weights, &places->left_weights[first], sizeof left_weights);
+        std::memcpy(&right_weights, &places->right_weights[first], sizeof right_weights);
+        const EightShorts above_i = load_pair(upper(i), i), above_j = load_pair(upper(j), j);
+        const EightShorts below_i = load_pair(lower(i), i), below_j = load_pair(lower(j), j);
+        const SixteenShorts above =
+            __builtin_shufflevector(above_i, above_j, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15) ^
+            std::int16_t{-32768};
+        const SixteenShorts below =
+            __builtin_shufflevector(below_i, below_j, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15) ^
+            std::int16_t{-32768};
+        const SixteenShorts left =
+            __builtin_shufflevector(above, below, 0, 16, 1, 17, 2, 18, 3, 19, 8, 24, 9, 25, 10, 26, 11, 27);
+        const SixteenShorts right =
+            __builtin_shufflevector(above, below, 4, 20, 5, 21, 6, 22, 7, 23, 12, 28, 13, 29, 14, 30, 15, 31);
+        const EightIntegers by_left =
+            __builtin_shufflevector(left_weights, left_weights, k, k, k, k, k + 4, k + 4, k + 4, k + 4);
+        const EightIntegers by_right =
+            __builtin_shufflevector(right_weights, right_weights, k, k, k, k, k + 4, k + 4, k + 4, k + 4);
+        add_products(left, reinterpret_cast<SixteenShorts>(by_left), sums);
+        add_products(right, reinterpret_cast<SixteenShorts>(by_right), sums);
+    }
+
+  private:
+    /// a0 b0 + a1 b1, a2 b2 + a3 b3, …
+    [[gnu::always_inline]] static void add_products(const SixteenShorts& a, const SixteenShorts& b,
+                                                    EightIntegers& sums) {
+        const SixteenIntegers products =
+            __builtin_convertvector(a, SixteenIntegers) * __builtin_convertvector(b, SixteenIntegers);
+        sums += __builtin_shufflevector(products, products, 0, 2, 4, 6, 8, 10, 12, 14) +
+                __builtin_shufflevector(products, products, 1, 3, 5, 7, 9, 11, 13, 15);
     }
 };
 
-[[gnu::always_inline]] inline void multiply_four(float* values, Four by) {
-    Four four;
-    std::memcpy(&four, values, sizeof four);
-    four *= by;
-    std::memcpy(values, &four, sizeof four);
+/// `values`: of `count` points, at most a group.
+[[gnu::always_inline]] inline void multiply_group(float* values, const EightFloats& by, std::size_t count) {
+    if (count < k_group) {
+        for (std::size_t k = 0; k < count; ++k) values[k] *= by[k];
+        return;
+    }
+    EightFloats group;
+    std::memcpy(&group, values, sizeof group);
+    group *= by;
+    std::memcpy(values, &group, sizeof group);
 }
 
-/// The channels of a point lie side by side, since its texels may be anywhere; four points are transposed. No
-/// loop that a compiler makes vectors of: these are.
+/// The channels of a point lie side by side, since its texels may be anywhere; groups of points are
+/// transposed. Places are filled to the end of the last group. No loop that a compiler makes vectors of:
+/// these are.
 template <bool between_levels, bool is_interior>
 struct MultiplyByHand {
     CANDELA_BATCH_LOOP static void run(LevelTexels<is_interior> finer, LevelTexels<is_interior> coarser,
@@ -246,35 +268,47 @@ struct MultiplyByHand {
         constexpr float k_scale = 1.0f / (65535 * k_whole_weight);
         constexpr std::int32_t k_offset = 32768 << k_weight_bits;
         constexpr std::size_t k_ahead = 32;
-        const auto seen = [&](std::size_t i) __attribute__((always_inline)) {
-            const FourIntegers sum =
-                between_levels ? finer.weighted(i) + coarser.weighted(i) : finer.weighted(i);
-            return k_scale * __builtin_convertvector(sum + k_offset, Four);
-        };
-        std::size_t i = 0;
-        for (; i + 4 <= count; i += 4) {
+        for (std::size_t i = 0; i < count; i += k_group) {
             // A row of pixels may cross the rows of the picture; neighbours share a line more often than not.
-            for (std::size_t next = i + k_ahead; next < i + k_ahead + 4 && next < count; next += 2) {
+            for (std::size_t next = i + k_ahead; next < i + k_ahead + k_group && next < count; next += 2) {
                 finer.prefetch(next);
                 if constexpr (between_levels) coarser.prefetch(next);
             }
-            const Four a = seen(i), b = seen(i + 1), c = seen(i + 2), d = seen(i + 3);
-            const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-            const Four cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-            multiply_four(color.x + i, __builtin_shufflevector(ab, cd, 0, 1, 4, 5));
-            multiply_four(color.y + i, __builtin_shufflevector(ab, cd, 2, 3, 6, 7));
-            const Four blue_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-            const Four blue_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-            multiply_four(color.z + i, __builtin_shufflevector(blue_ab, blue_cd, 0, 1, 4, 5));
-        }
-        for (; i < count; ++i) {
-            const Four one = seen(i);
-            color.x[i] *= one[0];
-            color.y[i] *= one[1];
-            color.z[i] *= one[2];
+            const auto seen = [&]<int k>(EightFloats& channels) __attribute__((always_inline)) {
+                EightIntegers sums = EightIntegers{} + k_offset;
+                finer.template add_weighted<k>(i, sums);
+                if constexpr (between_levels) coarser.template add_weighted<k>(i, sums);
+                channels = k_scale * __builtin_convertvector(sums, EightFloats);
+            };
+            EightFloats a, b, c, d;  // points 0 and 4, 1 and 5, 2 and 6, 3 and 7
+            seen.template operator()<0>(a);
+            seen.template operator()<1>(b);
+            seen.template operator()<2>(c);
+            seen.template operator()<3>(d);
+            const EightFloats ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+            const EightFloats cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+            const EightFloats blue_ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+            const EightFloats blue_cd = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+            const std::size_t points = std::min(k_group, count - i);
+            multiply_group(color.x + i, __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13), points);
+            multiply_group(color.y + i, __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15), points);
+            multiply_group(color.z + i, __builtin_shufflevector(blue_ab, blue_cd, 0, 1, 8, 9, 4, 5, 12, 13),
+                           points);
         }
     }
 };
+
+/// Fills the last group with the last of `count` points.
+std::size_t fill_group(Points& points, std::size_t count) {
+    std::size_t end = count;
+    for (; end % k_group != 0; ++end) {
+        points.u[end] = points.u[count - 1];
+        points.v[end] = points.v[count - 1];
+        points.finer[end] = points.finer[count - 1];
+        points.coarser_weight[end] = points.coarser_weight[count - 1];
+    }
+    return end;
+}
 
 }  // namespace
 
@@ -282,34 +316,34 @@ void MipMap::multiply(TextureWrap wrap, std::size_t count, const TextureCoordina
                       const Vec3Span& color) const noexcept {
     const bool repeats = wrap == TextureWrap::repeat;
     const int last = static_cast<int>(levels_.size()) - 1;
-    Levels levels;
+    Points points;
     Places finer, coarser;
-    std::int32_t fraction_bits = 0, border = 0;
-    std::int32_t *const fractions = &fraction_bits, *const is_at_border = &border;
-    const Levels* const found = &levels;
-    const float* const fraction = levels.fraction.data();
+    std::int32_t coarser_weights = 0, border = 0;
+    std::int32_t *const between = &coarser_weights, *const is_at_border = &border;
+    const Points* const found = &points;
     for (std::size_t first = 0; first < count; first += k_block) {
         const std::size_t part = std::min(k_block, count - first);
         const TextureCoordinates here{at.uv.from(first), at.per_x.from(first), at.per_y.from(first)};
-        multiversion<LevelLoop>(here, static_cast<float>(width()), static_cast<float>(height()),
-                                static_cast<float>(last), part, &levels, fractions);
-        const bool between_levels = fraction_bits != 0;
-        const auto number = static_cast<std::size_t>(levels.finer[0]);
+        multiversion<PointsLoop>(here, repeats, static_cast<float>(width()), static_cast<float>(height()),
+                                 static_cast<float>(last), part, &points, between);
+        const std::size_t filled = fill_group(points, part);
+        const bool between_levels = coarser_weights != 0;
+        const auto number = static_cast<std::size_t>(points.finer[0]);
         const Level& level = levels_[number];
         const Level& next = levels_[std::min(number + 1, levels_.size() - 1)];
-        bool is_interior = are_all_equal(std::span(std::as_const(levels.finer)).first(part));
+        bool is_interior = are_all_equal(std::span(std::as_const(points.finer)).first(part));
         if (is_interior) {
-            multiversion<InteriorLoop<0>>(level, here.uv, repeats, fraction, part, &finer, is_at_border);
+            multiversion<InteriorLoop<0>>(level, found, filled, &finer, is_at_border);
             is_interior = border == 0;
         }
         if (is_interior && between_levels) {
-            multiversion<InteriorLoop<1>>(next, here.uv, repeats, fraction, part, &coarser, is_at_border);
+            multiversion<InteriorLoop<1>>(next, found, filled, &coarser, is_at_border);
             is_interior = border == 0;
         }
         if (!is_interior) {
-            multiversion<PlacesLoop<0>>(sizes_.data(), here.uv, repeats, found, last, part, &finer);
+            multiversion<PlacesLoop<0>>(sizes_.data(), repeats, found, last, filled, &finer);
             if (between_levels)
-                multiversion<PlacesLoop<1>>(sizes_.data(), here.uv, repeats, found, last, part, &coarser);
+                multiversion<PlacesLoop<1>>(sizes_.data(), repeats, found, last, filled, &coarser);
         }
         const auto multiply_by = [&]<bool is_between, bool inside>() {
             multiversion<MultiplyByHand<is_between, inside>>(
