@@ -5,9 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
@@ -89,13 +91,17 @@ void end_descendants() noexcept {
     are_ending = true;
     // Those that are orphaned by this are children then.
     for (int i = 0; i < k_generations; ++i) {
-        bool has_children = false;
+        // Not for any child: one that another thread starts meanwhile may never end by itself.
+        std::array<pid_t, 64> killed{};
+        std::size_t count = 0;
         for_each_child(self, [&](pid_t child) {
-            has_children = true;
             kill_tree(child, k_levels);
+            if (count < killed.size()) killed[count++] = child;
         });
-        if (!has_children) return;
-        while (::waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
+        if (count == 0) return;
+        for (std::size_t k = 0; k < count; ++k) {
+            while (::waitpid(killed[k], nullptr, 0) < 0 && errno == EINTR) {
+            }
         }
     }
 }

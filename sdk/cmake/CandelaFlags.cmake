@@ -43,11 +43,11 @@ if(CANDELA_LLD)
     add_link_options(--ld-path=${CANDELA_LLD})
 endif()
 
-# What the compiler did with each loop, beside the object files; tests/vectorization reads it.
+# What the compiler did with each loop, beside the object files that have batch loops; tests/vectorization reads it.
 set(CANDELA_VECTORIZATION_RECORDS OFF)
 if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL Clang AND NOT CANDELA_SANITIZE)
     set(CANDELA_VECTORIZATION_RECORDS ON)
-    target_compile_options(candela_flags INTERFACE
+    target_compile_options(candela_batch_flags INTERFACE
         -fsave-optimization-record -foptimization-record-passes=loop-vectorize)
 endif()
 
