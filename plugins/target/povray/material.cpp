@@ -9,6 +9,7 @@
 
 #include "candela/color.h"
 #include "candela/target/renderers.h"
+#include "pigment.h"
 #include "text.h"
 
 namespace candela::povray_target {
@@ -87,59 +88,81 @@ Finish finish_of(const ExportedReflection& model, const ExportedValues& values, 
     return finish;
 }
 
-struct Layer {
-    Vec3 pigment{};
+/// What the texture statements of a surface are made of.
+struct Surface {
+    Vec3 color{};
     float diffuse = 0;
     Vec3 ambient{};
     std::string highlight{};
+    Vec3 tint{1, 1, 1};  // of the highlight, through a layer that filters
+    bool has_filter = false;
 };
 
-std::string layer_text(const Layer& layer, bool is_lit_from_behind) {
-    return fmt::format("texture {{ pigment {{ {} }} finish {{ ambient {} diffuse {}{}{} }} }}",
-                       rgb_text(layer.pigment), rgb_text(layer.ambient), is_lit_from_behind ? "0, " : "",
-                       layer.diffuse, is_lit_from_behind ? "" : layer.highlight);
+Surface surface_of(const ExportedScene& scene, const ExportedObject& object, Vec3 shade, FileSink& files) {
+    const Finish finish =
+        finish_of(scene.reflections[object.reflection], object.materials[object.reflection], files);
+    const Rgb color = decoded(object.color, scene.image.color_management);
+    Surface surface{.color = target::times({color.r, color.g, color.b}, shade),
+                    .diffuse = finish.diffuse.x,
+                    .ambient = finish.ambient};
+    if (!is_grey(finish.diffuse)) {
+        const Vec3 share = at_least_tiny(finish.diffuse);
+        surface.color = target::times(surface.color, share);
+        surface.diffuse = 1;
+        surface.ambient = over(finish.ambient, share);
+    }
+    if (finish.kind == HighlightKind::none) return surface;
+    const bool is_white = is_grey(finish.specular);
+    surface.highlight = highlight_text(finish, is_white ? finish.specular.x : 1);
+    if (!is_white) {
+        // POV-Ray's highlights have the light's colour; one of another is seen through a layer of it.
+        surface.tint = at_least_tiny(finish.specular);
+        surface.has_filter = true;
+    }
+    return surface;
+}
+
+/// `from_behind`: lit from there alone, without a highlight.
+std::string layer_text(const Surface& surface, const Pigment& pigment, bool from_behind) {
+    return fmt::format("texture {{ pigment {{ {} }} finish {{ ambient {} diffuse {}{}{} }} }}", pigment.text,
+                       rgb_text(pigment.factor * surface.ambient), from_behind ? "0, " : "",
+                       pigment.factor * surface.diffuse, from_behind ? "" : surface.highlight);
+}
+
+std::string filter_text(const Surface& surface) {
+    if (!surface.has_filter) return "";
+    return fmt::format(
+        "    // A layer whose colour filters what lies below, whose pigment is divided by it: so the "
+        "highlight alone has it.\n"
+        "    texture {{ pigment {{ rgbf <{}, {}, {}, 1> }} finish {{ ambient 0 diffuse 0 }} }}\n",
+        surface.tint.x, surface.tint.y, surface.tint.z);
+}
+
+std::string front_text(const Surface& surface, const Pigment& pigment) {
+    return fmt::format("    {}\n{}", layer_text(surface, pigment, false), filter_text(surface));
+}
+
+std::string interior_text(const Surface& surface, const Pigment& pigment) {
+    return fmt::format(
+        "    // Where the normal points away from the observer, POV-Ray turns it around: what it calls "
+        "lit from behind is the front.\n    interior_{}\n",
+        layer_text(surface, pigment, true));
 }
 
 }  // namespace
 
-std::string material_text(const ExportedScene& scene, const ExportedObject& object, bool turns_away,
-                          FileSink& files) {
-    const Finish finish =
-        finish_of(scene.reflections[object.reflection], object.materials[object.reflection], files);
-    const Rgb color = decoded(object.color, scene.image.color_management);
-    Layer layer{
-        .pigment = {color.r, color.g, color.b}, .diffuse = finish.diffuse.x, .ambient = finish.ambient};
-    if (!is_grey(finish.diffuse)) {
-        const Vec3 share = at_least_tiny(finish.diffuse);
-        layer.pigment = target::times(layer.pigment, share);
-        layer.diffuse = 1;
-        layer.ambient = over(finish.ambient, share);
-    }
-    std::string filter;
-    if (finish.kind != HighlightKind::none) {
-        const bool is_white = is_grey(finish.specular);
-        layer.highlight = highlight_text(finish, is_white ? finish.specular.x : 1);
-        if (!is_white) {
-            // POV-Ray's highlights have the light's colour; one of another is seen through a layer of it.
-            const Vec3 tint = at_least_tiny(finish.specular);
-            layer.pigment = over(layer.pigment, tint);
-            filter = fmt::format(
-                "    // A layer whose colour filters what lies below, whose pigment is divided by it: so the "
-                "highlight alone has it.\n"
-                "    texture {{ pigment {{ rgbf <{}, {}, {}, 1> }} finish {{ ambient 0 diffuse 0 }} }}\n",
-                tint.x, tint.y, tint.z);
-        }
-    }
-    std::string text = fmt::format("    {}\n{}", layer_text(layer, false), filter);
-    if (turns_away) {
-        if (!filter.empty()) layer.pigment = target::times(layer.pigment, at_least_tiny(finish.specular));
-        text += fmt::format(
-            "    // Where the normal points away from the observer, POV-Ray turns it around: what it calls "
-            "lit from "
-            "behind is the front.\n    interior_{}\n",
-            layer_text(layer, true));
-    }
-    return text;
+Material material_of(const ExportedScene& scene, std::size_t object, FileSink& files) {
+    const Surface surface = surface_of(scene, scene.objects[object], {1, 1, 1}, files);
+    const Pigment front = pigment_of(scene, object, over(surface.color, surface.tint), "", files);
+    const Pigment behind =
+        surface.has_filter ? pigment_of(scene, object, surface.color, "_behind", files) : front;
+    return {.front = front_text(surface, front), .turned = interior_text(surface, behind)};
+}
+
+Material material_at_vertex(const ExportedScene& scene, std::size_t object, Vec3 color, FileSink& files) {
+    const Surface surface = surface_of(scene, scene.objects[object], color, files);
+    return {.front = front_text(surface, {rgb_text(over(surface.color, surface.tint))}),
+            .turned = interior_text(surface, {rgb_text(surface.color)})};
 }
 
 }  // namespace candela::povray_target

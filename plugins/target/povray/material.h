@@ -1,16 +1,25 @@
 // Materials in POV-Ray's scene language.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "candela/target.h"
 
 namespace candela::povray_target {
 
-/// The texture of an object. `turns_away`: the interpolated normal of a surface that is seen may point away
-/// from the observer, as it does near the outline of a coarse closed mesh. POV-Ray turns it around then, and
-/// shows the interior texture, which is one that is lit from behind.
-std::string material_text(const ExportedScene& scene, const ExportedObject& object, bool turns_away,
-                          FileSink& files);
+/// Texture statements. The interpolated normal of a surface that is seen may point away from the observer, as
+/// it does near the outline of a coarse closed mesh. POV-Ray turns it around then, and shows the interior
+/// texture, which is one that is lit from behind: `turned`.
+struct Material {
+    std::string front;
+    std::string turned;
+};
+
+/// Of an object; its texture's pictures become files.
+Material material_of(const ExportedScene& scene, std::size_t object, FileSink& files);
+
+/// Of a vertex whose colour the object's is multiplied with.
+Material material_at_vertex(const ExportedScene& scene, std::size_t object, Vec3 color, FileSink& files);
 
 }  // namespace candela::povray_target

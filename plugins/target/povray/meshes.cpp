@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "candela/target/literals.h"
 #include "candela/target/renderers.h"
@@ -27,12 +30,30 @@ class Statement {
             fmt::format_to(std::back_inserter(text_), ",\n        <{}, {}, {}>", v.x, v.y, v.z);
         text_ += "\n    }\n";
     }
-    void add(const char* name, std::span<const std::uint32_t> indices) {
+    void add(const char* name, std::span<const std::array<float, 2>> vectors) {
+        begin(name, vectors.size());
+        for (const auto& [u, v] : vectors)
+            fmt::format_to(std::back_inserter(text_), ",\n        <{}, {}>", u, v);
+        text_ += "\n    }\n";
+    }
+    void add(const char* name, std::span<const std::string> textures) {
+        begin(name, textures.size());
+        for (const std::string& texture : textures)
+            fmt::format_to(std::back_inserter(text_), ",\n        texture {{ {} }}", texture);
+        text_ += "\n    }\n";
+    }
+    /// `texture_of_vertex`: empty where there is one for all.
+    void add(const char* name, std::span<const std::uint32_t> indices,
+             std::span<const std::size_t> texture_of_vertex = {}) {
         begin(name, indices.size() / 3);
         // Clockwise seen from outside: POV-Ray's own coordinates are left-handed.
-        for (std::size_t i = 0; i < indices.size(); i += 3)
-            fmt::format_to(std::back_inserter(text_), ",\n        <{}, {}, {}>", indices[i], indices[i + 2],
-                           indices[i + 1]);
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            const std::uint32_t a = indices[i], b = indices[i + 2], c = indices[i + 1];
+            fmt::format_to(std::back_inserter(text_), ",\n        <{}, {}, {}>", a, b, c);
+            if (!texture_of_vertex.empty())
+                fmt::format_to(std::back_inserter(text_), ", {}, {}, {}", texture_of_vertex[a],
+                               texture_of_vertex[b], texture_of_vertex[c]);
+        }
         text_ += "\n    }\n";
     }
     std::string ended_with(const std::string& material) { return text_ + material + "    no_shadow\n}\n"; }
@@ -45,15 +66,73 @@ class Statement {
     std::string text_;
 };
 
-std::string mesh_text(const std::string& comment, Triangles triangles, const std::string& material) {
+/// A texture for each colour that vertices of an object have, declared before its meshes.
+class VertexMaterials {
+  public:
+    VertexMaterials(const ExportedScene& scene, std::size_t object, std::span<const Vec3> colors,
+                    FileSink& files) {
+        for (const Vec3& color : colors) {
+            const auto [found, is_new] = numbers_.try_emplace(key_of(color), names_.size());
+            if (!is_new) continue;
+            names_.push_back(fmt::format("Vertex_{}_{}", object, names_.size()));
+            fmt::format_to(std::back_inserter(declarations_), "#declare {} =\n{}", names_.back(),
+                           material_at_vertex(scene, object, color, files).front);
+        }
+    }
+
+    const std::string& declarations() const { return declarations_; }
+    std::span<const std::string> names() const { return names_; }
+    std::vector<std::size_t> numbers_of(std::span<const Vec3> colors) const {
+        std::vector<std::size_t> numbers;
+        for (const Vec3& color : colors) numbers.push_back(numbers_.at(key_of(color)));
+        return numbers;
+    }
+
+  private:
+    static std::array<float, 3> key_of(const Vec3& color) { return {color.x, color.y, color.z}; }
+
+    std::map<std::array<float, 3>, std::size_t> numbers_;
+    std::vector<std::string> names_;
+    std::string declarations_;
+};
+
+/// `material`: of all of them; with `colors` of vertices, what they leave open.
+std::string mesh_text(const std::string& comment, Triangles triangles, const std::string& material,
+                      const VertexMaterials* colors = nullptr) {
     if (triangles.indices.empty()) return "";
     keep_equal_normals(triangles);
     Statement statement(comment);
     statement.add("vertex_vectors", triangles.positions);
     if (!triangles.normals.empty()) statement.add("normal_vectors", triangles.normals);
-    statement.add("face_indices", triangles.indices);
+    if (!triangles.uv.empty()) statement.add("uv_vectors", triangles.uv);
+    if (colors != nullptr) {
+        statement.add("texture_list", colors->names());
+        statement.add("face_indices", triangles.indices, colors->numbers_of(triangles.colors));
+    } else {
+        statement.add("face_indices", triangles.indices);
+    }
     if (!triangles.normal_indices.empty()) statement.add("normal_indices", triangles.normal_indices);
     return statement.ended_with(material);
+}
+
+Vec3 mean_of(std::span<const Vec3> colors) {
+    Vec3 sum{};
+    for (const Vec3& color : colors) sum = sum + color;
+    return 1 / static_cast<float>(colors.size()) * sum;
+}
+
+/// A mesh with colours at its vertices.
+std::string colored_mesh_text(const ExportedScene& scene, std::size_t object, const std::string& name,
+                              Triangles triangles, FileSink& files) {
+    const VertexMaterials colors(scene, object, triangles.colors, files);
+    Triangles outline;
+    if (!triangles.normals.empty()) outline = split_off_outline(triangles, scene.observer);
+    std::string text = colors.declarations() + mesh_text(name, std::move(triangles), "", &colors);
+    if (outline.indices.empty()) return text;
+    files.approximate("near the outline of an object, the colours at its vertices may be their mean");
+    const Material mean = material_at_vertex(scene, object, mean_of(outline.colors), files);
+    return text + mesh_text(name + ", its triangles at the outline, as the observer sees them",
+                            std::move(outline), mean.front + mean.turned, &colors);
 }
 
 }  // namespace
@@ -65,14 +144,20 @@ std::string mesh_text(const ExportedScene& scene, std::size_t index, FileSink& f
     const ExportedMesh mesh = scene.geometry->in_world_space(index);
     const std::string name =
         fmt::format("{}: {}", target::tame(object.label), target::tame(object.shape.plugin->name));
-    if (shading.rate == ShadingRate::face)
-        return mesh_text(name, triangles_of(mesh, {}), material_text(scene, object, false, files));
-    Triangles triangles = triangles_of(mesh, mesh.normals[mesh.normals_of[object.shading]]);
-    const std::string turning = material_text(scene, object, true, files);
-    if (mesh.closed) return mesh_text(name, std::move(triangles), turning);
-    const Triangles outline = split_off_outline(triangles, scene.observer);
-    return mesh_text(name, std::move(triangles), material_text(scene, object, false, files)) +
-           mesh_text(name + ", its triangles at the outline, as the observer sees them", outline, turning);
+    const bool is_textured = object.color_texture != ExportedObject::k_no_texture;
+    if (is_textured && mesh.color)
+        files.approximate("the colours at the vertices of objects with a texture are left out");
+    const bool has_faces = shading.rate == ShadingRate::face;
+    Triangles triangles = triangles_of(
+        mesh, has_faces ? ConstVec3Span{} : mesh.normals[mesh.normals_of[object.shading]], is_textured);
+    if (!triangles.colors.empty()) return colored_mesh_text(scene, index, name, std::move(triangles), files);
+    const Material material = material_of(scene, index, files);
+    if (has_faces) return mesh_text(name, std::move(triangles), material.front);
+    if (mesh.closed) return mesh_text(name, std::move(triangles), material.front + material.turned);
+    Triangles outline = split_off_outline(triangles, scene.observer);
+    return mesh_text(name, std::move(triangles), material.front) +
+           mesh_text(name + ", its triangles at the outline, as the observer sees them", std::move(outline),
+                     material.front + material.turned);
 }
 
 }  // namespace candela::povray_target

@@ -19,6 +19,7 @@
 #include "candela/target_plugin.h"
 #include "lights.h"
 #include "meshes.h"
+#include "pigment.h"
 #include "text.h"
 
 CANDELA_EMBED(candela_povray_scene, CANDELA_SOURCE_DIR "/templates/scene.pov");
@@ -47,13 +48,12 @@ std::string camera_text(const ExportedScene& scene) {
 }
 
 std::string scene_text(const ExportedScene& scene, FileSink& files) {
-    const bool is_srgb = scene.image.color_management == ColorEncoding::srgb;
     const auto color = decoded(scene.image.background, scene.image.color_management);
     std::string meshes;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) meshes += mesh_text(scene, i, files);
     return target::filled(candela_povray_scene, {{"TITLE", target::tame(scene.title)},
                                                  {"VERSION", CANDELA_PLUGIN_VERSION},
-                                                 {"GAMMA", is_srgb ? "1" : "srgb"},
+                                                 {"GAMMA", gamma_text(scene)},
                                                  {"AMBIENT", rgb_text(ambient_of(scene))},
                                                  {"BACKGROUND", rgb_text({color.r, color.g, color.b})},
                                                  {"CAMERA", camera_text(scene)},
@@ -85,7 +85,7 @@ class PovRayTarget final : public Target {
     explicit PovRayTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.models_without_kernel = true, .triangle = true};
+        return {.models_without_kernel = true, .triangle = true, .vertex_colors = true, .textures = true};
     }
     const char* main_file() const noexcept override { return "scene.pov"; }
     bool can_draw() const noexcept override { return true; }
@@ -102,12 +102,16 @@ class PovRayTarget final : public Target {
                 "apt-get install povray");
         const fs::path from = directory;
         const target::TemporaryFolder folder("candela-povray", permitted_folder());
-        for (const char* const name : {main_file(), "scene.ini"})
-            fs::copy_file(from / name, folder.path() / name);
+        for (const fs::directory_entry& file : fs::directory_iterator(from)) {
+            const fs::path name = file.path().filename();
+            if (name == main_file() || name == "scene.ini" || name.extension() == ".ppm")
+                fs::copy_file(file.path(), folder.path() / name);
+        }
         const std::string at = folder.path().string();
-        target::run(programs,
-                    {"povray", at + "/scene.ini", "+I" + at + "/scene.pov", "+O" + at + "/picture.png"},
-                    "POV-Ray does not draw the scene");
+        target::run(
+            programs,
+            {"povray", at + "/scene.ini", "+I" + at + "/scene.pov", "+L" + at, "+O" + at + "/picture.png"},
+            "POV-Ray does not draw the scene");
         std::ifstream drawn(folder.path() / "picture.png", std::ios::binary);
         target::write_whole(picture, std::string(std::istreambuf_iterator<char>(drawn), {}));
     }

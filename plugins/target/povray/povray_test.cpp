@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -75,9 +76,12 @@ color = [255, 255, 255]
 }
 
 /// What `candela verify` says of a scene, with a tolerance of one level.
-CommandResult verify(const fs::path& folder, const std::string& scene) {
+CommandResult verify(const fs::path& folder, const std::string& scene,
+                     const std::vector<std::string>& more = {}) {
     const fs::path file = write_file(folder / "scene.toml", scene);
-    return run_candela({"verify", file.string(), "--target", "povray", "--tolerance", "1"});
+    std::vector<std::string> words{"verify", file.string(), "--target", "povray", "--tolerance", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_candela(words);
 }
 
 }  // namespace
@@ -195,6 +199,80 @@ intensity = 9
 type = "mesh"
 file = "leaning.obj"
 )");
+    INFO(result.out);
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+}
+
+TEST_CASE(
+    "target/povray: colours at vertices are those that Candela renders, also through a tinted highlight") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "colors.obj",
+               "v -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\nv 1 1 0 0 0 1\nv -1 1 0 1 1 0.5\nvn 0 0 1\n"
+               "f 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
+    for (const std::string& highlight : {std::string("0.3"), std::string("[0.3, 0.2, 0.1]")}) {
+        const CommandResult result =
+            verify(folder, k_head + R"(observer = {position = [0.3, 0.2, 3], look_at = [0, 0, 0]}
+image = {width = 120, height = 90}
+reflection = {model = "phong"}
+[[light]]
+type = "point"
+position = [1, 1, 3]
+intensity = 9
+[[object]]
+type = "mesh"
+file = "colors.obj"
+color = [250, 200, 220]
+[object.material]
+kd = 0.7
+ks = )" + highlight);
+        INFO(result.out);
+        INFO(result.err);
+        CHECK(result.exit_code == 0);
+    }
+}
+
+TEST_CASE(
+    "target/povray: a texture is only approximate, and where a texel is larger than a pixel, it is right") {
+    const fs::path folder = scratch_directory();
+    std::string texels = "P6\n8 8\n255\n";
+    for (int i = 0; i < 64; ++i) {
+        texels += static_cast<char>(i % 8 * 36);
+        texels += static_cast<char>(i / 8 * 36);
+        texels += static_cast<char>((i / 2 + i / 16) % 2 * 255);
+    }
+    write_file(folder / "texture.ppm", texels);
+    // One material has its color in the pigment, the other below a filter, and both have normals that turn
+    // away.
+    const std::string scene = k_head + R"(observer = {position = [0, 0, 3.4], look_at = [0, 0, 0]}
+image = {width = 240, height = 120, background = [0, 0, 90]}
+reflection = {model = "blinn-phong"}
+[[light]]
+type = "directional"
+direction = [1, -0.5, -0.8]
+[[object]]
+type = "sphere"
+segments = 10
+radius = 0.8
+position = [-1, 0, 0]
+color = [200, 250, 220]
+color_texture = "texture.ppm"
+[[object]]
+type = "sphere"
+segments = 10
+radius = 0.8
+position = [1, 0, 0]
+color_texture = "texture.ppm"
+[object.material]
+kd = [0.5, 0.4, 0.6]
+ks = [0.4, 0.2, 0.1]
+)";
+    const CommandResult refused = generate(folder, scene);
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.err.find("textures are seen bilinear") != std::string::npos);
+    const std::string encoding = GENERATE(as<std::string>(), "srgb", "none");
+    const CommandResult result =
+        verify(folder, scene, {"--approximate", "--set=image.color_management=\"" + encoding + '"'});
     INFO(result.out);
     INFO(result.err);
     CHECK(result.exit_code == 0);

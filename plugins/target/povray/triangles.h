@@ -1,6 +1,7 @@
 // The triangles of an object, as POV-Ray takes them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,13 +12,15 @@ namespace candela::povray_target {
 /// Three indices a triangle, counter-clockwise seen from outside.
 struct Triangles {
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;  // empty: those of the faces
+    std::vector<Vec3> normals;             // empty: those of the faces
+    std::vector<std::array<float, 2>> uv;  // empty where no texture is seen
+    std::vector<Vec3> colors;              // empty where the mesh has none
     std::vector<std::uint32_t> indices;
     std::vector<std::uint32_t> normal_indices;  // empty: the same
 };
 
 /// `normal`: of the vertices; null for those of the faces.
-Triangles triangles_of(const ExportedMesh& mesh, ConstVec3Span normal);
+Triangles triangles_of(const ExportedMesh& mesh, ConstVec3Span normal, bool is_textured);
 
 /// POV-Ray shows a triangle whose normals are equal as a flat one. Where they are not the face's, one of them
 /// is turned by so little that it does not show.

@@ -1,0 +1,54 @@
+#include "pigment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "candela/color.h"
+#include "candela/target/files.h"
+#include "candela/target/renderers.h"
+#include "text.h"
+
+namespace candela::povray_target {
+
+namespace {
+
+/// A portable pixmap of 16 bits a channel.
+std::string picture_of(const ExportedTextureLevel& level, Vec3 color) {
+    std::string file = fmt::format("P6\n{} {}\n65535\n", level.width, level.height);
+    file.reserve(file.size() + level.texels.size() / 4 * 6);
+    const float factors[] = {color.x, color.y, color.z};
+    for (std::size_t i = 0; i < level.texels.size(); ++i) {
+        if (i % 4 == 3) continue;
+        const auto value =
+            static_cast<std::uint16_t>(std::lround(factors[i % 4] * static_cast<float>(level.texels[i])));
+        file += static_cast<char>(value >> 8);
+        file += static_cast<char>(value & 255);
+    }
+    return file;
+}
+
+}  // namespace
+
+const char* gamma_text(const ExportedScene& scene) {
+    return scene.image.color_management == ColorEncoding::srgb ? "1" : "srgb";
+}
+
+Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, const char* suffix,
+                   FileSink& files) {
+    const ExportedObject& of = scene.objects[object];
+    const float factor = std::max({color.x, color.y, color.z});
+    if (of.color_texture == ExportedObject::k_no_texture || factor <= 0) return {rgb_text(color), 1};
+    files.approximate("textures are seen bilinear, without the mean of what a pixel covers");
+    if (!of.color_texture_repeats) files.approximate("textures that go on beyond their edges are repeated");
+    const std::string name = fmt::format("texture_{}{}.ppm", object, suffix);
+    const ExportedTextureLevel& picture = scene.textures[of.color_texture].levels.front();
+    target::write(files, name.c_str(), picture_of(picture, 1 / factor * color));
+    return {
+        fmt::format("uv_mapping image_map {{ ppm \"{}\" gamma {} interpolate 2 }}", name, gamma_text(scene)),
+        factor};
+}
+
+}  // namespace candela::povray_target

@@ -1,0 +1,25 @@
+// Colours of surfaces in POV-Ray's scene language.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "candela/target.h"
+
+namespace candela::povray_target {
+
+/// A pigment, of which `factor` times is meant: pictures have no intensities above 1.
+struct Pigment {
+    std::string text;
+    float factor = 1;
+};
+
+/// Of one colour; where the object has a texture, of its picture multiplied with that colour, which is
+/// written to a file whose name ends in `suffix`.
+Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, const char* suffix,
+                   FileSink& files);
+
+/// What POV-Ray calls the transfer function of the scene's intensities.
+const char* gamma_text(const ExportedScene& scene);
+
+}  // namespace candela::povray_target
