@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <csignal>
 #include <ctime>
-#include <random>
 #include <thread>
 #include <vector>
 
@@ -20,13 +19,15 @@ constexpr long k_shortest_work = 20'000, k_longest_work = 180'000, k_pause = 50'
 /// Of this thread; null while it is not to be interrupted.
 thread_local timer_t* volatile timer_of_this_thread = nullptr;
 
-thread_local std::minstd_rand chance;
+thread_local long interruption_count = 0;
 
 /// Once: a signal that already waits when the thread gets its turn again would stop it before it has done
 /// anything. After a time that varies: calls that take equally long would always be stopped at the same
 /// place.
 void interrupt_later(timer_t timer) {
-    const long work = k_shortest_work + static_cast<long>(chance() % (k_longest_work - k_shortest_work));
+    constexpr long k_range = k_longest_work - k_shortest_work;
+    constexpr long k_step = 618 * k_range / 1000;  // the golden section spreads them evenly
+    const long work = k_shortest_work + ++interruption_count * k_step % k_range;
     const itimerspec once{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = work}};
     ::timer_settime(timer, 0, &once, nullptr);
 }
