@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <ios>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -59,8 +60,13 @@ std::vector<std::string> processes_with(const std::string& library) {
     for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
         const std::string name = entry.path().filename().string();
         if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        // Of others' processes nothing is read, and of those that have just ended.
-        if (read_file(entry.path() / "maps").find("/" + library) != std::string::npos) found.push_back(name);
+        // Of others' processes nothing is read, nor of those that have ended, be it since the file was
+        // opened.
+        try {
+            if (read_file(entry.path() / "maps").find("/" + library) != std::string::npos)
+                found.push_back(name);
+        } catch (const std::ios_base::failure&) {
+        }
     }
     return found;
 }
