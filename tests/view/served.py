@@ -80,6 +80,11 @@ class View:
         self.log.close()
         return code
 
+    def left_behind(self):
+        """Temporary files. ThreadSanitizer makes one as a process starts, and removes it at once unless the process is killed in
+        between."""
+        return [file for file in self.temporary.iterdir() if not file.name.startswith("tsan.rodata.")]
+
     def connect(self):
         return socket.create_connection(("127.0.0.1", self.port), timeout=LONGEST)
 

@@ -37,8 +37,7 @@ class ServerTest(unittest.TestCase):
     def check_end(self):
         if self.view.process.poll() is None:
             self.assertEqual(self.view.end(), 0)
-        # ThreadSanitizer makes a file as a process starts, and removes it at once unless the process is killed in between.
-        self.assertEqual([left for left in self.view.temporary.iterdir() if not left.name.startswith("tsan.rodata.")], [])
+        self.assertEqual(self.view.left_behind(), [])
 
     def test_it_listens_on_this_machine_alone_and_asks_nobody(self):
         self.explained("pixel=1%2C2")
@@ -365,7 +364,7 @@ class Ending(unittest.TestCase):
                 view.save(i)
             time.sleep(chance.random() * 0.08)
             self.assertEqual(view.end(number), 0)
-            self.assertEqual(list(view.temporary.iterdir()), [])
+            self.assertEqual(view.left_behind(), [])
 
     def test_asked_to_end_again_while_it_ends_it_leaves_nothing_behind_either(self):
         chance = random.Random(5)
@@ -376,7 +375,7 @@ class Ending(unittest.TestCase):
             view.process.send_signal(signal.SIGTERM)
             time.sleep(chance.random() * 0.02)
             self.assertIn(view.end(), (0, -signal.SIGINT))
-            self.assertEqual(list(view.temporary.iterdir()), [])
+            self.assertEqual(view.left_behind(), [])
 
     def test_a_port_that_is_taken_is_an_error(self):
         with socket.create_server(("127.0.0.1", 0)) as taken:

@@ -160,7 +160,7 @@ class Soak:
         time.sleep(self.chance.random() * 0.05)
         code = self.view.end(signal.SIGINT)
         assert code == 0, f"exit code {code}"
-        left = list(self.view.temporary.iterdir())
+        left = self.view.left_behind()
         assert not left, f"left behind: {left}"
         mark = f"TMPDIR={self.view.temporary}".encode()
         for process in filter(str.isdigit, os.listdir("/proc")):
