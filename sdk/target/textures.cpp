@@ -30,13 +30,6 @@ std::vector<int> encoded_bytes(ColorEncoding encoding) {
     return bytes;
 }
 
-std::string ppm_of(const TexturePixels& pixels) {
-    std::string file =
-        fmt::format("P6\n{} {}\n{}\n", pixels.width, pixels.height, pixels.is_encoded ? 255 : 65535);
-    file.append(reinterpret_cast<const char*>(pixels.bytes.data()), pixels.bytes.size());
-    return file;
-}
-
 }  // namespace
 
 TexturePixels pixels_of(const ExportedTexture& texture, ColorEncoding encoding) {
@@ -54,6 +47,13 @@ TexturePixels pixels_of(const ExportedTexture& texture, ColorEncoding encoding) 
             static_cast<std::byte>(pixels.is_encoded ? encoded[texels[i]] : texels[i] & 255));
     }
     return pixels;
+}
+
+std::string ppm_of(const TexturePixels& pixels) {
+    std::string file =
+        fmt::format("P6\n{} {}\n{}\n", pixels.width, pixels.height, pixels.is_encoded ? 255 : 65535);
+    file.append(reinterpret_cast<const char*>(pixels.bytes.data()), pixels.bytes.size());
+    return file;
 }
 
 void write_textures(const ExportedScene& scene, FileSink& files) {

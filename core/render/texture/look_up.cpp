@@ -5,7 +5,6 @@ module;
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -32,7 +31,7 @@ struct Places {
 /// What weights of a point sum to, exactly, so that a picture of one colour has that colour everywhere. With
 /// their sign, products of weights and texels fit into 32 bits, four of them added.
 constexpr int k_weight_bits = 14;
-constexpr float k_whole_weight = 1 << k_weight_bits;
+constexpr int k_whole_weight = 1 << k_weight_bits;
 
 /// `low` for what is no number.
 CANDELA_KERNEL_INLINE float within(float x, float low, float high) {
@@ -100,7 +99,7 @@ CANDELA_KERNEL_INLINE Cell cell_of(std::int32_t width, std::int32_t height, floa
 /// The weight of the finer level of a point, or of the coarser one.
 template <int coarser>
 CANDELA_KERNEL_INLINE std::int32_t weight_of_level(std::int32_t coarser_weight) {
-    return coarser == 0 ? (1 << k_weight_bits) - coarser_weight : coarser_weight;
+    return coarser == 0 ? k_whole_weight - coarser_weight : coarser_weight;
 }
 
 /// Level `coarser` of the two between which points lie, which are the same for all of them. Not for points
@@ -265,7 +264,7 @@ template <bool between_levels, bool is_interior>
 struct MultiplyByHand {
     CANDELA_BATCH_LOOP static void run(LevelTexels<is_interior> finer, LevelTexels<is_interior> coarser,
                                        std::size_t count, Vec3Span color) {
-        constexpr float k_scale = 1.0f / (65535 * k_whole_weight);
+        constexpr float k_scale = 1.0f / (65535.0f * k_whole_weight);
         constexpr std::int32_t k_offset = 32768 << k_weight_bits;
         constexpr std::size_t k_ahead = 32;
         for (std::size_t i = 0; i < count; i += k_group) {

@@ -4,30 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "candela/color.h"
 #include "candela/target/files.h"
-#include "candela/target/renderers.h"
+#include "candela/target/textures.h"
 #include "text.h"
 
 namespace candela::povray_target {
 
 namespace {
 
-/// A portable pixmap of 16 bits a channel.
-std::string picture_of(const ExportedTextureLevel& level, Vec3 color) {
-    std::string file = fmt::format("P6\n{} {}\n65535\n", level.width, level.height);
-    file.reserve(file.size() + level.texels.size() / 4 * 6);
+/// A texture's picture, multiplied with a colour.
+target::TexturePixels picture_of(const ExportedTextureLevel& level, Vec3 color) {
+    target::TexturePixels pixels{
+        .width = level.width, .height = level.height, .is_encoded = false, .bytes = {}};
+    pixels.bytes.reserve(level.texels.size() / 4 * 6);
     const float factors[] = {color.x, color.y, color.z};
     for (std::size_t i = 0; i < level.texels.size(); ++i) {
         if (i % 4 == 3) continue;
-        const auto value =
-            static_cast<std::uint16_t>(std::lround(factors[i % 4] * static_cast<float>(level.texels[i])));
-        file += static_cast<char>(value >> 8);
-        file += static_cast<char>(value & 255);
+        const long value = std::lround(factors[i % 4] * static_cast<float>(level.texels[i]));
+        pixels.bytes.push_back(static_cast<std::byte>(value >> 8));
+        pixels.bytes.push_back(static_cast<std::byte>(value & 255));
     }
-    return file;
+    return pixels;
 }
 
 }  // namespace
@@ -45,7 +44,7 @@ Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, c
     if (!of.color_texture_repeats) files.approximate("textures that go on beyond their edges are repeated");
     const std::string name = fmt::format("texture_{}{}.ppm", object, suffix);
     const ExportedTextureLevel& picture = scene.textures[of.color_texture].levels.front();
-    target::write(files, name.c_str(), picture_of(picture, 1 / factor * color));
+    target::write(files, name.c_str(), target::ppm_of(picture_of(picture, 1 / factor * color)));
     return {
         fmt::format("uv_mapping image_map {{ ppm \"{}\" gamma {} interpolate 2 }}", name, gamma_text(scene)),
         factor};

@@ -22,6 +22,9 @@ struct TexturePixels {
 /// `encoding`: the scene's.
 TexturePixels pixels_of(const ExportedTexture& texture, ColorEncoding encoding);
 
+/// A PPM file (P6) of 8 or of 16 bits.
+std::string ppm_of(const TexturePixels& pixels);
+
 /// Writes the pictures of the scene's textures, as PPM (P6) of 8 or of 16 bits, for programs with
 /// texture_file_source().
 void write_textures(const ExportedScene& scene, FileSink& files);
