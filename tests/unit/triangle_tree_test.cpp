@@ -1,13 +1,23 @@
+#include <atomic>
 #include <catch2/catch_test_macros.hpp>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/plugins.h"
 #include "support/samples.h"
 
 import candela.geometry;
+import candela.parallel;
 
+using candela::RayExit;
 using candela::TriangleTree;
 using candela::Vec3;
 
@@ -23,6 +33,13 @@ TriangleTree tree_of(const candela::Mesh& mesh) {
     return {position, mesh.vertex_count(), mesh.indices};
 }
 
+std::optional<RayExit> exit_of(const TriangleTree& tree, Vec3 origin, Vec3 direction) {
+    std::optional<RayExit> exit;
+    tree.find_exits({&origin.x, &origin.y, &origin.z}, {&direction.x, &direction.y, &direction.z},
+                    {&exit, 1});
+    return exit;
+}
+
 Double3 at(Vec3 origin, Vec3 direction, double distance) {
     return exact(origin) + distance * exact(direction);
 }
@@ -36,7 +53,7 @@ TEST_CASE("a ray within a ball leaves it where the quadratic equation says") {
     for (int i = 0; i < 2000; ++i) {
         const Vec3 origin = 0.57f * random.point(1), direction = random.direction();
         const double b = dot(exact(origin), exact(direction)), c = dot(exact(origin), exact(origin)) - 1;
-        const auto exit = tree.exit_of(origin, direction);
+        const auto exit = exit_of(tree, origin, direction);
         REQUIRE(exit.has_value());
         INFO(text(origin) << " along " << text(direction));
         CHECK(std::abs(static_cast<double>(exit->distance) - (-b + std::sqrt(b * b - c))) < 1e-3);
@@ -59,7 +76,7 @@ TEST_CASE("a ray that enters through a point of the surface leaves elsewhere, an
                           static_cast<float>(random.number(-0.99, 0.99)), 1};
         Vec3 direction = random.direction();
         direction.z = -std::abs(direction.z) - 0.01f;
-        const auto exit = tree.exit_of(origin, direction);
+        const auto exit = exit_of(tree, origin, direction);
         REQUIRE(exit.has_value());
         // Of three pairs of planes, the nearest one ahead.
         const auto ahead = [](float p, float d) {
@@ -76,7 +93,7 @@ TEST_CASE("a ray along the edges and diagonals of a cube's faces does not slip b
     const TriangleTree tree = tree_of(cube);
     for (const Vec3 direction : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{1, 1, 0}, Vec3{1, 1, 1},
                                  Vec3{-1, 1, -1}, Vec3{0, -1, -1}}) {
-        const auto exit = tree.exit_of({0, 0, 0}, direction);
+        const auto exit = exit_of(tree, {0, 0, 0}, direction);
         REQUIRE(exit.has_value());
         CHECK(exit->distance == 1);
     }
@@ -85,7 +102,7 @@ TEST_CASE("a ray along the edges and diagonals of a cube's faces does not slip b
 TEST_CASE("in a torus the way ends at the nearest wall, not at the far side of the hole") {
     const candela::Mesh ring =
         shape("torus", {{"major_radius", 1.0}, {"minor_radius", 0.25}, {"segments", std::int64_t{128}}});
-    const auto exit = tree_of(ring).exit_of({1, 0, 0}, {-1, 0, 0});
+    const auto exit = exit_of(tree_of(ring), {1, 0, 0}, {-1, 0, 0});
     REQUIRE(exit.has_value());
     CHECK(agree(static_cast<double>(exit->distance), 0.25, 2e-3));
 }
@@ -94,8 +111,81 @@ TEST_CASE("where a surface is open, or there is none, a ray does not leave") {
     const std::vector<float> x = {0, 1, 0}, y = {0, 0, 1}, z = {0, 0, 0};
     const std::vector<std::uint32_t> indices = {0, 1, 2};
     const TriangleTree one({x.data(), y.data(), z.data()}, 3, indices);
-    CHECK(one.exit_of({0.2f, 0.2f, -1}, {0, 0, 1}).has_value());
-    CHECK_FALSE(one.exit_of({0.2f, 0.2f, 1}, {0, 0, -1}).has_value());  // it comes in there
-    CHECK_FALSE(one.exit_of({0.9f, 0.9f, -1}, {0, 0, 1}).has_value());
-    CHECK_FALSE(TriangleTree({}, 0, {}).exit_of({0, 0, 0}, {1, 0, 0}).has_value());
+    CHECK(exit_of(one, {0.2f, 0.2f, -1}, {0, 0, 1}).has_value());
+    CHECK_FALSE(exit_of(one, {0.2f, 0.2f, 1}, {0, 0, -1}).has_value());  // it comes in there
+    CHECK_FALSE(exit_of(one, {0.9f, 0.9f, -1}, {0, 0, 1}).has_value());
+    CHECK_FALSE(exit_of(TriangleTree({}, 0, {}), {0, 0, 0}, {1, 0, 0}).has_value());
+}
+
+TEST_CASE("a ray leaves at the same place whatever other rays are asked for with it") {
+    // Towards corners and along diagonals, where several triangles are equally near, and anywhere.
+    for (const char* const name : {"cube", "sphere", "torus"}) {
+        const candela::Mesh mesh = shape(name, {});
+        const TriangleTree tree = tree_of(mesh);
+        const candela::ConstVec3Span vertices = mesh.position.span();
+        Random random(14);
+        constexpr std::size_t k_count = 1000;
+        candela::Vec3Arrays origin, direction;
+        origin.resize(k_count);
+        direction.resize(k_count);
+        for (std::size_t i = 0; i < k_count; ++i) {
+            const auto vertex = [&] {
+                return vertices[static_cast<std::size_t>(
+                    random.number(0, static_cast<double>(mesh.vertex_count()) - 0.5))];
+            };
+            const Vec3 from = i % 3 == 0 ? 0.2f * random.point(1) : i % 3 == 1 ? vertex() : Vec3{};
+            const Vec3 to = i % 2 == 0 ? vertex() : 0.5f * (vertex() + vertex());
+            origin.span().set(i, from);
+            direction.span().set(
+                i, i % 5 == 0 || length(to - from) == 0 ? random.direction() : normalized(to - from));
+        }
+        const candela::ConstVec3Span origins = std::as_const(origin).span(),
+                                     directions = std::as_const(direction).span();
+        std::vector<std::optional<RayExit>> together(k_count);
+        tree.find_exits(origins, directions, together);
+        std::size_t exits = 0;
+        for (std::size_t i = 0; i < k_count; ++i) {
+            const std::optional<RayExit> alone = exit_of(tree, origins[i], directions[i]);
+            INFO(name << ": " << text(origins[i]) << " along " << text(directions[i]));
+            REQUIRE(alone.has_value() == together[i].has_value());
+            if (!alone) continue;
+            ++exits;
+            CHECK(alone->triangle == together[i]->triangle);
+            CHECK(alone->distance == together[i]->distance);
+        }
+        CHECK(exits > k_count / 4);
+    }
+}
+
+TEST_CASE("a ray of a faulty plugin has no exit, and the rays beside it keep theirs") {
+    const candela::Mesh cube = shape("cube", {{"size", 2.0}});
+    const TriangleTree tree = tree_of(cube);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<float> zero(16, 0.0f);
+    std::vector<float> x(16, 1.0f);
+    x[3] = nan;
+    x[7] = std::numeric_limits<float>::infinity();
+    std::vector<std::optional<RayExit>> exits(16);
+    tree.find_exits({zero.data(), zero.data(), zero.data()}, {x.data(), zero.data(), zero.data()}, exits);
+    for (std::size_t i = 0; i < 16; ++i) {
+        CHECK(exits[i].has_value() == std::isfinite(x[i]));
+        if (exits[i]) CHECK(exits[i]->distance == 1);
+    }
+}
+
+TEST_CASE("once rays have been followed, other work is still done by several threads") {
+    const TriangleTree tree = tree_of(shape("cube", {}));
+    std::atomic<int> present = 0;
+    bool have_met = true;
+    std::mutex mutex;
+    candela::with_threads(2, [&] {
+        candela::parallel_for(2, 1, [&](std::size_t, std::size_t) {
+            ++present;
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+            while (present < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+            const std::scoped_lock lock(mutex);
+            have_met = have_met && present == 2;
+        });
+    });
+    CHECK(have_met);
 }

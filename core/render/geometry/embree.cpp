@@ -3,8 +3,11 @@ module;
 #include "internal/embree_headers.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
 
+#include <array>
 #include <boost/dll/shared_library.hpp>
+#include <mutex>
 #include <new>
 #include <system_error>
 
@@ -38,9 +41,43 @@ boost::dll::shared_library loaded() {
 
 }  // namespace
 
-// Trees are built by one thread, so that they are the same ones however many there are.
-Embree::Embree() : library(loaded()), device(new_device("threads=1,set_affinity=0")) {
+// No number of threads: Embree would impose it on all of the process, since both use oneTBB
+// (https://github.com/RenderKit/embree/issues/507).
+Embree::Embree() : library(loaded()), device(new_device("set_affinity=0")) {
     if (device == nullptr) throw std::bad_alloc();
+}
+
+void Embree::commit(RTCScene scene) const {
+    // Neither is destroyed: threads may still be working while the process exits.
+    static auto& mutex = *new std::mutex;
+    static auto& alone = *new tbb::task_arena(1);
+    // Of two threads in an arena for one, oneTBB would let the one work for the other.
+    const std::scoped_lock lock(mutex);
+    alone.execute([&] { join_commit_scene(scene); });
+}
+
+void Embree::trace(RTCScene scene, RTCRayHit& ray) const {
+#if RTC_VERSION_MAJOR >= 4
+    intersect1(scene, &ray, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    intersect1(scene, &context, &ray);
+#endif
+}
+
+void Embree::trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCRayHit16& rays) const {
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    intersect16(is_valid.data(), scene, &rays, &arguments);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    intersect16(is_valid.data(), scene, &context, &rays);
+#endif
 }
 
 const Embree& Embree::instance() {

@@ -30,9 +30,11 @@ class CANDELA_API TriangleTree {
     TriangleTree& operator=(TriangleTree&&) noexcept;
     ~TriangleTree();
 
-    /// The nearest triangle that the ray passes from its inside to its outside. A triangle that it starts on,
-    /// going in, does not count. Nothing if the surface is open there.
-    std::optional<RayExit> exit_of(Vec3 origin, Vec3 direction) const;
+    /// For each ray, the nearest triangle that it passes from its inside to its outside. A triangle that it
+    /// starts on, going in, does not count. Nothing if the surface is open there. A ray's exit does not
+    /// depend on the others; rays that stay close to each other are fast.
+    void find_exits(const ConstVec3Span& origin, const ConstVec3Span& direction,
+                    std::span<std::optional<RayExit>> exits) const;
 
   private:
     struct Tree;

@@ -1,5 +1,6 @@
 module;
 
+#include "candela/multiversion.h"
 #include "internal/embree_headers.h"
 
 #include <Eigen/Geometry>
@@ -28,15 +29,26 @@ Vector3d vector(Vec3 v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
 double triple_product(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return a.dot(b.cross(c)); }
 
-/// Lets a ray pass where it enters: where it comes against the triangle's normal, or the triangle has none.
+/// Lets rays pass where they enter: where they come against the triangle's normal, or it has none.
 void ignore_entries(const RTCFilterFunctionNArguments* hits) {
+    const unsigned count = hits->N;
     RTCRayN* const ray = hits->ray;
     RTCHitN* const hit = hits->hit;
-    const float cosine = RTCRayN_dir_x(ray, 1, 0) * RTCHitN_Ng_x(hit, 1, 0) +
-                         RTCRayN_dir_y(ray, 1, 0) * RTCHitN_Ng_y(hit, 1, 0) +
-                         RTCRayN_dir_z(ray, 1, 0) * RTCHitN_Ng_z(hit, 1, 0);
-    if (!(cosine > 0)) hits->valid[0] = 0;
+    int* const valid = hits->valid;
+    CANDELA_VECTORIZE
+    for (unsigned i = 0; i < count; ++i) {
+        const float cosine = RTCRayN_dir_x(ray, count, i) * RTCHitN_Ng_x(hit, count, i) +
+                             RTCRayN_dir_y(ray, count, i) * RTCHitN_Ng_y(hit, count, i) +
+                             RTCRayN_dir_z(ray, count, i) * RTCHitN_Ng_z(hit, count, i);
+        valid[i] = cosine > 0 ? valid[i] : 0;
+    }
 }
+
+/// Where a ray meets two triangles at their common edge, Embree's answer depends on the packet's other rays.
+/// This close to an edge, in barycentric coordinates, a ray is traced on its own.
+constexpr float k_near_edge = 1e-4f;
+
+constexpr std::uint32_t k_none = ~0u;  // instead of a triangle
 
 }  // namespace
 
@@ -57,6 +69,17 @@ struct TriangleTree::Tree {
     Vector3d vertex(std::size_t i) const {
         return {double{position[3 * i]}, double{position[3 * i + 1]}, double{position[3 * i + 2]}};
     }
+    /// From a little before, since a point on the surface may lie beyond it by its rounding.
+    Vector3f start(const Vector3d& point, const Vector3d& towards) const {
+        return (point - rounding * towards).cast<float>();
+    }
+    Vector3d from_middle(Vec3 point) const { return vector(point) - middle; }
+    /// The triangles at which rays that are close to each other leave, or k_none.
+    std::array<std::uint32_t, Embree::k_packet_size> triangles_ahead(std::size_t count,
+                                                                     const ConstVec3Span& origin,
+                                                                     const ConstVec3Span& direction) const;
+    /// The same for one ray.
+    std::uint32_t triangle_ahead(const Vector3d& point, const Vector3d& towards) const;
     /// In double, from a point relative to the middle.
     std::optional<RayExit> exit_through(std::uint32_t triangle, const Vector3d& point,
                                         const Vector3d& towards) const;
@@ -91,7 +114,7 @@ TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
         embree.commit_geometry(geometry);
         embree.attach_geometry(t.scene, geometry);
         embree.set_scene_flags(t.scene, RTC_SCENE_FLAG_ROBUST);  // nothing slips between triangles
-        embree.commit_scene(t.scene);
+        embree.commit(t.scene);
     }
     embree.release_geometry(geometry);
     if (embree.get_device_error(embree.device) != RTC_ERROR_NONE) throw std::bad_alloc();
@@ -101,39 +124,78 @@ TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
 TriangleTree::~TriangleTree() = default;
 
-std::optional<RayExit> TriangleTree::exit_of(Vec3 origin, Vec3 direction) const {
-    if (tree_ == nullptr) return std::nullopt;
+void TriangleTree::find_exits(const ConstVec3Span& origin, const ConstVec3Span& direction,
+                              std::span<std::optional<RayExit>> exits) const {
+    std::ranges::fill(exits, std::nullopt);
+    if (tree_ == nullptr) return;
     const Tree& t = *tree_;
-    const Vector3d point = vector(origin) - t.middle, towards = vector(direction);
-    // From a little before, since a point on the surface may lie beyond it by its rounding.
-    const Vector3f from = (point - t.rounding * towards).cast<float>();
-    RTCRayHit ray;
+    for (std::size_t first = 0; first < exits.size(); first += Embree::k_packet_size) {
+        const std::size_t count = std::min(Embree::k_packet_size, exits.size() - first);
+        const auto triangles = t.triangles_ahead(count, origin.from(first), direction.from(first));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (triangles[i] == k_none) continue;
+            const Vector3d point = t.from_middle(origin[first + i]), towards = vector(direction[first + i]);
+            std::optional<RayExit>& exit = exits[first + i];
+            exit = t.exit_through(triangles[i], point, towards);
+            if (!exit ||
+                std::min({exit->barycentric.x, exit->barycentric.y, exit->barycentric.z}) < k_near_edge)
+                exit = t.exit_through(t.triangle_ahead(point, towards), point, towards);
+        }
+    }
+}
+
+auto TriangleTree::Tree::triangles_ahead(std::size_t count, const ConstVec3Span& origin,
+                                         const ConstVec3Span& direction) const
+    -> std::array<std::uint32_t, Embree::k_packet_size> {
+    alignas(64) std::array<int, Embree::k_packet_size> is_valid{};
+    RTCRayHit16 rays{};
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vector3f from = start(from_middle(origin[i]), vector(direction[i]));
+        // A faulty plugin's rays would disturb the others.
+        is_valid[i] = from.allFinite() ? -1 : 0;
+        rays.ray.org_x[i] = from.x();
+        rays.ray.org_y[i] = from.y();
+        rays.ray.org_z[i] = from.z();
+        rays.ray.dir_x[i] = direction.x[i];
+        rays.ray.dir_y[i] = direction.y[i];
+        rays.ray.dir_z[i] = direction.z[i];
+        rays.ray.tfar[i] = std::numeric_limits<float>::infinity();
+        rays.ray.mask[i] = ~0u;
+        rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    embree.trace(scene, is_valid, rays);
+    std::array<std::uint32_t, Embree::k_packet_size> triangles;
+    triangles.fill(k_none);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (is_valid[i] != 0 && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
+            triangles[i] = rays.hit.primID[i];
+    }
+    return triangles;
+}
+
+std::uint32_t TriangleTree::Tree::triangle_ahead(const Vector3d& point, const Vector3d& towards) const {
+    const Vector3f from = start(point, towards), direction = towards.cast<float>();
+    RTCRayHit ray{};
     ray.ray = {.org_x = from.x(),
                .org_y = from.y(),
                .org_z = from.z(),
                .tnear = 0,
-               .dir_x = direction.x,
-               .dir_y = direction.y,
-               .dir_z = direction.z,
+               .dir_x = direction.x(),
+               .dir_y = direction.y(),
+               .dir_z = direction.z(),
                .time = 0,
                .tfar = std::numeric_limits<float>::infinity(),
                .mask = ~0u,
                .id = 0,
                .flags = 0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-    t.embree.intersect1(t.scene, &ray, nullptr);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    t.embree.intersect1(t.scene, &context, &ray);
-#endif
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return t.exit_through(ray.hit.primID, point, towards);
+    embree.trace(scene, ray);
+    return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? k_none : ray.hit.primID;
 }
 
 std::optional<RayExit> TriangleTree::Tree::exit_through(std::uint32_t triangle, const Vector3d& point,
                                                         const Vector3d& towards) const {
+    if (triangle == k_none) return std::nullopt;
     const std::uint32_t* const corner = &indices[3 * std::size_t{triangle}];
     const Vector3d a = vertex(corner[0]) - point, b = vertex(corner[1]) - point,
                    c = vertex(corner[2]) - point;

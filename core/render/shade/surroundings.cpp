@@ -31,9 +31,10 @@ void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& ori
                                      const ConstVec3Span& direction, const ExitBatch& exit) {
     triangles_.clear();
     rays_.clear();
+    exits_.assign(count, std::nullopt);
+    if (interior_.tree != nullptr) interior_.tree->find_exits(origin, direction, exits_);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto found =
-            interior_.tree != nullptr ? interior_.tree->exit_of(origin[i], direction[i]) : std::nullopt;
+        const std::optional<RayExit>& found = exits_[i];
         exit.distance[i] = found ? found->distance : -1;
         if (!found) {
             exit.position.set(i, origin[i]);

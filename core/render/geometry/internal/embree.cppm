@@ -3,7 +3,9 @@ module;
 
 #include "embree_headers.h"
 
+#include <array>
 #include <boost/dll/shared_library.hpp>
+#include <cstddef>
 
 module candela.geometry:embree;
 
@@ -20,7 +22,7 @@ struct Embree {
     CANDELA_EMBREE_FUNCTION(new_scene, rtcNewScene);
     CANDELA_EMBREE_FUNCTION(release_scene, rtcReleaseScene);
     CANDELA_EMBREE_FUNCTION(set_scene_flags, rtcSetSceneFlags);
-    CANDELA_EMBREE_FUNCTION(commit_scene, rtcCommitScene);
+    CANDELA_EMBREE_FUNCTION(join_commit_scene, rtcJoinCommitScene);
     CANDELA_EMBREE_FUNCTION(new_geometry, rtcNewGeometry);
     CANDELA_EMBREE_FUNCTION(release_geometry, rtcReleaseGeometry);
     CANDELA_EMBREE_FUNCTION(set_new_geometry_buffer, rtcSetNewGeometryBuffer);
@@ -28,9 +30,20 @@ struct Embree {
     CANDELA_EMBREE_FUNCTION(commit_geometry, rtcCommitGeometry);
     CANDELA_EMBREE_FUNCTION(attach_geometry, rtcAttachGeometry);
     CANDELA_EMBREE_FUNCTION(intersect1, rtcIntersect1);
+    CANDELA_EMBREE_FUNCTION(intersect16, rtcIntersect16);
 #undef CANDELA_EMBREE_FUNCTION
 
     RTCDevice device;
+
+    /// Rays that are traced together.
+    static constexpr std::size_t k_packet_size = 16;
+
+    /// Builds the scene's tree, on this thread alone, so that it is the same one however many there are.
+    void commit(RTCScene scene) const;
+
+    /// Finds the nearest hit of a ray, and those of rays that are close to each other.
+    void trace(RTCScene scene, RTCRayHit& ray) const;
+    void trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCRayHit16& rays) const;
 
     /// Throws an Error that names the library where it cannot be loaded, and std::bad_alloc.
     static const Embree& instance();

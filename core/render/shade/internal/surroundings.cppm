@@ -2,6 +2,7 @@ module;
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 module candela.shade:surroundings;
@@ -10,6 +11,7 @@ import :surface;
 import candela.arrays;
 import candela.environment;
 import candela.fragments;
+import candela.geometry;
 import candela.math;
 import candela.reflection;
 
@@ -42,6 +44,7 @@ class ObjectSurroundings final : public Surroundings {
     Interior interior_;
     SurfacePoints points_;  // where rays left
     Vec3Arrays barycentric_, normal_;
+    std::vector<std::optional<RayExit>> exits_;
     std::vector<std::uint32_t> triangles_, rays_;
 };
 
