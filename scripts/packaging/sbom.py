@@ -60,8 +60,8 @@ def compiled_headers(build):
         if not line.startswith(" "):
             shipped = line.startswith(SHIPPED)
         elif shipped and (path := line.strip()).startswith("/usr/"):
-            headers.add(os.path.realpath(path))
-    return headers
+            headers.add(path)
+    return {os.path.realpath(path) for path in headers}
 
 
 def linked_libraries(build):

@@ -23,7 +23,7 @@ struct Brushed {
 /// The highlight of a sphere turned by `rotation` degrees about the line of sight, which is -z, with the lamp
 /// behind the observer.
 Spread spread(const std::filesystem::path& directory, const Brushed& surface, int rotation = 0) {
-    const Picture picture = render_exr(
+    const Picture picture = render_floats(
         directory,
         fmt::format("[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = "
                     "\"orthographic\"\nheight = 1.2\n"
@@ -87,7 +87,7 @@ TEST_CASE(
                                            "vt 0 0\nvt 0.6 0.8\nvt 1 1\nvt 0.1 0.9\n"
                                            "f 1/1/1 2/2/2 3/3/3\nf 1/1/1 3/3/3 4/4/4\n");
     const auto of = [&](const char* shading, const char* file, const char* roughness_v) {
-        return render_exr(
+        return render_floats(
             directory,
             fmt::format(
                 "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 64\nheight = 64\n"

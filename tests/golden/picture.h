@@ -1,4 +1,4 @@
-// Float pictures, rendered by the command and read back by OpenImageIO.
+// Float pictures, rendered by the command.
 #pragma once
 
 #include <filesystem>
@@ -18,12 +18,10 @@ struct Picture {
     }
 };
 
-Picture read_picture(const std::filesystem::path& file);
-
-/// Writes `scene` (TOML without its version) into `directory`, renders it to an EXR file with the command,
+/// Writes `scene` (TOML without its version) into `directory`, renders it to a PFM file with the command,
 /// reads that.
-Picture render_exr(const std::filesystem::path& directory, const std::string& scene,
-                   const std::vector<std::string>& arguments = {});
+Picture render_floats(const std::filesystem::path& directory, const std::string& scene,
+                      const std::vector<std::string>& arguments = {});
 
 /// The centre of a pixel in an orthographic view along -z from (0, 0, distance), y up, `metres` fitting the
 /// height.

@@ -43,7 +43,7 @@ Picture textured(const std::string& texture, int size, const std::string& more =
     const auto folder = scratch_directory();
     write_file(folder / "square.obj", k_square);
     write_file(folder / "texture.ppm", texture);
-    return render_exr(folder, scene(size, "color_texture = \"texture.ppm\"\n" + more, color_management));
+    return render_floats(folder, scene(size, "color_texture = \"texture.ppm\"\n" + more, color_management));
 }
 
 bool is_about(float value, double expected) { return std::abs(static_cast<double>(value) - expected) < 2e-4; }
@@ -116,7 +116,7 @@ TEST_CASE("golden: in perspective the mip level follows the footprint of the pix
         "v -100 0 100\nv 100 0 100\nv 100 0 -100\nv -100 0 -100\nvt 0 0\nvt 200 0\nvt 200 200\nvt 0 200\n"
         "vn 0 1 0\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n");
     write_file(folder / "texture.ppm", grey_ppm(2, 2, {255, 0, 0, 255}));
-    const Picture picture = render_exr(
+    const Picture picture = render_floats(
         folder,
         "[room]\nwidth = 300\nheight = 300\ndepth = 300\n"
         "[observer]\nposition = [0, 1, 90]\nlook_at = [0, 1, 0]\nfov = 60\n"
