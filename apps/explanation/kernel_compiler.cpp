@@ -1,22 +1,10 @@
 #include "explanation/kernel_compiler.h"
 
-#include <cstdlib>
 #include <sstream>
 
 import candela.registry;
 
 namespace fs = std::filesystem;
-
-std::optional<fs::path> kernel_compiler() {
-    const char* const chosen = std::getenv("CXX");
-    for (const std::string& name :
-         {std::string(chosen == nullptr ? "" : chosen), std::string("clang++-22"), std::string("clang++-19"),
-          std::string("clang++"), std::string("g++"), std::string("c++")}) {
-        if (name.empty()) continue;
-        if (const auto found = candela::program_called(name)) return found;
-    }
-    return std::nullopt;
-}
 
 fs::path kernel_headers() {
     // The last on the search path is <prefix>/lib/candela/plugins.

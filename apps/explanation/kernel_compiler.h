@@ -1,15 +1,11 @@
-// The C++ compiler of this machine, for kernels that are compiled on the spot.
+// Kernels that are compiled on the spot, by cxx_compiler().
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 import candela.process;
-
-/// The one that the environment variable CXX names, or one that is usual; nothing if there is none.
-std::optional<std::filesystem::path> kernel_compiler();
 
 /// The folder of the headers that kernels are compiled with, beside the core's library. They may not be
 /// installed.

@@ -89,7 +89,7 @@ void KernelRunner::prepare() {
 }
 
 bool KernelRunner::compile(const fs::path& folder) {
-    const auto program = kernel_compiler();
+    const auto program = candela::cxx_compiler();
     if (!program) {
         why_not_ = "the steps of the models' kernels are left out: there is no C++ compiler here";
         return false;

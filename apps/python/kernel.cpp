@@ -55,7 +55,7 @@ std::string without(const fs::path& folder, std::string message) {
 /// Compiles <folder>/<name>.cpp, with <folder>/plugin.map for what it exports, to a plugin in that folder,
 /// and writes its manifest.
 void compile_plugin(const std::string& name, const fs::path& folder) {
-    const auto compiler = kernel_compiler();
+    const auto compiler = cxx_compiler();
     if (!compiler)
         throw Error(ErrorCategory::failure,
                     "a kernel needs a C++ compiler, and there is none here (packages g++ or clang)");

@@ -13,9 +13,9 @@
 #include "agreement.h"
 #include "batch.h"
 #include "kernel_program.h"
-#include "programs.h"
 
 import candela.mesh;
+import candela.process;
 import candela.shape;
 
 using candela::PluginKind;
@@ -130,7 +130,7 @@ TEST_CASE("kernel as C++: the text compiles, and gives the numbers that the plug
 TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
           "[reflection][light][shading][shape]") {
     skip_without_kernel();
-    const auto validator = program_called({"glslangValidator"});
+    const auto validator = candela::program_called("glslangValidator");
     if (!validator) SKIP("there is no glslangValidator here");
     const std::filesystem::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
@@ -147,11 +147,11 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
                               << "#define KERNEL\nout vec4 color;\n"
                               << prelude << "\n#line 1\n"
                               << subject().kernel.text << "\nvoid main() { color = vec4(1.0); }\n";
-        const ProgramOutput compiled = output_of(*validator, {shader.string()});
+        const candela::ProgramOutput compiled = candela::run_program({validator->string(), shader.string()});
         if (compiled.exit_code == 0) continue;
         // "ERROR: 0:12: …", after a line with the file's name: "#line" has set the number.
         static const std::regex k_error("ERROR: \\d+:(\\d+):");
-        std::istringstream lines(compiled.text);
+        std::istringstream lines(compiled.out);
         lines.exceptions(
             std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
         std::string errors;
@@ -160,6 +160,6 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
                 errors += "\n" + std::regex_replace(line, k_error, kernel_file_name() + ":$1:");
         }
         FAIL("the kernel's text does not compile as GLSL "
-             << version << ":" << (errors.empty() ? "\n" + compiled.text.substr(0, 400) : errors));
+             << version << ":" << (errors.empty() ? "\n" + compiled.out.substr(0, 400) : errors));
     }
 }

@@ -14,9 +14,8 @@
 #include <string_view>
 #include <vector>
 
-#include "programs.h"
-
 import candela.light;
+import candela.process;
 import candela.reflection;
 import candela.shading;
 import candela.shape;
@@ -252,28 +251,30 @@ KernelProgram::KernelProgram() try : KernelProgram(std::string(subject().kernel.
 }
 
 KernelProgram::KernelProgram(const std::string& text) {
-    const auto compiler = program_called({"clang++-22", "clang++-19", "clang++", "g++"});
+    const auto compiler = candela::cxx_compiler();
     if (!compiler) SKIP("there is no C++ compiler here");
     const fs::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
     const fs::path file = directory_.path() / "kernel.cpp", library = directory_.path() / "kernel.so";
     std::ofstream(file) << source(text);
     // What it needs of the libraries is in this process already.
-    std::vector<std::string> arguments{"-std=c++20", "-O1",   "-fPIC",   "-shared",
-                                       "-nostdlib",  "-Wall", "-Wextra", "-ffp-contract=off"};
+    std::vector<std::string> words{compiler->string(), "-std=c++20", "-O1",   "-fPIC",
+                                   "-shared",          "-nostdlib",  "-Wall", "-Wextra",
+                                   "-ffp-contract=off"};
     // A local variable that is not initialised is NaN then; g++ 11 has no such option.
-    if (compiler->find("clang") != std::string::npos)
-        arguments.emplace_back("-ftrivial-auto-var-init=pattern");
+    if (compiler->filename().string().find("clang") != std::string::npos)
+        words.emplace_back("-ftrivial-auto-var-init=pattern");
     // A loop without an end is to be found, not to be taken for one that ends.
-    arguments.emplace_back("-fno-finite-loops");
-    arguments.insert(arguments.end(), {"-isystem", include.string(), file.string(), "-o", library.string()});
-    const ProgramOutput compiled = output_of(*compiler, arguments);
+    words.emplace_back("-fno-finite-loops");
+    words.insert(words.end(), {"-isystem", include.string(), file.string(), "-o", library.string()});
+    const candela::ProgramOutput compiled = candela::run_program(words);
     if (compiled.exit_code != 0) {
-        const std::string errors = lines_with("error", "", compiled.text);
-        throw KernelRefused(fmt::format("the kernel's text does not compile as C++ ({}):{}", *compiler,
-                                        errors.empty() ? "\n" + compiled.text.substr(0, 400) : errors));
+        const std::string errors = lines_with("error", "", compiled.err);
+        throw KernelRefused(fmt::format("the kernel's text does not compile as C++ ({}):{}",
+                                        compiler->string(),
+                                        errors.empty() ? "\n" + compiled.err.substr(0, 400) : errors));
     }
-    warnings_ = lines_with(": warning: ", kernel_file_name() + ":", compiled.text);
+    warnings_ = lines_with(": warning: ", kernel_file_name() + ":", compiled.err);
     try {
         library_.load(library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const std::exception& problem) {

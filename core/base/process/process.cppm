@@ -36,6 +36,10 @@ struct ProgramOutput {
 /// Where PATH has an executable of that name.
 CANDELA_API std::optional<std::filesystem::path> program_called(const std::string& name);
 
+/// The C++ compiler of this machine: the one that the environment variable CXX names, else the newest
+/// clang++, else the newest g++. Nothing if there is none.
+CANDELA_API std::optional<std::filesystem::path> cxx_compiler();
+
 /// Runs a program, found on PATH where its name has no '/', without input, and waits for it. Throws Error
 /// (failure) where it cannot be started. Any thread.
 CANDELA_API ProgramOutput run_program(const std::vector<std::string>& words);
