@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "arguments.h"
 #include "candela/embed.h"
 #include "candela/target/building.h"
 #include "candela/target/files.h"
@@ -18,6 +19,7 @@
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 #include "candela/target_plugin.h"
+#include "lights.h"
 #include "objects.h"
 #include "textures.h"
 #include "vectors.h"
@@ -36,20 +38,21 @@ namespace {
 class CppWriter {
   public:
     explicit CppWriter(const ExportedScene& scene)
-        : scene_(scene), objects_(scene), textures_(textures_of(scene)) {}
+        : scene_(scene), lights_(lights_of(scene)), objects_(scene), textures_(textures_of(scene)) {}
 
     std::string run() {
         require_different_names(scene_);
         const std::string text = candela_cpp_scene;
-        const std::string glue = lights() + loops() + reflection() + shading() + if_triangles(k_triangle_of) +
-                                 textures_.declarations + textures_.seen + objects_.shapes() +
-                                 objects_.statements() + text;
+        const std::string glue = lights_.constants + lights_.loops + reflection() + shading() +
+                                 if_triangles(k_triangle_of) + textures_.declarations + textures_.seen +
+                                 objects_.shapes() + objects_.statements() + text;
         std::string kernels = model_kernels();
         const std::string library = vectors_for(kernels + textures_.declarations);
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
         const bool has_tables = !scene_.tables.empty() || is_spoken_of("Table", without_comments(kernels));
         const std::string vectors = needed_parts(library, kernels + glue);
         const bool is_srgb = scene_.image.color_management == ColorEncoding::srgb;
+        const ArgumentTexts arguments = arguments_of(scene_);
         const ExportedImage& image = scene_.image;
         const ExportedObserver& observer = scene_.observer;
         const bool is_perspective = observer.projection == Projection::perspective;
@@ -87,14 +90,14 @@ class CppWriter {
                   : fmt::format("const double k_view_height = {};  // metres from top to bottom\n"
                                 "const double k_pixels_per_unit = k_height / k_view_height;",
                                 observer.height)},
-             {"LIGHTS", lights()},
+             {"LIGHTS", lights_.constants},
              {"ENUMS", enums()},
              {"OBJECT_MEMBERS", members()},
              {"SHAPES", objects_.shapes()},
              {"OBJECTS", objects_.statements()},
              {"SHADING", shading()},
              {"REFLECTION", reflection()},
-             {"LIGHT_LOOPS", loops()},
+             {"LIGHT_LOOPS", lights_.loops},
              {"TANGENT", tangent()},
              {"MESH_COLOR", if_colors("    std::vector<vec3> color;          // per vertex, which the "
                                       "object's is multiplied with, or "
@@ -113,9 +116,9 @@ class CppWriter {
              {"THIS_TRIANGLE", if_triangles(", triangle_of(o, triangle)")},
              {"NO_TRIANGLE", if_triangles(", {}")},
              {"PICTURE_FILE", std::string(picture_file_source())},
-             {"USAGE", usage()},
-             {"HELP", help()},
-             {"MAIN", main_text()},
+             {"USAGE", arguments.usage},
+             {"HELP", arguments.help},
+             {"MAIN", arguments.main},
              {"DATA", (has_tables ? table_numbers() : "") +
                           (objects_.data().empty() ? ""
                                                    : "\n// ---- 8. The triangles of shapes that have no "
@@ -207,76 +210,12 @@ class CppWriter {
         return fmt::format("{}", fmt::join(positions, ", "));
     }
 
-    std::string lights() const {
-        std::string text;
-        for (std::size_t m = 0; m < scene_.light_models.size(); ++m) {
-            const ExportedModel& model = scene_.light_models[m];
-            const KernelText& kernel = model.plugin->kernel;
-            std::string entries;
-            std::size_t count = 0;
-            for (const ExportedLight& light : scene_.lights) {
-                if (light.model != m) continue;
-                ++count;
-                if (has_parameters(model))
-                    entries +=
-                        fmt::format("    {},  // {}\n", struct_text(model, light.values), tame(light.label));
-            }
-            text += has_parameters(model)
-                        ? fmt::format("const std::vector<{}> k_{}_lights = {{\n{}}};\n\n",
-                                      constants_type(model), kernel.prefix, entries)
-                        : fmt::format("const int k_{}_lights = {};\n\n", kernel.prefix, count);
-        }
-        return text;
-    }
-
-    std::string loops() const {
-        std::string text;
-        for (const ExportedModel& model : scene_.light_models) {
-            const KernelText& kernel = model.plugin->kernel;
-            text += has_parameters(model)
-                        ? fmt::format("    for (const {}& light : k_{}_lights) {{\n", constants_type(model),
-                                      kernel.prefix)
-                        : fmt::format("    for (int n = 0; n < k_{}_lights; ++n) {{\n", kernel.prefix);
-            const std::string add =
-                "const Reflected f = reflected(o, s, i.to_light);\n{0}sum += f.diffuse * i.diffuse + "
-                "f.specular * i.specular;\n";
-            if (has_function(model, "sample_count")) {
-                text += fmt::format(
-                    "        for (int k = 0; k < {}; ++k) {{\n            const Incident i = {};\n           "
-                    " ",
-                    call(model, "sample_count", "light", ""), call(model, "illuminate", "light", "r, k"));
-                text += fmt::format(fmt::runtime(add), "            ") + "        }\n";
-            } else if (has_function(model, "illuminate")) {
-                text += fmt::format("        const Incident i = {};\n        ",
-                                    call(model, "illuminate", "light", "r"));
-                text += fmt::format(fmt::runtime(add), "        ");
-            }
-            if (has_function(model, "illuminate_ambient"))
-                text += fmt::format("        sum += reflected_ambient(o, s) * {};\n",
-                                    call(model, "illuminate_ambient", "light", "r"));
-            text += "    }\n";
-        }
-        return text.empty() ? "    (void)o, (void)s, (void)r;  // there are no lights\n" : text;
-    }
-
     static std::string enum_text(const char* type, const std::vector<std::string>& names) {
         return names.size() < 2 ? "" : fmt::format("enum class {} {{ {} }};\n", type, fmt::join(names, ", "));
     }
-    std::vector<std::string> shading_names() const {
-        std::vector<std::string> names;
-        for (const ExportedShading& model : scene_.shadings) names.push_back(shading_enumerator(model));
-        return names;
-    }
-    std::vector<std::string> reflection_names() const {
-        std::vector<std::string> names;
-        for (const ExportedReflection& model : scene_.reflections)
-            names.push_back(reflection_enumerator(model));
-        return names;
-    }
-
     std::string enums() const {
-        const std::string text =
-            enum_text("Shading", shading_names()) + enum_text("Reflection", reflection_names());
+        const std::string text = enum_text("Shading", shading_enumerators(scene_)) +
+                                 enum_text("Reflection", reflection_enumerators(scene_));
         return text.empty() ? "" : text + "\n";
     }
 
@@ -308,11 +247,11 @@ class CppWriter {
     }
     template <class Line>
     std::string reflection_choice(Line line) const {
-        return choice("Reflection", "reflection", scene_.reflections, reflection_names(), line);
+        return choice("Reflection", "reflection", scene_.reflections, reflection_enumerators(scene_), line);
     }
     template <class Line>
     std::string shading_choice(Line line) const {
-        return choice("Shading", "shading", scene_.shadings, shading_names(), line);
+        return choice("Shading", "shading", scene_.shadings, shading_enumerators(scene_), line);
     }
 
     /// "const Object& o" where the text speaks of it.
@@ -378,84 +317,8 @@ class CppWriter {
                line(&ExportedReflection::needs_uv, "    s.uv = point.uv;\n");
     }
 
-    /// A positional argument of the program that names a model for all objects.
-    template <class Model>
-    struct ModelArgument {
-        const char* member;
-        const char* type;
-        std::vector<std::string> enumerators;
-        std::span<const Model> models;
-
-        bool is_there() const { return models.size() > 1; }
-        std::string names() const {
-            std::vector<std::string> all;
-            for (const Model& model : models) all.emplace_back(model.plugin->name);
-            return fmt::format("{}", fmt::join(all, ", "));
-        }
-        std::string help(const char* placeholder) const {
-            return is_there() ? fmt::format("\n    \"{}: of all objects: {}\\n\"", placeholder, names()) : "";
-        }
-        std::string statements(std::size_t position) const {
-            if (!is_there()) return "";
-            std::string text = fmt::format("        if (words.size() > {}) {{  // the {} of all objects\n",
-                                           position, member);
-            for (std::size_t i = 0; i < models.size(); ++i) {
-                text += fmt::format(
-                    "            {}if (words[{}] == \"{}\")\n                for (scene::Object& o : "
-                    "objects) o.{} = "
-                    "scene::{}::{};\n",
-                    i == 0 ? "" : "else ", position, models[i].plugin->name, member, type, enumerators[i]);
-            }
-            return text +
-                   fmt::format(
-                       "            else\n                throw std::runtime_error(\"there is no {} model "
-                       "'\" + words[{}] + \"' here (possible: {})\");\n        }}\n",
-                       member, position, names());
-        }
-    };
-    ModelArgument<ExportedShading> shading_argument() const {
-        return {"shading", "Shading", shading_names(), scene_.shadings};
-    }
-    ModelArgument<ExportedReflection> reflection_argument() const {
-        return {"reflection", "Reflection", reflection_names(), scene_.reflections};
-    }
-
-    /// "[PICTURE [REFLECTION]]"
-    std::string usage() const {
-        std::string text = "[PICTURE", end = "]";
-        if (shading_argument().is_there()) text += " [SHADING", end += "]";
-        if (reflection_argument().is_there()) text += " [REFLECTION", end += "]";
-        return text + end;
-    }
-    std::string help() const {
-        return shading_argument().help("SHADING") + reflection_argument().help("REFLECTION");
-    }
-
-    std::string main_text() const {
-        const std::size_t first = 1, second = shading_argument().is_there() ? 2 : 1;
-        const std::size_t most = second + (reflection_argument().is_there() ? 1 : 0);
-        return fmt::format(
-                   "        const std::vector<std::string> words(argv + 1, argv + argc);\n"
-                   "        if (!words.empty() && (words[0] == \"--help\" || words[0] == \"-h\")) {{\n"
-                   "            std::cout << k_help;\n            return 0;\n        }}\n"
-                   "        for (std::size_t i = 0; i < words.size(); ++i) {{\n"
-                   "            if (i >= {} || words[i].rfind('-', 0) == 0)\n"
-                   "                throw std::runtime_error(\"unknown argument '\" + words[i] + \"'; --help "
-                   "lists "
-                   "them\");\n        }}\n"
-                   "        const std::string path = argc > 1 ? argv[1] : \"scene.png\";\n"
-                   "{}"
-                   "        std::vector<scene::Object> objects = scene::make_objects();\n",
-                   most, scene_.textures.empty() ? "" : "        scene::look_for_textures_at(argv[0]);\n") +
-               shading_argument().statements(first) + reflection_argument().statements(second) +
-               "        for (scene::Object& o : objects) {\n            scene::place(o);\n            "
-               "scene::find_normals(o);\n"
-               "        }\n        scene::write_picture(path, scene::bytes_of(scene::render(objects)), "
-               "scene::k_width, "
-               "scene::k_height);\n";
-    }
-
     const ExportedScene& scene_;
+    LightTexts lights_;
     CppObjects objects_;
     TextureTexts textures_;
 };

@@ -28,6 +28,17 @@ std::string shading_enumerator(const ExportedModel& model) {
     return identifier(model.plugin->name, "shading");
 }
 
+std::vector<std::string> reflection_enumerators(const ExportedScene& scene) {
+    std::vector<std::string> names;
+    for (const ExportedReflection& model : scene.reflections) names.push_back(reflection_enumerator(model));
+    return names;
+}
+std::vector<std::string> shading_enumerators(const ExportedScene& scene) {
+    std::vector<std::string> names;
+    for (const ExportedShading& model : scene.shadings) names.push_back(shading_enumerator(model));
+    return names;
+}
+
 std::string list(float x, float y, float z) {
     return fmt::format("{}, {}, {}", float_text(x), float_text(y), float_text(z));
 }

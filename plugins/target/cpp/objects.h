@@ -16,6 +16,8 @@ std::string shading_member(const ExportedModel& model);
 /// The words for models to choose from.
 std::string reflection_enumerator(const ExportedModel& model);
 std::string shading_enumerator(const ExportedModel& model);
+std::vector<std::string> reflection_enumerators(const ExportedScene& scene);
+std::vector<std::string> shading_enumerators(const ExportedScene& scene);
 
 /// Three numbers, parted by commas.
 std::string list(float x, float y, float z);

@@ -1,0 +1,16 @@
+// Lights of a generated C++ program.
+#pragma once
+
+#include <string>
+
+#include "candela/target.h"
+
+namespace candela::cpp_target {
+
+struct LightTexts {
+    std::string constants;  // before objects: the lights of each model, or their number
+    std::string loops;      // statements that add up what a surface reflects of them
+};
+LightTexts lights_of(const ExportedScene& scene);
+
+}  // namespace candela::cpp_target
