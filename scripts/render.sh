@@ -8,14 +8,25 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/scripts/setup.sh" --build
 log=$root/build/render-build.log
 mkdir -p "$root/build"
+# Passes ninja's lines on to the log, and on a terminal says how far it is.
+follow_build() {
+    local line
+    while IFS= read -r line; do
+        printf '%s\n' "$line"
+        if [ -t 2 ] && [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]]; then
+            printf '\rrender: building, %3d %%' $((100 * BASH_REMATCH[1] / BASH_REMATCH[2])) >&2
+        fi
+    done
+    if [ -t 2 ]; then printf '\r\033[K' >&2; fi
+}
 # Only what rendering needs; what a developer has configured stays as it is.
 configure=()
 if [ ! -f "$root/build/release/build.ninja" ]; then
     configure=(-DCANDELA_TESTS=OFF)
-    echo "render: building, which takes a minute or two (log: $log)" >&2
+    echo "render: building, which takes some four minutes on two cores (log: $log)" >&2
 fi
-if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target candela_runtime; } \
-    >"$log" 2>&1; then
+if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target candela_runtime; } 2>&1 |
+    follow_build >"$log"; then
     tail -n 30 "$log" >&2
     echo "render: the build failed; all of it is in $log" >&2
     exit 1
