@@ -7,8 +7,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "valid_utf8.h"
 
 namespace candela::target {
 
@@ -74,10 +75,7 @@ std::string identifier(std::string_view name, std::string_view suffix) {
 }
 
 std::string html_text(std::string_view text) {
-    // Characters that are no UTF-8 become the replacement character, as in JSON.
-    std::string result = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    result = nlohmann::json::parse(result).get<std::string>();
-    result = replace_all(result, "&", "&amp;");
+    std::string result = replace_all(valid_utf8(text), "&", "&amp;");
     result = replace_all(result, "<", "&lt;");
     result = replace_all(result, ">", "&gt;");
     return replace_all(replace_all(result, "\"", "&quot;"), "'", "&#39;");

@@ -1,10 +1,14 @@
 #include "candela/target/literals.h"
 
+#include <utf8.h>
+
 #include <array>
 #include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "valid_utf8.h"
 
 namespace candela::target {
 
@@ -48,23 +52,6 @@ struct Alphabet {
 };
 constexpr Alphabet k_alphabets[] = {{0xc0, k_latin}, {0x391, k_greek}, {0x410, k_cyrillic}};
 
-/// The character at `at`, which is moved behind it; where the text is no UTF-8, one byte that is no
-/// character.
-char32_t next_character(std::string_view text, std::size_t& at) {
-    const auto byte = [&](std::size_t i) {
-        return static_cast<unsigned char>(i < text.size() ? text[i] : 0);
-    };
-    const unsigned char first = byte(at++);
-    if (first < 0x80) return first;
-    const std::size_t more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
-    char32_t character = first & (0x3fu >> more);
-    for (std::size_t i = 0; i < more; ++i) {
-        if ((byte(at) & 0xc0) != 0x80) return 0;
-        character = character << 6 | (byte(at++) & 0x3fu);
-    }
-    return more == 0 ? 0 : character;
-}
-
 /// In ASCII; '_' for what is neither a letter nor one of a few marks.
 std::string tame_character(char32_t c) {
     const bool is_plain =
@@ -84,9 +71,10 @@ std::string tame(std::string_view name) {
     constexpr std::size_t k_longest = 100;
     const bool is_quoted = name.size() > 2 && name.front() == '\'' && name.back() == '\'';
     if (is_quoted) name = name.substr(1, name.size() - 2);
+    const std::string text = valid_utf8(name);
     std::string result;
-    for (std::size_t at = 0; at < name.size() && result.size() < k_longest;)
-        result += tame_character(next_character(name, at));
+    for (auto at = text.begin(); at != text.end() && result.size() < k_longest;)
+        result += tame_character(utf8::unchecked::next(at));
     return result.substr(0, k_longest);
 }
 

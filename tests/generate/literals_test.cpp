@@ -14,6 +14,8 @@ using candela::target::append_base64;
 using candela::target::base64;
 using candela::target::base64_decoded;
 using candela::target::filled;
+using candela::target::html_text;
+using candela::target::tame;
 
 namespace {
 
@@ -44,4 +46,20 @@ TEST_CASE("a template's places are filled in one pass, and one that nothing fill
     CHECK(filled("a @X@ b\n@Y@\nc", {{"X", "@Y@"}, {"Y", ""}}) == "a @Y@ b\nc");
     CHECK(filled("me@example.org @X", {}) == "me@example.org @X");
     CHECK_THROWS_AS(filled("@X@", {{"Y", "1"}}), std::logic_error);
+}
+
+TEST_CASE(
+    "names are tame in comments: ASCII, one line, without quotes, and short, whatever bytes they have") {
+    CHECK(tame("'Größe'") == "Groesse");
+    CHECK(tame("Ёлка, Φῶς") == "_lka, F_s");
+    CHECK(tame("a\nb*/\\") == "a_b___");
+    CHECK(tame("\xc3") == "_");
+    CHECK(tame("a\xff\xe2\x82z") == "a__z");
+    CHECK(tame(std::string(1000, 'x')).size() == 100);
+}
+
+TEST_CASE("a page's text is UTF-8 without markup, whatever bytes it was made from") {
+    CHECK(html_text("<a href=\"x\">'&'") == "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
+    CHECK(html_text("Größe \xe2\x82\xac \xf0\x9f\x92\xa1") == "Größe \xe2\x82\xac \xf0\x9f\x92\xa1");
+    CHECK(html_text("\xff<\xe2\x82") == "\xef\xbf\xbd&lt;\xef\xbf\xbd");
 }
