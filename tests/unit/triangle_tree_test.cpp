@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -188,4 +190,16 @@ TEST_CASE("once rays have been followed, other work is still done by several thr
         });
     });
     CHECK(have_met);
+}
+
+TEST_CASE("a tree is built by the thread that asks for it, and is thus the same one however many there are") {
+    const auto threads = [] {
+        return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+    };
+    candela::with_threads(1, [&] {
+        const candela::Mesh ball = shape("sphere", {{"segments", std::int64_t{512}}});
+        const auto before = threads();
+        tree_of(ball);
+        CHECK(threads() == before);
+    });
 }

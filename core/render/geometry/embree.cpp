@@ -53,7 +53,7 @@ void Embree::commit(RTCScene scene) const {
     static auto& alone = *new tbb::task_arena(1);
     // Of two threads in an arena for one, oneTBB would let the one work for the other.
     const std::scoped_lock lock(mutex);
-    alone.execute([&] { join_commit_scene(scene); });
+    alone.execute([&] { commit_scene(scene); });
 }
 
 void Embree::trace(RTCScene scene, RTCRayHit& ray) const {

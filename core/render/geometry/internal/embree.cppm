@@ -22,7 +22,7 @@ struct Embree {
     CANDELA_EMBREE_FUNCTION(new_scene, rtcNewScene);
     CANDELA_EMBREE_FUNCTION(release_scene, rtcReleaseScene);
     CANDELA_EMBREE_FUNCTION(set_scene_flags, rtcSetSceneFlags);
-    CANDELA_EMBREE_FUNCTION(join_commit_scene, rtcJoinCommitScene);
+    CANDELA_EMBREE_FUNCTION(commit_scene, rtcCommitScene);
     CANDELA_EMBREE_FUNCTION(new_geometry, rtcNewGeometry);
     CANDELA_EMBREE_FUNCTION(release_geometry, rtcReleaseGeometry);
     CANDELA_EMBREE_FUNCTION(set_new_geometry_buffer, rtcSetNewGeometryBuffer);
