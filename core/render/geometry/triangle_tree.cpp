@@ -48,6 +48,12 @@ void ignore_entries(const RTCFilterFunctionNArguments* hits) {
 /// This close to an edge, in barycentric coordinates, a ray is traced on its own.
 constexpr float k_near_edge = 1e-4f;
 
+/// Whether Embree can compute with it: numbers, of which the squares are numbers, too.
+template <class Vector>
+bool is_sound(const Vector& v) {
+    return (v.array().abs() < 1e18f).all();
+}
+
 constexpr std::uint32_t k_none = ~0u;  // instead of a triangle
 
 }  // namespace
@@ -150,9 +156,11 @@ auto TriangleTree::Tree::triangles_ahead(std::size_t count, const ConstVec3Span&
     alignas(64) std::array<int, Embree::k_packet_size> is_valid{};
     RTCRayHit16 rays{};
     for (std::size_t i = 0; i < count; ++i) {
-        const Vector3f from = start(from_middle(origin[i]), vector(direction[i]));
-        // A faulty plugin's rays would disturb the others.
-        is_valid[i] = from.allFinite() ? -1 : 0;
+        const Vector3d towards = vector(direction[i]);
+        const Vector3f from = start(from_middle(origin[i]), towards);
+        // A faulty plugin's rays would disturb the others, and end the process where Embree has assertions.
+        if (!is_sound(from) || !is_sound(towards)) continue;
+        is_valid[i] = -1;
         rays.ray.org_x[i] = from.x();
         rays.ray.org_y[i] = from.y();
         rays.ray.org_z[i] = from.z();
