@@ -56,16 +56,6 @@ void Embree::commit(RTCScene scene) const {
     alone.execute([&] { commit_scene(scene); });
 }
 
-void Embree::trace(RTCScene scene, RTCRayHit& ray) const {
-#if RTC_VERSION_MAJOR >= 4
-    intersect1(scene, &ray, nullptr);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    intersect1(scene, &context, &ray);
-#endif
-}
-
 void Embree::trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCRayHit16& rays) const {
 #if RTC_VERSION_MAJOR >= 4
     RTCIntersectArguments arguments;

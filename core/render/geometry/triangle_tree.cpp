@@ -84,8 +84,6 @@ struct TriangleTree::Tree {
     std::array<std::uint32_t, Embree::k_packet_size> triangles_ahead(std::size_t count,
                                                                      const ConstVec3Span& origin,
                                                                      const ConstVec3Span& direction) const;
-    /// The same for one ray.
-    std::uint32_t triangle_ahead(const Vector3d& point, const Vector3d& towards) const;
     /// In double, from a point relative to the middle.
     std::optional<RayExit> exit_through(std::uint32_t triangle, const Vector3d& point,
                                         const Vector3d& towards) const;
@@ -145,7 +143,9 @@ void TriangleTree::find_exits(const ConstVec3Span& origin, const ConstVec3Span& 
             exit = t.exit_through(triangles[i], point, towards);
             if (!exit ||
                 std::min({exit->barycentric.x, exit->barycentric.y, exit->barycentric.z}) < k_near_edge)
-                exit = t.exit_through(t.triangle_ahead(point, towards), point, towards);
+                exit =
+                    t.exit_through(t.triangles_ahead(1, origin.from(first + i), direction.from(first + i))[0],
+                                   point, towards);
         }
     }
 }
@@ -179,26 +179,6 @@ auto TriangleTree::Tree::triangles_ahead(std::size_t count, const ConstVec3Span&
             triangles[i] = rays.hit.primID[i];
     }
     return triangles;
-}
-
-std::uint32_t TriangleTree::Tree::triangle_ahead(const Vector3d& point, const Vector3d& towards) const {
-    const Vector3f from = start(point, towards), direction = towards.cast<float>();
-    RTCRayHit ray{};
-    ray.ray = {.org_x = from.x(),
-               .org_y = from.y(),
-               .org_z = from.z(),
-               .tnear = 0,
-               .dir_x = direction.x(),
-               .dir_y = direction.y(),
-               .dir_z = direction.z(),
-               .time = 0,
-               .tfar = std::numeric_limits<float>::infinity(),
-               .mask = ~0u,
-               .id = 0,
-               .flags = 0};
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    embree.trace(scene, ray);
-    return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? k_none : ray.hit.primID;
 }
 
 std::optional<RayExit> TriangleTree::Tree::exit_through(std::uint32_t triangle, const Vector3d& point,

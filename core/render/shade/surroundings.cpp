@@ -31,8 +31,12 @@ void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& ori
                                      const ConstVec3Span& direction, const ExitBatch& exit) {
     triangles_.clear();
     rays_.clear();
-    exits_.assign(count, std::nullopt);
-    if (interior_.tree != nullptr) interior_.tree->find_exits(origin, direction, exits_);
+    exits_.resize(count);
+    if (interior_.tree != nullptr) {
+        interior_.tree->find_exits(origin, direction, exits_);
+    } else {
+        std::ranges::fill(exits_, std::nullopt);
+    }
     for (std::size_t i = 0; i < count; ++i) {
         const std::optional<RayExit>& found = exits_[i];
         exit.distance[i] = found ? found->distance : -1;

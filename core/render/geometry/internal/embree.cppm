@@ -29,7 +29,6 @@ struct Embree {
     CANDELA_EMBREE_FUNCTION(set_geometry_intersect_filter_function, rtcSetGeometryIntersectFilterFunction);
     CANDELA_EMBREE_FUNCTION(commit_geometry, rtcCommitGeometry);
     CANDELA_EMBREE_FUNCTION(attach_geometry, rtcAttachGeometry);
-    CANDELA_EMBREE_FUNCTION(intersect1, rtcIntersect1);
     CANDELA_EMBREE_FUNCTION(intersect16, rtcIntersect16);
 #undef CANDELA_EMBREE_FUNCTION
 
@@ -41,8 +40,7 @@ struct Embree {
     /// Builds the scene's tree, on this thread alone, so that it is the same one however many there are.
     void commit(RTCScene scene) const;
 
-    /// Finds the nearest hit of a ray, and those of rays that are close to each other.
-    void trace(RTCScene scene, RTCRayHit& ray) const;
+    /// Finds the nearest hits of rays that are close to each other.
     void trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCRayHit16& rays) const;
 
     /// Throws an Error that names the library where it cannot be loaded, and std::bad_alloc.
