@@ -70,34 +70,68 @@ CANDELA_KERNEL_INLINE SurfaceBatch part_of(const SurfaceBatch& surface, std::siz
     return part;
 }
 
-/// How many points pass through a loop in one go: few enough to stay in the first-level cache.
+/// How many points pass through a loop in one go: few enough to stay in the first-level cache, and enough for
+/// four vectors side by side.
 inline constexpr std::size_t k_pass_size = 64;
 
 struct PassVectors {
     alignas(64) float x[k_pass_size], y[k_pass_size], z[k_pass_size];
+
+    CANDELA_KERNEL_INLINE Vec3Span span() { return {x, y, z}; }
 };
 
-/// A batch, pass by pass, in which each point has a colour: its own, or the one that all of them have.
+/// A batch, pass by pass, in which each point has a colour: its own, or the one that all of them have. The
+/// arrays of every pass have k_pass_size elements: where the batch does not fill its last pass, its last
+/// point does.
 class SurfacePasses {
   public:
     // Not within the loops over points, whose vectorisation is watched.
-    explicit SurfacePasses(const SurfaceBatch& surface) : surface_(surface) {
-        if (surface.point_color) return;
-        const vec3 color = kernel_vector(surface.color);
-        const std::size_t count = surface.count < k_pass_size ? surface.count : k_pass_size;
-        for (std::size_t i = 0; i < count; ++i) store(color_, i, color);
+    explicit SurfacePasses(const SurfaceBatch& surface)
+        : surface_(surface), whole_(surface.count / k_pass_size * k_pass_size) {
+        if (!surface.point_color) {
+            const vec3 color = kernel_vector(surface.color);
+            for (std::size_t i = 0; i < k_pass_size; ++i) store(color_, i, color);
+        }
+        if (whole_ == surface.count) return;
+        rest_ = part_of(surface, whole_, surface.count - whole_);
+        fill(rest_.normal, normal_);
+        fill(rest_.to_observer, to_observer_);
+        fill(rest_.tangent, tangent_);
+        fill(rest_.position, position_);
+        fill(rest_.point_color, color_);
+        if (rest_.uv) {
+            for (std::size_t i = 0; i < k_pass_size; ++i) {
+                u_[i] = rest_.uv.x[source(i)];
+                v_[i] = rest_.uv.y[source(i)];
+            }
+            rest_.uv = {u_, v_};
+        }
     }
+    SurfacePasses(const SurfacePasses&) = delete;
+    SurfacePasses& operator=(const SurfacePasses&) = delete;
+
     CANDELA_KERNEL_INLINE std::size_t count() const { return surface_.count; }
+    /// How many points are in passes that they fill.
+    CANDELA_KERNEL_INLINE std::size_t whole() const { return whole_; }
     CANDELA_KERNEL_INLINE SurfaceBatch from(std::size_t first) const {
-        const std::size_t rest = surface_.count - first;
-        SurfaceBatch pass = part_of(surface_, first, rest < k_pass_size ? rest : k_pass_size);
+        SurfaceBatch pass = first < whole_ ? part_of(surface_, first, k_pass_size) : rest_;
         if (!pass.point_color) pass.point_color = {color_.x, color_.y, color_.z};
         return pass;
     }
 
   private:
+    std::size_t source(std::size_t i) const { return i < rest_.count ? i : rest_.count - 1; }
+    void fill(ConstVec3Span& span, PassVectors& filled) const {
+        if (!span) return;
+        for (std::size_t i = 0; i < k_pass_size; ++i) store(filled, i, load(span, source(i)));
+        span = {filled.x, filled.y, filled.z};
+    }
+
     SurfaceBatch surface_;
-    PassVectors color_;
+    std::size_t whole_;
+    SurfaceBatch rest_;
+    PassVectors normal_, to_observer_, tangent_, position_, color_;
+    float u_[k_pass_size], v_[k_pass_size];
 };
 
 template <class Material, auto reflect, SurfaceReads reads>
@@ -148,14 +182,21 @@ struct PunctualBatch {
     alignas(64) float attenuation[k_pass_size];
 };
 
+/// The positions of a pass as w times themselves: what is infinitely far away looks the same from everywhere.
+CANDELA_KERNEL_INLINE ConstVec3Span seen_from(const ConstVec3Span& position, float w) {
+    alignas(64) static constexpr float k_zero[k_pass_size] = {};
+    return w != 0 ? position : ConstVec3Span{k_zero, k_zero, k_zero};
+}
+
 /// The way to a light, and its attenuation. At the light itself, L is N.
-CANDELA_KERNEL_INLINE void look_at(PunctualLight light, std::size_t count, const ConstVec3Span& position,
+/// `position`: see seen_from().
+CANDELA_KERNEL_INLINE void look_at(PunctualLight light, const ConstVec3Span& position,
                                    const ConstVec3Span& normal, PunctualBatch& batch) {
     const vec3 source = kernel_vector(light.position);
     const bool is_attenuated = light.linear != 0 || light.quadratic != 0;
-    CANDELA_VECTORIZE_CHAIN
-    for (std::size_t i = 0; i < count; ++i) {
-        const vec3 to_source = source - light.w * load(position, i);
+    CANDELA_VECTORIZE_PASS
+    for (std::size_t i = 0; i < k_pass_size; ++i) {
+        const vec3 to_source = source - load(position, i);
         const float square = dot(to_source, to_source);
         const float inverse = kernel::inversesqrt(kernel::max(square, 1.0e-36f));
         store(batch.to_light, i, square > 1.0e-36f ? to_source * inverse : load(normal, i));
@@ -163,7 +204,7 @@ CANDELA_KERNEL_INLINE void look_at(PunctualLight light, std::size_t count, const
     }
     const float constant = 1.0f / light.constant;
     CANDELA_VECTORIZE
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < k_pass_size; ++i) {
         const float r = batch.attenuation[i];
         batch.attenuation[i] =
             is_attenuated ? 1.0f / (light.constant + r * (light.linear + r * light.quadratic)) : constant;
@@ -171,7 +212,7 @@ CANDELA_KERNEL_INLINE void look_at(PunctualLight light, std::size_t count, const
     if (!light.has_cone) return;
     const vec3 axis = kernel_vector(light.axis);
     CANDELA_VECTORIZE
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < k_pass_size; ++i) {
         const float cosine = -dot(load(batch.to_light, i), axis);
         const float t = kernel::clamp((cosine - light.cos_outer) * light.cone_scale, 0.0f, 1.0f);
         batch.attenuation[i] *= light.is_smooth ? t * t * (3.0f - 2.0f * t) : t;
@@ -190,19 +231,18 @@ struct ReflectPunctualLoop {
     CANDELA_KERNEL_INLINE static void add_lights(const Material& material, const SurfaceBatch& surface,
                                                  const PunctualLighting& lighting, Vec3Span intensity) {
         const vec3 ambient = kernel_vector(lighting.ambient), observer = kernel_vector(lighting.observer);
-        const float w = lighting.w;
-        const std::size_t count = surface.count;
+        const ConstVec3Span eye_position = seen_from(surface.position, lighting.w);
         PunctualBatch batch;
         CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            store(batch.to_observer, i, kernel::normalize(observer - w * load(surface.position, i)));
+        for (std::size_t i = 0; i < k_pass_size; ++i) {
+            store(batch.to_observer, i, kernel::normalize(observer - load(eye_position, i)));
             store(intensity, i, call<reflect_ambient>(material, point(surface, batch, i)) * ambient);
         }
         for (const PunctualLight& light : lighting.lights) {
-            look_at(light, count, surface.position, surface.normal, batch);
+            look_at(light, seen_from(surface.position, light.w), surface.normal, batch);
             const vec3 diffuse = kernel_vector(light.diffuse), specular = kernel_vector(light.specular);
-            CANDELA_VECTORIZE_CHAIN
-            for (std::size_t i = 0; i < count; ++i) {
+            CANDELA_VECTORIZE_PASS
+            for (std::size_t i = 0; i < k_pass_size; ++i) {
                 const kernel::Reflected r =
                     call<reflect>(material, point(surface, batch, i), load(batch.to_light, i));
                 add_product(intensity, i, r.diffuse * diffuse + r.specular * specular,
@@ -211,10 +251,12 @@ struct ReflectPunctualLoop {
         }
     }
 
+    /// `rest`: what the last pass reflects, where the batch does not fill it.
     CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes,
-                                       PunctualLighting lighting, Vec3Span intensity) {
+                                       PunctualLighting lighting, Vec3Span intensity, PassVectors* rest) {
         for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
-            add_lights(material, passes->from(first), lighting, intensity.from(first));
+            add_lights(material, passes->from(first), lighting,
+                       first < passes->whole() ? intensity.from(first) : rest->span());
     }
 };
 
@@ -250,8 +292,12 @@ class KernelReflection : public ReflectionModel {
                           const Vec3Span& intensity) const override {
         const SurfacePasses passes(surface);
         const SurfacePasses* const all = &passes;
-        multiversion<ReflectPunctualLoop<Material, reflect_, reflect_ambient_, reads>>(material_, all,
-                                                                                       lighting, intensity);
+        PassVectors rest;
+        PassVectors* const to_rest = &rest;
+        multiversion<ReflectPunctualLoop<Material, reflect_, reflect_ambient_, reads>>(
+            material_, all, lighting, intensity, to_rest);
+        for (std::size_t i = passes.whole(); i < surface.count; ++i)
+            store(intensity, i, load(rest, i - passes.whole()));
         return true;
     }
 
