@@ -64,7 +64,7 @@ struct EncodeLoop {
         for (std::size_t row = 0; row < rows.height; ++row) {
             const ConstVec3Span from = rows.intensity.from(row * rows.stride);
             std::uint8_t* const to = rows.bytes + row * rows.pitch;
-            CANDELA_VECTORIZE
+            CANDELA_VECTORIZE_FOUR
             for (std::size_t i = 0; i < rows.width; ++i) {
                 to[3 * i] = byte_of<srgb>(from.x[i]);
                 to[3 * i + 1] = byte_of<srgb>(from.y[i]);

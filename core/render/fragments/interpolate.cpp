@@ -84,27 +84,35 @@ template <Interpolated what>
 struct RunLoop {
     CANDELA_BATCH_LOOP static void run(TriangleAttributes t, std::size_t count, const float* px,
                                        const float* py, InterpolatedSpans out) {
+        const std::size_t whole = count / 64 * 64;
+        CANDELA_VECTORIZE_FOUR
+        for (std::size_t i = 0; i < whole; ++i) put(t, px, py, out, i);
+        for (std::size_t first = whole; first < count; first += k_lanes) {
+            CANDELA_VECTORIZE_SIXTEEN
+            for (std::size_t lane = 0; lane < k_lanes; ++lane) put(t, px, py, out, first + lane);
+        }
+    }
+
+  private:
+    CANDELA_BATCH_LOOP static void put(const TriangleAttributes& t, const float* px, const float* py,
+                                       const InterpolatedSpans& out, std::size_t i) {
         const ProjectedVertex s0 = t.projected[0], s1 = t.projected[1], s2 = t.projected[2];
         const Vec3 p0 = t.corner[0].position, p1 = t.corner[1].position, p2 = t.corner[2].position;
         const Vec3 n0 = t.corner[0].normal, n1 = t.corner[1].normal, n2 = t.corner[2].normal;
-        const float u0 = t.u[0], u1 = t.u[1], u2 = t.u[2], v0 = t.v[0], v1 = t.v[1], v2 = t.v[2];
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const Fragment f(px[i], py[i], s0.x, s0.y, s0.w, s1.x, s1.y, s1.w, s2.x, s2.y, s2.w);
-            if constexpr (has_faces(what) || what == Interpolated::barycentric) f.store(out, i);
-            if constexpr (what == Interpolated::barycentric) continue;
-            if constexpr (has_uv(what)) f.store_uv(out, i, u0, u1, u2, v0, v1, v2);
-            out.position.x[i] = f.blend(p0.x, p1.x, p2.x);
-            out.position.y[i] = f.blend(p0.y, p1.y, p2.y);
-            out.position.z[i] = f.blend(p0.z, p1.z, p2.z);
-            out.vertex_normal.x[i] = f.blend(n0.x, n1.x, n2.x);
-            out.vertex_normal.y[i] = f.blend(n0.y, n1.y, n2.y);
-            out.vertex_normal.z[i] = f.blend(n0.z, n1.z, n2.z);
-            if constexpr (!has_faces(what)) continue;
-            out.face_normal.x[i] = t.face_normal.x;
-            out.face_normal.y[i] = t.face_normal.y;
-            out.face_normal.z[i] = t.face_normal.z;
-        }
+        const Fragment f(px[i], py[i], s0.x, s0.y, s0.w, s1.x, s1.y, s1.w, s2.x, s2.y, s2.w);
+        if constexpr (has_faces(what) || what == Interpolated::barycentric) f.store(out, i);
+        if constexpr (what == Interpolated::barycentric) return;
+        if constexpr (has_uv(what)) f.store_uv(out, i, t.u[0], t.u[1], t.u[2], t.v[0], t.v[1], t.v[2]);
+        out.position.x[i] = f.blend(p0.x, p1.x, p2.x);
+        out.position.y[i] = f.blend(p0.y, p1.y, p2.y);
+        out.position.z[i] = f.blend(p0.z, p1.z, p2.z);
+        out.vertex_normal.x[i] = f.blend(n0.x, n1.x, n2.x);
+        out.vertex_normal.y[i] = f.blend(n0.y, n1.y, n2.y);
+        out.vertex_normal.z[i] = f.blend(n0.z, n1.z, n2.z);
+        if constexpr (!has_faces(what)) return;
+        out.face_normal.x[i] = t.face_normal.x;
+        out.face_normal.y[i] = t.face_normal.y;
+        out.face_normal.z[i] = t.face_normal.z;
     }
 };
 

@@ -194,7 +194,7 @@ CANDELA_KERNEL_INLINE void look_at(PunctualLight light, const ConstVec3Span& pos
                                    const ConstVec3Span& normal, PunctualBatch& batch) {
     const vec3 source = kernel_vector(light.position);
     const bool is_attenuated = light.linear != 0 || light.quadratic != 0;
-    CANDELA_VECTORIZE_PASS
+    CANDELA_VECTORIZE_FOUR
     for (std::size_t i = 0; i < k_pass_size; ++i) {
         const vec3 to_source = source - load(position, i);
         const float square = dot(to_source, to_source);
@@ -241,7 +241,7 @@ struct ReflectPunctualLoop {
         for (const PunctualLight& light : lighting.lights) {
             look_at(light, seen_from(surface.position, light.w), surface.normal, batch);
             const vec3 diffuse = kernel_vector(light.diffuse), specular = kernel_vector(light.specular);
-            CANDELA_VECTORIZE_PASS
+            CANDELA_VECTORIZE_FOUR
             for (std::size_t i = 0; i < k_pass_size; ++i) {
                 const kernel::Reflected r =
                     call<reflect>(material, point(surface, batch, i), load(batch.to_light, i));

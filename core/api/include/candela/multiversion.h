@@ -16,8 +16,8 @@
 // two vectors side by side keep the processor busy where one would wait for itself. A loop with enough
 // independent work only loses registers to it.
 //
-// CANDELA_VECTORIZE_PASS is for such a chain in a loop of exactly 64 iterations: four vectors side by side,
-// with no rest to process.
+// CANDELA_VECTORIZE_FOUR is for such a chain where there are nearly always 64 iterations or a multiple: four
+// vectors side by side. Fewer iterations take longer than with two.
 //
 // CANDELA_VECTORIZE_SIXTEEN is for a loop of sixteen iterations inside another, which would otherwise be
 // unrolled before it can be vectorised, or take a few iterations of narrower vectors.
@@ -30,13 +30,13 @@
 #if defined(__clang__)
 #define CANDELA_VECTORIZE _Pragma("clang loop vectorize(assume_safety)")
 #define CANDELA_VECTORIZE_CHAIN _Pragma("clang loop vectorize(assume_safety) interleave_count(2)")
-#define CANDELA_VECTORIZE_PASS _Pragma("clang loop vectorize(assume_safety) interleave_count(4)")
+#define CANDELA_VECTORIZE_FOUR _Pragma("clang loop vectorize(assume_safety) interleave_count(4)")
 #define CANDELA_VECTORIZE_SIXTEEN \
     _Pragma("clang loop vectorize(assume_safety) vectorize_width(16) unroll(disable)")
 #else
 #define CANDELA_VECTORIZE _Pragma("GCC ivdep")
 #define CANDELA_VECTORIZE_CHAIN CANDELA_VECTORIZE
-#define CANDELA_VECTORIZE_PASS CANDELA_VECTORIZE
+#define CANDELA_VECTORIZE_FOUR CANDELA_VECTORIZE
 #define CANDELA_VECTORIZE_SIXTEEN CANDELA_VECTORIZE
 #endif
 
