@@ -9,6 +9,7 @@ module;
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -117,16 +118,27 @@ struct Renderer::Kept {
             begin_picture(*worker);
             return worker;
         };
+        std::vector<std::uint8_t> is_done(tile_count);
+        if (const auto background = uniform_background(scene, options.term, options.light)) {
+            const auto columns = static_cast<std::size_t>(projected.tile_columns);
+            parallel_for(tile_count / columns, 1, [&](std::size_t first, std::size_t last) {
+                for (std::size_t row = first; row < last; ++row)
+                    fill_empty_tiles(projected, projected.seen_rows.first + static_cast<int>(row),
+                                     *background, film, std::span(is_done).subspan(row * columns, columns));
+            });
+        }
         std::atomic<std::size_t> tiles_done{0};
         const std::size_t grain = std::clamp<std::size_t>(tile_count / 64, 1, 4);
         parallel_for(tile_count, grain, [&](std::size_t first, std::size_t last) {
             workers.with(make, [&](TileWorker& worker) {
                 for (std::size_t tile = first; tile < last; ++tile) {
-                    VisibleTile& visible = what == Keep::visibility ? tiles[tile] : worker.visible;
-                    if (!is_seen)
-                        find_visible(projected, projected.first_seen_tile() + static_cast<int>(tile),
-                                     worker.visibility, visible);
-                    shade_tile(scene, visible, worker, film);
+                    if (is_done[tile] == 0) {
+                        VisibleTile& visible = what == Keep::visibility ? tiles[tile] : worker.visible;
+                        if (!is_seen)
+                            find_visible(projected, projected.first_seen_tile() + static_cast<int>(tile),
+                                         worker.visibility, visible);
+                        shade_tile(scene, visible, worker, film);
+                    }
                     if (options.progress) options.progress(++tiles_done, tile_count);
                 }
             });

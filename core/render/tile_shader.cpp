@@ -66,6 +66,19 @@ std::uint32_t index_of(const ProjectedMesh& mesh, std::uint32_t triangle, std::s
     return 2 * mesh.mesh.indices[3 * std::size_t{triangle} + k] + (is_back ? 1 : 0);
 }
 
+/// What a pixel that shows no object has of a term of the objects.
+Rgb value_of_nothing(Term term) {
+    switch (term) {
+        case Term::depth:
+            return {k_infinitely_far, k_infinitely_far, k_infinitely_far};
+        case Term::object:
+        case Term::triangle:
+            return {-1, -1, -1};
+        default:
+            return {};
+    }
+}
+
 }  // namespace
 
 TileShader::TileShader() { batch_.resize(k_batch_size); }
@@ -75,7 +88,7 @@ void TileShader::begin(const CompiledScene& scene, const ProjectedScene& project
     scene_ = &scene;
     projected_ = &projected;
     term_ = term;
-    has_background_ = term == Term::background || (term == Term::intensity && !light);
+    has_background_ = shows_background(term, light);
     const std::span<const LitSource> lights = scene.lights;
     surface_shader_.begin(light ? LitScene{lights.subspan(*light, 1), nullptr, projected.camera}
                                 : LitScene{lights, &scene.environment, projected.camera});
@@ -83,26 +96,22 @@ void TileShader::begin(const CompiledScene& scene, const ProjectedScene& project
     brightest_ = 0;
 }
 
-std::optional<Rgb> TileShader::uniform_background() const {
-    if (has_background_)
-        return scene_->environment.is_uniform() ? std::optional(scene_->environment.seen({})) : std::nullopt;
-    switch (term_) {
-        case Term::depth:
-            return Rgb{k_infinitely_far, k_infinitely_far, k_infinitely_far};
-        case Term::object:
-        case Term::triangle:
-            return Rgb{-1, -1, -1};
-        default:
-            return Rgb{};
-    }
+bool shows_background(Term term, std::optional<std::size_t> light) {
+    return term == Term::background || (term == Term::intensity && !light);
 }
 
+std::optional<Rgb> uniform_background(const CompiledScene& scene, Term term,
+                                      std::optional<std::size_t> light) {
+    if (shows_background(term, light))
+        return scene.environment.is_uniform() ? std::optional(scene.environment.seen({})) : std::nullopt;
+    return value_of_nothing(term);
+}
 // Skips the pixels that belong to a single fragment, unless they are shown without it.
 void TileShader::fill_background(const VisibleTile& visible) {
     pixels_.resize(visible.plane());
     const Vec3Span pixels = pixels_.span();
     if (!has_background_ || term_ == Term::background) {
-        const Rgb everywhere = has_background_ ? Rgb{} : *uniform_background();
+        const Rgb everywhere = has_background_ ? Rgb{} : value_of_nothing(term_);
         std::ranges::fill(pixels_.x, everywhere.r);
         std::ranges::fill(pixels_.y, everywhere.g);
         std::ranges::fill(pixels_.z, everywhere.b);

@@ -30,6 +30,9 @@ struct VisibleTile {
     std::size_t plane() const { return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride); }
 };
 
+/// Whether background is among what is shown (see RenderOptions).
+bool shows_background(Term term, std::optional<std::size_t> light);
+
 /// Turns the fragments of a tile into pixels. Owns a tile's arrays: use one per thread.
 class TileShader {
   public:
@@ -41,9 +44,6 @@ class TileShader {
                std::optional<std::size_t> light = {});
 
     Term term() const { return term_; }
-
-    /// What every pixel of an empty tile is given, if it is the same for all.
-    std::optional<Rgb> uniform_background() const;
 
     /// Fills the tile's pixels with the background, weighted by how much of each pixel shows it.
     void fill_background(const VisibleTile& visible);
@@ -100,6 +100,15 @@ Camera camera_of(const Observer& observer, int width, int height);
 /// Throws Error.
 void project_scene(const CompiledScene& scene, int width, int height, RowRange rows, int tile_size,
                    int samples, ProjectedScene& projected);
+
+/// What all pixels that show no object are given, if it is the same for all.
+std::optional<Rgb> uniform_background(const CompiledScene& scene, Term term,
+                                      std::optional<std::size_t> light);
+
+/// Gives the pixels of the tiles of a row that no triangle comes near that background, and sets `is_done`, by
+/// column.
+void fill_empty_tiles(const ProjectedScene& projected, int row, Rgb background, Film& film,
+                      std::span<std::uint8_t> is_done);
 
 /// Finds the fragments that are visible in a tile.
 void find_visible(const ProjectedScene& projected, int tile, TileVisibility& visibility,

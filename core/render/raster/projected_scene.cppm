@@ -2,6 +2,7 @@ module;
 
 #include "candela/api.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -53,6 +54,16 @@ struct TriangleBin {
     std::vector<std::uint32_t> start;       // of each tile's list in `entries`; one more than there are tiles
     AlignedVector<BinnedTriangle> entries;  // in the scene's order within each list
     std::vector<RasterTriangle> pieces;     // of clipped triangles
+
+    /// Those in a tile.
+    inline std::span<const BinnedTriangle> triangles_in(int column, int row) const {
+        column -= first_column;
+        row -= first_row;
+        if (column < 0 || column >= columns || row < 0 || row >= rows) return {};
+        const std::size_t list = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                                 static_cast<std::size_t>(column);
+        return std::span(entries).subspan(start[list], start[list + 1] - start[list]);
+    }
 };
 
 /// Rows of tiles, from `first` up to, not including, `end`.
@@ -84,6 +95,11 @@ struct ProjectedScene {
     /// Of those that have lists: consecutive numbers from here on.
     inline int first_seen_tile() const { return tile_columns * seen_rows.first; }
     inline int seen_tile_count() const { return tile_columns * (seen_rows.end - seen_rows.first); }
+    /// Whether a triangle comes near that tile.
+    inline bool is_near(int column, int row) const {
+        return std::ranges::any_of(
+            bins, [&](const TriangleBin& bin) { return !bin.triangles_in(column, row).empty(); });
+    }
 };
 
 /// Tiles are squares of `tile_size` pixels, a power of two from 16 on. Triangles are numbered consecutively

@@ -240,16 +240,11 @@ bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility
     TileRaster raster(scene, visibility);
     bool is_cleared = false;
     for (const TriangleBin& bin : scene.bins) {
-        const int bin_column = column - bin.first_column;
-        const int bin_row = row - bin.first_row;
-        if (bin_column < 0 || bin_column >= bin.columns || bin_row < 0 || bin_row >= bin.rows) continue;
-        const std::size_t list = static_cast<std::size_t>(bin_row) * static_cast<std::size_t>(bin.columns) +
-                                 static_cast<std::size_t>(bin_column);
-        const std::size_t first = bin.start[list], end = bin.start[list + 1];
-        if (first == end) continue;
+        const std::span<const BinnedTriangle> triangles = bin.triangles_in(column, row);
+        if (triangles.empty()) continue;
         if (!is_cleared) clear(visibility);
         is_cleared = true;
-        raster.see(bin, std::span(bin.entries).subspan(first, end - first));
+        raster.see(bin, triangles);
     }
     return is_cleared;
 }
