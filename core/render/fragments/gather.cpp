@@ -150,6 +150,7 @@ SurfacePoints::SurfacePoints() {
     }
     for (AlignedVector<float>* const array : {&facing, &u, &v, &dudx, &dvdx, &dudy, &dvdy})
         array->resize(k_batch_size + k_lanes);
+    std::ranges::fill(facing, 1.0f);
 }
 
 bool ProjectedMesh::is_back(std::uint32_t triangle) const {
@@ -406,8 +407,8 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
                       });
     }
 
+    if (points.any_from_behind) std::ranges::fill(points.facing, 1.0f);
     points.any_from_behind = false;
-    std::fill_n(points.facing.begin(), points.filled, 1.0f);
     needs.uv = false;
     if (source.mesh.closed && !needs.more()) return;
     each_triangle(batch.triangles, points.filled,

@@ -230,9 +230,9 @@ void SurfaceShader::mark_ends() {
     }
 }
 
-bool SurfaceShader::are_ends_intact() {
+bool SurfaceShader::are_ends_intact(std::span<Vec3Arrays* const> written) {
     bool intact = true;
-    for (const Vec3Arrays* const arrays : written_by_plugins()) {
+    for (const Vec3Arrays* const arrays : written) {
         for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
             intact &= is_guard_intact(std::span(*array).subspan<k_batch_size, k_guard_size>());
     }
@@ -245,7 +245,7 @@ void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, st
         throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} {}", name_of(kind), plugin, what),
                     {Help::Topic::plugin_conformance});
     };
-    if (!are_ends_intact()) {
+    if (!are_ends_intact(written_by_plugins())) {
         mark_ends();
         fail("writes beyond the batch that it is given");
     }
@@ -268,16 +268,20 @@ float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interio
                         specular = std::as_const(specular_).span(),
                         reflected = std::as_const(reflected_).span();
     float largest = 0;
+    Vec3Arrays* const in_one_go[] = {&normal_, &reflected_};
+    const std::array all = written_by_plugins();
+    std::span<Vec3Arrays* const> written = all;
     if (!reflect_punctual(surface, points)) {
         add_up(surface, interior, points, lights_, Scrutiny::none);
         largest = add<3>({ambient, diffuse, specular}, count, intensity);
     } else if (other_lights_.empty()) {
         largest = add<1>({reflected}, count, intensity);
+        written = in_one_go;
     } else {
         add_up(surface, interior, points, other_lights_, Scrutiny::none);
         largest = add<4>({reflected, ambient, diffuse, specular}, count, intensity);
     }
-    if (!std::isfinite(largest) || !are_ends_intact()) scrutinize(surface, interior, points);
+    if (!std::isfinite(largest) || !are_ends_intact(written)) scrutinize(surface, interior, points);
     return largest;
 }
 

@@ -9,6 +9,7 @@ module;
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -77,7 +78,7 @@ class CANDELA_API SurfaceShader {
     void find_normals(const SurfaceModels& surface, const SurfacePoints& points);
     std::array<Vec3Arrays*, 8> written_by_plugins();
     void mark_ends();
-    bool are_ends_intact();
+    static bool are_ends_intact(std::span<Vec3Arrays* const> written);
     void require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
                        std::initializer_list<const Vec3Arrays*> results);
 
