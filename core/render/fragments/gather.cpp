@@ -285,6 +285,12 @@ void clear_uv(SurfacePoints& points) {
         std::ranges::fill(*array, 0.0f);
 }
 
+/// Writes nothing where all points of the last batch, too, were seen from the front.
+void face_forward(SurfacePoints& points) {
+    if (points.any_from_behind) std::ranges::fill(points.facing, 1.0f);
+    points.any_from_behind = false;
+}
+
 /// Of points that belong to no pixel.
 void clear_footprint(SurfacePoints& points) {
     for (AlignedVector<float>* const array : {&points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
@@ -407,8 +413,7 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
                       });
     }
 
-    if (points.any_from_behind) std::ranges::fill(points.facing, 1.0f);
-    points.any_from_behind = false;
+    face_forward(points);
     needs.uv = false;
     if (source.mesh.closed && !needs.more()) return;
     each_triangle(batch.triangles, points.filled,
@@ -429,11 +434,11 @@ void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> tr
     constexpr float k_third = 1.0f / 3.0f;
     points.has_color = needs.color = needs.color && !source.mesh.color.empty();
     points.count = triangles.size();
-    points.any_from_behind = false;
+    face_forward(points);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         evaluate_point(source.mesh, triangles[i], {k_third, k_third, k_third}, needs, i, points);
         const bool is_back = source.is_back(triangles[i]);
-        points.facing[i] = is_back ? -1.0f : 1.0f;
+        if (is_back) points.facing[i] = -1;
         points.any_from_behind = points.any_from_behind || is_back;
     }
     fill_up(needs, points);
@@ -443,10 +448,9 @@ void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, C
                    PointNeeds needs, SurfacePoints& points) {
     points.has_color = needs.color = needs.color && !mesh.color.empty();
     points.count = points.filled = triangles.size();
-    points.any_from_behind = false;
+    face_forward(points);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         evaluate_point(mesh, triangles[i], barycentric[i], needs, i, points);
-        points.facing[i] = 1;
     }
 }
 
@@ -456,7 +460,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
     needs.triangle = false;
     points.has_color = needs.color = needs.color && !mesh.color.empty();
     points.count = vertices.size();
-    points.any_from_behind = false;
+    face_forward(points);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const std::uint32_t v = vertices[i].vertex;
         const Vec3 normal = mesh.vertices[v].normal;
@@ -464,7 +468,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
         points.face_normal.span().set(i, normal);
         points.vertex_normal.span().set(i, normal);
         points.barycentric.span().set(i, {1, 0, 0});
-        points.facing[i] = vertices[i].is_back ? -1.0f : 1.0f;
+        if (vertices[i].is_back) points.facing[i] = -1;
         points.any_from_behind = points.any_from_behind || vertices[i].is_back;
         if (needs.color) points.color.span().set(i, mesh.color.span()[v]);
         if (needs.uv) {
