@@ -33,16 +33,52 @@ struct Edge {
 };
 
 /// Coverage of four samples of a row, as bits.
-[[gnu::always_inline]] inline std::int32_t covered_of_row(const Edge& a, const Edge& b, const Edge& c,
-                                                          std::int32_t row) {
+[[gnu::always_inline]] inline std::uint32_t covered_of_row(const Edge& a, const Edge& b, const Edge& c,
+                                                           std::int32_t row) {
     const std::int32_t ea = a.at_first + row * a.down, eb = b.at_first + row * b.down,
                        ec = c.at_first + row * c.down;
     const std::int32_t o0 = ea | eb | ec;
     const std::int32_t o1 = (ea + a.to_right) | (eb + b.to_right) | (ec + c.to_right);
     const std::int32_t o2 = (ea + 2 * a.to_right) | (eb + 2 * b.to_right) | (ec + 2 * c.to_right);
     const std::int32_t o3 = (ea + 3 * a.to_right) | (eb + 3 * b.to_right) | (ec + 3 * c.to_right);
-    return ((o0 >= 0 ? 1 : 0) | (o1 >= 0 ? 2 : 0) | (o2 >= 0 ? 4 : 0) | (o3 >= 0 ? 8 : 0)) << (4 * row);
+    return ((o0 >= 0 ? 1u : 0u) | (o1 >= 0 ? 2u : 0u) | (o2 >= 0 ? 4u : 0u) | (o3 >= 0 ? 8u : 0u))
+           << (4 * row);
 }
+
+/// A triangle's box and its edges relative to the box's first sample.
+struct Box {
+    std::int32_t x, y;  // of its first pixel
+    bool is_small, is_tall, has_next_block;
+    std::int32_t ux, uy, vx, vy, wx,
+        wy;  // the vertices; zero for a large triangle, so that nothing overflows
+
+    [[gnu::always_inline]] Box(std::int32_t ax, std::int32_t ay, std::int32_t bx, std::int32_t by,
+                               std::int32_t cx, std::int32_t cy, bool is_piece, int bits) {
+        const std::int32_t one = 1 << bits, half = one / 2;
+        x = (least(ax, bx, cx) + half - 1) >> bits;
+        y = (least(ay, by, cy) + half - 1) >> bits;
+        const std::int32_t wide = ((most(ax, bx, cx) - half) >> bits) - x;
+        const std::int32_t high = ((most(ay, by, cy) - half) >> bits) - y;
+        is_tall = high > 3;
+        is_small = (wide <= (is_tall ? 3 : 7)) & (high <= 7) & !is_piece;
+        has_next_block = is_small & ((wide > 3) | is_tall);
+        const std::int32_t sx = x * one + half, sy = y * one + half;
+        ux = is_small ? ax - sx : 0, uy = is_small ? ay - sy : 0;
+        vx = is_small ? bx - sx : 0, vy = is_small ? by - sy : 0;
+        wx = is_small ? cx - sx : 0, wy = is_small ? cy - sy : 0;
+    }
+
+    /// The samples of four by four pixels from the first one on, or from four pixels below or beside it.
+    [[gnu::always_inline]] std::uint32_t covered(std::int32_t one, bool is_next) const {
+        const std::int32_t right = (is_next & !is_tall) ? 4 * one : 0;
+        const std::int32_t below = (is_next & is_tall) ? 4 * one : 0;
+        const Edge a(ux - right, uy - below, vx - right, vy - below, one);
+        const Edge b(vx - right, vy - below, wx - right, wy - below, one);
+        const Edge c(wx - right, wy - below, ux - right, uy - below, one);
+        return covered_of_row(a, b, c, 0) | covered_of_row(a, b, c, 1) | covered_of_row(a, b, c, 2) |
+               covered_of_row(a, b, c, 3);
+    }
+};
 
 struct SmallLoop {
     CANDELA_BATCH_LOOP static void run(const ScreenVertex* screen, const BinnedTriangle* triangles,
@@ -69,41 +105,41 @@ struct SmallLoop {
         of_a.gather([&](std::size_t i) { return vertex[0][i]; });
         of_b.gather([&](std::size_t i) { return vertex[1][i]; });
         of_c.gather([&](std::size_t i) { return vertex[2][i]; });
-        const std::int32_t one = 1 << bits, half = one / 2;
+        const std::int32_t one = 1 << bits;
+        std::int32_t next_blocks = 0;
         CANDELA_VECTORIZE_SIXTEEN
         for (std::size_t lane = 0; lane < k_lanes; ++lane) {
             const std::size_t i = first + lane;
-            const std::int32_t ax = of_a.integer(0, lane), ay = of_a.integer(1, lane);
-            const std::int32_t bx = of_b.integer(0, lane), by = of_b.integer(1, lane);
-            const std::int32_t cx = of_c.integer(0, lane), cy = of_c.integer(1, lane);
-            const std::int32_t x0 = (least(ax, bx, cx) + half - 1) >> bits;
-            const std::int32_t y0 = (least(ay, by, cy) + half - 1) >> bits;
-            const std::int32_t x1 = (most(ax, bx, cx) - half) >> bits;
-            const std::int32_t y1 = (most(ay, by, cy) - half) >> bits;
-            const bool is_small = (x1 - x0 <= 3) & (y1 - y0 <= 3) & (is_piece[lane] == 0);
-
-            // Relative to the first sample; zero for a large triangle, so that nothing overflows.
-            const std::int32_t sx = x0 * one + half, sy = y0 * one + half;
-            const std::int32_t ux = is_small ? ax - sx : 0, uy = is_small ? ay - sy : 0;
-            const std::int32_t vx = is_small ? bx - sx : 0, vy = is_small ? by - sy : 0;
-            const std::int32_t wx = is_small ? cx - sx : 0, wy = is_small ? cy - sy : 0;
-            const Edge a(ux, uy, vx, vy, one), b(vx, vy, wx, wy, one), c(wx, wy, ux, uy, one);
-            out->is_small[i] = is_small ? 1 : 0;
-            out->x[i] = x0;
-            out->y[i] = y0;
-            out->covered[i] = covered_of_row(a, b, c, 0) | covered_of_row(a, b, c, 1) |
-                              covered_of_row(a, b, c, 2) | covered_of_row(a, b, c, 3);
+            const Box box = box_of(of_a, of_b, of_c, lane, is_piece[lane] != 0, bits);
+            next_blocks |= box.has_next_block ? 1 : 0;
+            out->is_small[i] = box.is_small ? 1 : 0;
+            out->is_tall[i] = box.is_tall ? 1 : 0;
+            out->x[i] = box.x;
+            out->y[i] = box.y;
+            out->covered[i] = box.covered(one, false);
 
             const float z = of_a.real[2][lane], zv = of_b.real[2][lane] - z, zw = of_c.real[2][lane] - z;
-            const auto dvx = static_cast<float>(vx - ux), dvy = static_cast<float>(vy - uy);
-            const auto dwx = static_cast<float>(wx - ux), dwy = static_cast<float>(wy - uy);
+            const auto dvx = static_cast<float>(box.vx - box.ux), dvy = static_cast<float>(box.vy - box.uy);
+            const auto dwx = static_cast<float>(box.wx - box.ux), dwy = static_cast<float>(box.wy - box.uy);
             const float area = dvx * dwy - dwx * dvy;
             const float inverse = 1 / (area > 0 ? area : 1.0f);
             const float zx = (zv * dwy - zw * dvy) * inverse, zy = (zw * dvx - zv * dwx) * inverse;
-            out->depth[i] = z - zx * static_cast<float>(ux) - zy * static_cast<float>(uy);
+            out->depth[i] = z - zx * static_cast<float>(box.ux) - zy * static_cast<float>(box.uy);
             out->to_right[i] = zx * static_cast<float>(one);
             out->down[i] = zy * static_cast<float>(one);
         }
+        if (next_blocks == 0) return;
+        CANDELA_VECTORIZE_SIXTEEN
+        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+            const Box box = box_of(of_a, of_b, of_c, lane, is_piece[lane] != 0, bits);
+            out->covered[first + lane] |= box.covered(one, true) << 16;
+        }
+    }
+
+    [[gnu::always_inline]] static Box box_of(const Columns& a, const Columns& b, const Columns& c,
+                                             std::size_t lane, bool is_piece, int bits) {
+        return {a.integer(0, lane), a.integer(1, lane), b.integer(0, lane), b.integer(1, lane),
+                c.integer(0, lane), c.integer(1, lane), is_piece,           bits};
     }
 };
 

@@ -184,8 +184,19 @@ class TileRaster {
     }
 
     void see_small(std::size_t i, std::uint32_t id) {
-        const int x0 = small_.x[i] - visibility_.x0, y0 = small_.y[i] - visibility_.y0;
-        for (auto covered = static_cast<unsigned>(small_.covered[i]); covered != 0; covered &= covered - 1) {
+        const std::uint32_t covered = small_.covered[i];
+        see_block(i, id, covered & 0xffffu, 0, 0);
+        if (covered >> 16 == 0) return;
+        const bool is_below = small_.is_tall[i] != 0;
+        see_block(i, id, covered >> 16, is_below ? 0 : 4, is_below ? 4 : 0);
+    }
+
+    /// Four by four pixels, which begin at that column and row of the triangle's box.
+    void see_block(std::size_t i, std::uint32_t id, std::uint32_t covered, int right, int below) {
+        const int x0 = small_.x[i] - visibility_.x0 + right, y0 = small_.y[i] - visibility_.y0 + below;
+        const float first = small_.depth[i] + static_cast<float>(right) * small_.to_right[i] +
+                            static_cast<float>(below) * small_.down[i];
+        for (; covered != 0; covered &= covered - 1) {
             const int bit = std::countr_zero(covered);
             const int column = bit % 4, row = bit / 4;
             const int x = x0 + column, y = y0 + row;
@@ -193,7 +204,7 @@ class TileRaster {
             const std::size_t pixel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(visibility_.stride) +
                 static_cast<std::size_t>(x);
-            const float depth = small_.depth[i] + static_cast<float>(column) * small_.to_right[i] +
+            const float depth = first + static_cast<float>(column) * small_.to_right[i] +
                                 static_cast<float>(row) * small_.down[i];
             if (!(depth > visibility_.depth[pixel])) continue;
             visibility_.depth[pixel] = depth;
