@@ -45,8 +45,7 @@ void project_scene(const CompiledScene& scene, int width, int height, RowRange r
     }
 }
 
-// Where there is nothing but background. Rows of pixels across many tiles take half of the time of those of
-// one.
+// Where there is nothing but background: in rows across many tiles, which take half of the time of a tile's.
 void fill_empty_tiles(const ProjectedScene& projected, int row, Rgb background, Film& film,
                       std::span<std::uint8_t> is_done) {
     const int size = projected.tile_size, columns = projected.tile_columns;

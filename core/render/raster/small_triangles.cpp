@@ -45,12 +45,12 @@ struct Edge {
            << (4 * row);
 }
 
-/// A triangle's box and its edges relative to the box's first sample.
+/// The pixels whose samples a triangle may cover.
 struct Box {
     std::int32_t x, y;  // of its first pixel
     bool is_small, is_tall, has_next_block;
-    std::int32_t ux, uy, vx, vy, wx,
-        wy;  // the vertices; zero for a large triangle, so that nothing overflows
+    // The vertices relative to that pixel's sample; zero for a large triangle, so that nothing overflows.
+    std::int32_t ux, uy, vx, vy, wx, wy;
 
     [[gnu::always_inline]] Box(std::int32_t ax, std::int32_t ay, std::int32_t bx, std::int32_t by,
                                std::int32_t cx, std::int32_t cy, bool is_piece, int bits) {

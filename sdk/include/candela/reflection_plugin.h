@@ -204,9 +204,9 @@ CANDELA_KERNEL_INLINE void look_at(PunctualLight light, const ConstVec3Span& pos
     }
     const float constant = 1.0f / light.constant;
     CANDELA_VECTORIZE
-    for (std::size_t i = 0; i < k_pass_size; ++i) {
-        const float r = batch.attenuation[i];
-        batch.attenuation[i] =
+    for (float& attenuation : batch.attenuation) {
+        const float r = attenuation;
+        attenuation =
             is_attenuated ? 1.0f / (light.constant + r * (light.linear + r * light.quadratic)) : constant;
     }
     if (!light.has_cone) return;
