@@ -84,7 +84,8 @@ template <Interpolated what>
 struct RunLoop {
     CANDELA_BATCH_LOOP static void run(TriangleAttributes t, std::size_t count, const float* px,
                                        const float* py, InterpolatedSpans out) {
-        const std::size_t whole = count / 64 * 64;
+        constexpr std::size_t k_four = 4 * k_lanes;
+        const std::size_t whole = count / k_four * k_four;
         CANDELA_VECTORIZE_FOUR
         for (std::size_t i = 0; i < whole; ++i) put(t, px, py, out, i);
         for (std::size_t first = whole; first < count; first += k_lanes) {
