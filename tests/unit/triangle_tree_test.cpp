@@ -18,7 +18,6 @@
 import candela.geometry;
 import candela.parallel;
 
-using candela::RayExit;
 using candela::TriangleTree;
 using candela::Vec3;
 
@@ -34,11 +33,28 @@ TriangleTree tree_of(const candela::Mesh& mesh) {
     return {position, mesh.vertex_count(), mesh.indices};
 }
 
-std::optional<RayExit> exit_of(const TriangleTree& tree, Vec3 origin, Vec3 direction) {
-    std::optional<RayExit> exit;
-    tree.find_exits({&origin.x, &origin.y, &origin.z}, {&direction.x, &direction.y, &direction.z},
-                    {&exit, 1});
-    return exit;
+struct Exit {
+    std::uint32_t triangle;
+    float distance;
+    Vec3 barycentric;
+};
+
+std::vector<std::optional<Exit>> exits_of(const TriangleTree& tree, std::size_t count,
+                                          candela::ConstVec3Span origin, candela::ConstVec3Span direction) {
+    std::vector<std::uint32_t> triangle(count);
+    std::vector<float> distance(count), x(count), y(count), z(count);
+    tree.find_exits(count, origin, direction,
+                    {triangle.data(), distance.data(), {x.data(), y.data(), z.data()}});
+    std::vector<std::optional<Exit>> exits(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (distance[i] >= 0) exits[i] = Exit{triangle[i], distance[i], {x[i], y[i], z[i]}};
+    }
+    return exits;
+}
+
+std::optional<Exit> exit_of(const TriangleTree& tree, Vec3 origin, Vec3 direction) {
+    return exits_of(tree, 1, {&origin.x, &origin.y, &origin.z}, {&direction.x, &direction.y, &direction.z})
+        .front();
 }
 
 Double3 at(Vec3 origin, Vec3 direction, double distance) {
@@ -86,6 +102,33 @@ TEST_CASE("a ray that enters through a point of the surface leaves elsewhere, an
         const double nearest = std::min(
             {ahead(origin.x, direction.x), ahead(origin.y, direction.y), ahead(origin.z, direction.z)});
         CHECK(agree(static_cast<double>(exit->distance), nearest, 1e-5, 1e-5));
+    }
+}
+
+TEST_CASE("a ray that starts close to a cube's edge leaves through the face beside it, however close") {
+    const candela::Mesh cube = shape("cube", {{"size", 2.0}});
+    const TriangleTree tree = tree_of(cube);
+    for (const float gap : {1e-2f, 1e-4f, 4e-6f, 1e-6f, 1.2e-7f, 0.0f}) {
+        // From the face at the top, downwards, to the face on the right.
+        const Vec3 origin{1 - gap, 0.3f, 1}, direction = candela::normalized(Vec3{1, 0.1f, -1});
+        const auto exit = exit_of(tree, origin, direction);
+        REQUIRE(exit.has_value());
+        INFO("from " << text(origin));
+        CHECK(std::abs(static_cast<double>(exit->distance) -
+                       static_cast<double>(gap) / static_cast<double>(direction.x)) < 2e-6);
+        const Vec3 corner = cube.position.span()[cube.indices[3 * std::size_t{exit->triangle}]];
+        CHECK(corner.x == 1);
+    }
+}
+
+TEST_CASE("a ray that starts on a surface and runs along it does not leave where it starts") {
+    const candela::Mesh cube = shape("cube", {{"size", 2.0}});
+    const TriangleTree tree = tree_of(cube);
+    for (const float descent : {1e-1f, 1e-3f, 1e-5f, 1e-6f}) {
+        const auto exit = exit_of(tree, {-0.5f, 0.25f, 1}, {1, 0, -descent});
+        INFO("descent " << descent);
+        REQUIRE(exit.has_value());
+        CHECK(agree(static_cast<double>(exit->distance), 1.5, 1e-5));
     }
 }
 
@@ -142,11 +185,10 @@ TEST_CASE("a ray leaves at the same place whatever other rays are asked for with
         }
         const candela::ConstVec3Span origins = std::as_const(origin).span(),
                                      directions = std::as_const(direction).span();
-        std::vector<std::optional<RayExit>> together(k_count);
-        tree.find_exits(origins, directions, together);
+        const auto together = exits_of(tree, k_count, origins, directions);
         std::size_t exits = 0;
         for (std::size_t i = 0; i < k_count; ++i) {
-            const std::optional<RayExit> alone = exit_of(tree, origins[i], directions[i]);
+            const std::optional<Exit> alone = exit_of(tree, origins[i], directions[i]);
             INFO(name << ": " << text(origins[i]) << " along " << text(directions[i]));
             REQUIRE(alone.has_value() == together[i].has_value());
             if (!alone) continue;
@@ -167,8 +209,8 @@ TEST_CASE("a ray of a faulty plugin has no exit, and the rays beside it keep the
     x[3] = nan;
     x[7] = std::numeric_limits<float>::infinity();
     x[11] = 1e30f;
-    std::vector<std::optional<RayExit>> exits(16);
-    tree.find_exits({zero.data(), zero.data(), zero.data()}, {x.data(), zero.data(), zero.data()}, exits);
+    const auto exits =
+        exits_of(tree, 16, {zero.data(), zero.data(), zero.data()}, {x.data(), zero.data(), zero.data()});
     for (std::size_t i = 0; i < 16; ++i) {
         CHECK(exits[i].has_value() == (x[i] == 1));
         if (exits[i]) CHECK(exits[i]->distance == 1);

@@ -56,16 +56,23 @@ void Embree::commit(RTCScene scene) const {
     alone.execute([&] { commit_scene(scene); });
 }
 
-void Embree::trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCRayHit16& rays) const {
+void Embree::trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCFilterFunctionN filter,
+                   RTCRayHit16& rays) const {
 #if RTC_VERSION_MAJOR >= 4
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    if (filter != nullptr) {
+        arguments.flags =
+            static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+        arguments.filter = filter;
+    }
     intersect16(is_valid.data(), scene, &rays, &arguments);
 #else
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.filter = filter;
     intersect16(is_valid.data(), scene, &context, &rays);
 #endif
 }

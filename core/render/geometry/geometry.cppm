@@ -5,7 +5,6 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 
 export module candela.geometry;
@@ -14,11 +13,12 @@ import candela.math;
 
 export namespace candela {
 
-/// Where a ray leaves a surface.
-struct RayExit {
-    std::uint32_t triangle = 0;
-    float distance = 0;  // along the ray, in multiples of its direction
-    Vec3 barycentric;
+/// Where rays leave a surface: an element for each ray.
+struct RayExits {
+    std::uint32_t* triangle = nullptr;
+    float* distance =
+        nullptr;  // along the ray, in multiples of its direction; negative where it does not leave
+    Vec3Span barycentric;
 };
 
 /// Triangles, for rays that run inside of them. Immutable; any thread.
@@ -31,10 +31,11 @@ class CANDELA_API TriangleTree {
     ~TriangleTree();
 
     /// For each ray, the nearest triangle that it passes from its inside to its outside. A triangle that it
-    /// starts on, going in, does not count. Nothing if the surface is open there. A ray's exit does not
-    /// depend on the others; rays that stay close to each other are fast.
-    void find_exits(const ConstVec3Span& origin, const ConstVec3Span& direction,
-                    std::span<std::optional<RayExit>> exits) const;
+    /// starts on, going in, does not count. None if the surface is open there: then only the distance is
+    /// written. A ray's exit does not depend on the others; rays that stay close to each other are fast.
+    /// Arrays do not alias.
+    void find_exits(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                    const RayExits& exits) const;
 
   private:
     struct Tree;

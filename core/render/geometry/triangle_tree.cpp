@@ -1,5 +1,6 @@
 module;
 
+#include "candela/kernel.h"
 #include "candela/multiversion.h"
 #include "internal/embree_headers.h"
 
@@ -11,7 +12,6 @@ module;
 #include <limits>
 #include <memory>
 #include <new>
-#include <optional>
 #include <span>
 
 module candela.geometry;
@@ -25,9 +25,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-Vector3d vector(Vec3 v) { return {double{v.x}, double{v.y}, double{v.z}}; }
-
-double triple_product(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return a.dot(b.cross(c)); }
+constexpr std::size_t k_size = Embree::k_packet_size;
 
 /// Lets rays pass where they enter: where they come against the triangle's normal, or it has none.
 void ignore_entries(const RTCFilterFunctionNArguments* hits) {
@@ -46,15 +44,106 @@ void ignore_entries(const RTCFilterFunctionNArguments* hits) {
 
 /// Where a ray meets two triangles at their common edge, Embree's answer depends on the packet's other rays.
 /// This close to an edge, in barycentric coordinates, a ray is traced on its own.
-constexpr float k_near_edge = 1e-4f;
+constexpr double k_near_edge = 1e-4;
 
-/// Whether Embree can compute with it: numbers, of which the squares are numbers, too.
-template <class Vector>
-bool is_sound(const Vector& v) {
-    return (v.array().abs() < 1e18f).all();
+/// How far beyond its origin a ray may start, in multiples of the rounding of a point.
+constexpr double k_margin = 16;
+
+/// What Embree can compute with: numbers of which the squares are numbers, too.
+constexpr float k_most = 1e18f;
+
+/// Three numbers for each ray of a packet.
+template <class T>
+struct PacketArrays {
+    alignas(64) T x[k_size];
+    alignas(64) T y[k_size];
+    alignas(64) T z[k_size];
+};
+
+using Mask = std::array<int, k_size>;  // -1 for rays that count, and otherwise 0, as Embree has it
+
+struct Packet {
+    PacketArrays<double> origin{};  // relative to the middle of the tree
+    PacketArrays<float> direction{};
+    alignas(64) Mask is_valid{};
+};
+
+/// Triangles that a packet's rays are said to leave through, and where.
+struct PacketExits {
+    std::array<std::uint32_t, k_size> triangle;
+    std::array<PacketArrays<float>, 3> corner;
+    PacketArrays<float> barycentric;
+    alignas(64) std::array<float, k_size> distance;
+    alignas(64) Mask is_exit;  // the ray does pass from the inside to the outside there
+    alignas(64) Mask is_sure;  // and not near an edge
+};
+
+/// A vector in double precision.
+struct Exact {
+    double x, y, z;
+};
+
+template <class T>
+CANDELA_KERNEL_INLINE Exact exact(const PacketArrays<T>& v, std::size_t i) {
+    return {static_cast<double>(v.x[i]), static_cast<double>(v.y[i]), static_cast<double>(v.z[i])};
 }
+CANDELA_KERNEL_INLINE Exact operator-(const Exact& a, const Exact& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+CANDELA_KERNEL_INLINE double triple_product(const Exact& a, const Exact& b, const Exact& c) {
+    return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+}
+CANDELA_KERNEL_INLINE double not_negative(double x) { return x > 0 ? x : 0; }
+CANDELA_KERNEL_INLINE double min(double a, double b) { return b < a ? b : a; }
 
-constexpr std::uint32_t k_none = ~0u;  // instead of a triangle
+struct PacketLoop {
+    CANDELA_BATCH_LOOP static void run(std::size_t count, ConstVec3Span origin, ConstVec3Span direction,
+                                       Exact middle, Packet* packet) {
+        Packet& p = *packet;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            p.origin.x[i] = static_cast<double>(origin.x[i]) - middle.x;
+            p.origin.y[i] = static_cast<double>(origin.y[i]) - middle.y;
+            p.origin.z[i] = static_cast<double>(origin.z[i]) - middle.z;
+            p.direction.x[i] = direction.x[i];
+            p.direction.y[i] = direction.y[i];
+            p.direction.z[i] = direction.z[i];
+            // A faulty plugin's rays would disturb the others, and end the process where Embree has
+            // assertions.
+            const float size = kernel::abs(static_cast<float>(p.origin.x[i])) +
+                               kernel::abs(static_cast<float>(p.origin.y[i])) +
+                               kernel::abs(static_cast<float>(p.origin.z[i])) + kernel::abs(direction.x[i]) +
+                               kernel::abs(direction.y[i]) + kernel::abs(direction.z[i]);
+            p.is_valid[i] = size < k_most ? -1 : 0;
+        }
+    }
+};
+
+/// In double precision, from the ray and the triangle, instead of Embree's numbers.
+struct ExitLoop {
+    CANDELA_BATCH_LOOP static void run(const Packet* packet, PacketExits* exits) {
+        const Packet& p = *packet;
+        PacketExits& e = *exits;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < k_size; ++i) {
+            const Exact origin = exact(p.origin, i), towards = exact(p.direction, i);
+            const Exact a = exact(e.corner[0], i) - origin, b = exact(e.corner[1], i) - origin,
+                        c = exact(e.corner[2], i) - origin;
+            // The volumes spanned by the ray and the edges; none is negative, even where rounding put the hit
+            // beside the triangle.
+            const double u = not_negative(triple_product(towards, b, c)),
+                         v = not_negative(triple_product(towards, c, a)),
+                         w = not_negative(triple_product(towards, a, b)), sum = u + v + w;
+            const double scale = sum > 0 ? 1 / sum : 0;
+            e.distance[i] = static_cast<float>(not_negative(triple_product(a, b, c) * scale));
+            e.barycentric.x[i] = static_cast<float>(u * scale);
+            e.barycentric.y[i] = static_cast<float>(v * scale);
+            e.barycentric.z[i] = static_cast<float>(w * scale);
+            e.is_exit[i] = sum > 0 ? -1 : 0;
+            e.is_sure[i] = min(u, min(v, w)) * scale >= k_near_edge ? -1 : 0;
+        }
+    }
+};
 
 }  // namespace
 
@@ -72,21 +161,10 @@ struct TriangleTree::Tree {
     Tree& operator=(const Tree&) = delete;
     ~Tree() { embree.release_scene(scene); }
 
-    Vector3d vertex(std::size_t i) const {
-        return {double{position[3 * i]}, double{position[3 * i + 1]}, double{position[3 * i + 2]}};
-    }
-    /// From a little before, since a point on the surface may lie beyond it by its rounding.
-    Vector3f start(const Vector3d& point, const Vector3d& towards) const {
-        return (point - rounding * towards).cast<float>();
-    }
-    Vector3d from_middle(Vec3 point) const { return vector(point) - middle; }
-    /// The triangles at which rays that are close to each other leave, or k_none.
-    std::array<std::uint32_t, Embree::k_packet_size> triangles_ahead(std::size_t count,
-                                                                     const ConstVec3Span& origin,
-                                                                     const ConstVec3Span& direction) const;
-    /// In double, from a point relative to the middle.
-    std::optional<RayExit> exit_through(std::uint32_t triangle, const Vector3d& point,
-                                        const Vector3d& towards) const;
+    /// Whether the rays of the packet that `is_valid` leave, and where, if they start at `start` from their
+    /// origin and are not stopped by what `filter` refuses.
+    void trace(const Packet& packet, const Mask& is_valid, double start, RTCFilterFunctionN filter,
+               PacketExits& exits) const;
 };
 
 TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
@@ -114,10 +192,10 @@ TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
         std::ranges::copy(indices, corners);
         t.position = {vertices, 3 * vertex_count};
         t.indices = {corners, indices.size()};
-        embree.set_geometry_intersect_filter_function(geometry, ignore_entries);
         embree.commit_geometry(geometry);
         embree.attach_geometry(t.scene, geometry);
-        embree.set_scene_flags(t.scene, RTC_SCENE_FLAG_ROBUST);  // nothing slips between triangles
+        // Robust, so that nothing slips between triangles.
+        embree.set_scene_flags(t.scene, RTC_SCENE_FLAG_ROBUST | Embree::k_filters_by_call);
         embree.commit(t.scene);
     }
     embree.release_geometry(geometry);
@@ -128,74 +206,72 @@ TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
 TriangleTree::~TriangleTree() = default;
 
-void TriangleTree::find_exits(const ConstVec3Span& origin, const ConstVec3Span& direction,
-                              std::span<std::optional<RayExit>> exits) const {
-    std::ranges::fill(exits, std::nullopt);
+void TriangleTree::find_exits(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                              const RayExits& exits) const {
+    std::fill_n(exits.distance, count, -1.0f);
     if (tree_ == nullptr) return;
     const Tree& t = *tree_;
-    for (std::size_t first = 0; first < exits.size(); first += Embree::k_packet_size) {
-        const std::size_t count = std::min(Embree::k_packet_size, exits.size() - first);
-        const auto triangles = t.triangles_ahead(count, origin.from(first), direction.from(first));
-        for (std::size_t i = 0; i < count; ++i) {
-            if (triangles[i] == k_none) continue;
-            const Vector3d point = t.from_middle(origin[first + i]), towards = vector(direction[first + i]);
-            std::optional<RayExit>& exit = exits[first + i];
-            exit = t.exit_through(triangles[i], point, towards);
-            if (!exit ||
-                std::min({exit->barycentric.x, exit->barycentric.y, exit->barycentric.z}) < k_near_edge)
-                exit =
-                    t.exit_through(t.triangles_ahead(1, origin.from(first + i), direction.from(first + i))[0],
-                                   point, towards);
+    const Exact middle{t.middle.x(), t.middle.y(), t.middle.z()};
+    for (std::size_t first = 0; first < count; first += k_size) {
+        const std::size_t here = std::min(k_size, count - first);
+        Packet packet;
+        multiversion<PacketLoop>(here, origin.from(first), direction.from(first), middle, &packet);
+        PacketExits found;
+        // Beyond the surface that a ray starts on, what is met first is where it leaves, nearly always.
+        t.trace(packet, packet.is_valid, k_margin * t.rounding, nullptr, found);
+        for (std::size_t i = 0; i < here; ++i) {
+            if (packet.is_valid[i] == 0) continue;
+            PacketExits* exit = &found;
+            PacketExits alone;
+            if (found.is_sure[i] == 0) {
+                // It was near an edge, or has met an entry, or has missed an exit close to its origin. From a
+                // little before, since a point on the surface may lie beyond it by its rounding.
+                Mask only{};
+                only[i] = -1;
+                t.trace(packet, only, -t.rounding, ignore_entries, alone);
+                exit = &alone;
+            }
+            if (exit->is_exit[i] == 0) continue;
+            exits.triangle[first + i] = exit->triangle[i];
+            exits.distance[first + i] = exit->distance[i];
+            exits.barycentric.set(first + i,
+                                  {exit->barycentric.x[i], exit->barycentric.y[i], exit->barycentric.z[i]});
         }
     }
 }
 
-auto TriangleTree::Tree::triangles_ahead(std::size_t count, const ConstVec3Span& origin,
-                                         const ConstVec3Span& direction) const
-    -> std::array<std::uint32_t, Embree::k_packet_size> {
-    alignas(64) std::array<int, Embree::k_packet_size> is_valid{};
+void TriangleTree::Tree::trace(const Packet& packet, const Mask& is_valid, double start,
+                               RTCFilterFunctionN filter, PacketExits& exits) const {
+    alignas(64) const Mask valid = is_valid;
     RTCRayHit16 rays{};
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vector3d towards = vector(direction[i]);
-        const Vector3f from = start(from_middle(origin[i]), towards);
-        // A faulty plugin's rays would disturb the others, and end the process where Embree has assertions.
-        if (!is_sound(from) || !is_sound(towards)) continue;
-        is_valid[i] = -1;
-        rays.ray.org_x[i] = from.x();
-        rays.ray.org_y[i] = from.y();
-        rays.ray.org_z[i] = from.z();
-        rays.ray.dir_x[i] = direction.x[i];
-        rays.ray.dir_y[i] = direction.y[i];
-        rays.ray.dir_z[i] = direction.z[i];
+    const auto ahead = static_cast<float>(std::max(start, 0.0));
+    const double back = std::min(start, 0.0);
+    for (std::size_t i = 0; i < k_size; ++i) {
+        const Exact d = exact(packet.direction, i);
+        rays.ray.org_x[i] = static_cast<float>(packet.origin.x[i] + back * d.x);
+        rays.ray.org_y[i] = static_cast<float>(packet.origin.y[i] + back * d.y);
+        rays.ray.org_z[i] = static_cast<float>(packet.origin.z[i] + back * d.z);
+        rays.ray.dir_x[i] = packet.direction.x[i];
+        rays.ray.dir_y[i] = packet.direction.y[i];
+        rays.ray.dir_z[i] = packet.direction.z[i];
+        rays.ray.tnear[i] = ahead;
         rays.ray.tfar[i] = std::numeric_limits<float>::infinity();
         rays.ray.mask[i] = ~0u;
         rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    embree.trace(scene, is_valid, rays);
-    std::array<std::uint32_t, Embree::k_packet_size> triangles;
-    triangles.fill(k_none);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (is_valid[i] != 0 && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
-            triangles[i] = rays.hit.primID[i];
+    embree.trace(scene, valid, filter, rays);
+    for (std::size_t i = 0; i < k_size; ++i) {
+        const bool is_hit = valid[i] != 0 && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        exits.triangle[i] = is_hit ? rays.hit.primID[i] : 0;
+        const std::uint32_t* const corner = &indices[3 * std::size_t{exits.triangle[i]}];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float* const vertex = &position[3 * std::size_t{corner[is_hit ? k : 0]}];
+            exits.corner[k].x[i] = vertex[0];
+            exits.corner[k].y[i] = vertex[1];
+            exits.corner[k].z[i] = vertex[2];
+        }
     }
-    return triangles;
-}
-
-std::optional<RayExit> TriangleTree::Tree::exit_through(std::uint32_t triangle, const Vector3d& point,
-                                                        const Vector3d& towards) const {
-    if (triangle == k_none) return std::nullopt;
-    const std::uint32_t* const corner = &indices[3 * std::size_t{triangle}];
-    const Vector3d a = vertex(corner[0]) - point, b = vertex(corner[1]) - point,
-                   c = vertex(corner[2]) - point;
-    // The volumes spanned by the ray and the edges; none is negative, even where rounding put the hit beside
-    // the triangle.
-    const double u = std::max(triple_product(towards, b, c), 0.0),
-                 v = std::max(triple_product(towards, c, a), 0.0),
-                 w = std::max(triple_product(towards, a, b), 0.0), sum = u + v + w;
-    if (!(sum > 0)) return std::nullopt;
-    return RayExit{triangle,
-                   static_cast<float>(std::max(triple_product(a, b, c) / sum, 0.0)),
-                   {static_cast<float>(u / sum), static_cast<float>(v / sum), static_cast<float>(w / sum)}};
+    multiversion<ExitLoop>(&packet, &exits);
 }
 
 }  // namespace candela

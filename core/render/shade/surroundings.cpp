@@ -2,9 +2,6 @@ module;
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
 #include <utility>
 
 module candela.shade;
@@ -19,8 +16,6 @@ void ObjectSurroundings::look(std::size_t count, const ConstVec3Span& towards, c
 
 void ObjectSurroundings::leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
                                const ExitBatch& exit) {
-    barycentric_.resize(k_batch_size);
-    normal_.resize(k_batch_size);
     for (std::size_t first = 0; first < count; first += k_batch_size) {
         leave_batch(std::min(k_batch_size, count - first), origin.from(first), direction.from(first),
                     {exit.position.from(first), exit.normal.from(first), exit.distance + first});
@@ -29,34 +24,23 @@ void ObjectSurroundings::leave(std::size_t count, const ConstVec3Span& origin, c
 
 void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& origin,
                                      const ConstVec3Span& direction, const ExitBatch& exit) {
-    triangles_.clear();
-    rays_.clear();
-    exits_.resize(count);
+    triangles_.assign(count, 0);
+    barycentric_.resize(k_batch_size);
     if (interior_.tree != nullptr) {
-        interior_.tree->find_exits(origin, direction, exits_);
+        interior_.tree->find_exits(count, origin, direction,
+                                   {triangles_.data(), exit.distance, barycentric_.span()});
     } else {
-        std::ranges::fill(exits_, std::nullopt);
+        std::fill_n(exit.distance, count, -1.0f);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::optional<RayExit>& found = exits_[i];
-        exit.distance[i] = found ? found->distance : -1;
-        if (!found) {
-            exit.position.set(i, origin[i]);
-            exit.normal.set(i, direction[i]);
-            continue;
-        }
-        barycentric_.span().set(triangles_.size(), found->barycentric);
-        triangles_.push_back(found->triangle);
-        rays_.push_back(static_cast<std::uint32_t>(i));
-    }
-    if (triangles_.empty()) return;
     PointNeeds needs = surface_->needs();
     needs.color = needs.footprint = false;
     gather_places(*interior_.mesh, triangles_, std::as_const(barycentric_).span(), needs, points_);
-    shading_normals(*surface_, points_, normal_.span());
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
-        exit.position.set(rays_[i], points_.position.span()[i]);
-        exit.normal.set(rays_[i], normal_.span()[i]);
+    shading_normals(*surface_, points_, exit.normal);
+    const ConstVec3Span position = std::as_const(points_).position.span();
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool leaves = exit.distance[i] >= 0;
+        exit.position.set(i, leaves ? position[i] : origin[i]);
+        if (!leaves) exit.normal.set(i, direction[i]);
     }
 }
 

@@ -26,7 +26,6 @@ struct Embree {
     CANDELA_EMBREE_FUNCTION(new_geometry, rtcNewGeometry);
     CANDELA_EMBREE_FUNCTION(release_geometry, rtcReleaseGeometry);
     CANDELA_EMBREE_FUNCTION(set_new_geometry_buffer, rtcSetNewGeometryBuffer);
-    CANDELA_EMBREE_FUNCTION(set_geometry_intersect_filter_function, rtcSetGeometryIntersectFilterFunction);
     CANDELA_EMBREE_FUNCTION(commit_geometry, rtcCommitGeometry);
     CANDELA_EMBREE_FUNCTION(attach_geometry, rtcAttachGeometry);
     CANDELA_EMBREE_FUNCTION(intersect16, rtcIntersect16);
@@ -40,8 +39,17 @@ struct Embree {
     /// Builds the scene's tree, on this thread alone, so that it is the same one however many there are.
     void commit(RTCScene scene) const;
 
-    /// Finds the nearest hits of rays that are close to each other.
-    void trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCRayHit16& rays) const;
+    /// A scene's flag with which trace() may have a filter.
+#if RTC_VERSION_MAJOR >= 4
+    static constexpr RTCSceneFlags k_filters_by_call = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+#else
+    static constexpr RTCSceneFlags k_filters_by_call = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
+
+    /// Finds the nearest hits of rays that are close to each other, but for those that `filter` refuses, if
+    /// there is one.
+    void trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCFilterFunctionN filter,
+               RTCRayHit16& rays) const;
 
     /// Throws an Error that names the library where it cannot be loaded, and std::bad_alloc.
     static const Embree& instance();

@@ -2,7 +2,6 @@ module;
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 module candela.shade:surroundings;
@@ -43,9 +42,8 @@ class ObjectSurroundings final : public Surroundings {
     const SurfaceModels* surface_ = nullptr;
     Interior interior_;
     SurfacePoints points_;  // where rays left
-    Vec3Arrays barycentric_, normal_;
-    std::vector<std::optional<RayExit>> exits_;
-    std::vector<std::uint32_t> triangles_, rays_;
+    Vec3Arrays barycentric_;
+    std::vector<std::uint32_t> triangles_;
 };
 
 }  // namespace candela
