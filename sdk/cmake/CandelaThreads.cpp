@@ -154,6 +154,7 @@ class SameEverywhere final : public candela::Surroundings {
     void look(std::size_t count, const candela::ConstVec3Span&, const candela::Vec3Span& intensity) override {
         for (std::size_t i = 0; i < count; ++i) intensity.set(i, {1, 1, 1});
     }
+    float max_intensity() const noexcept override { return 1; }
     void leave(std::size_t count, const candela::ConstVec3Span& origin,
                const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
         for (std::size_t i = 0; i < count; ++i) {

@@ -74,6 +74,7 @@ class ColorfulSurroundings final : public candela::Surroundings {
               const candela::Vec3Span& intensity) override {
         for (std::size_t i = 0; i < count; ++i) intensity.set(i, Vec3{0.5f, 0.5f, 0.5f} + 0.5f * towards[i]);
     }
+    float max_intensity() const noexcept override { return 1; }
     void leave(std::size_t count, const candela::ConstVec3Span& origin,
                const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
         for (std::size_t i = 0; i < count; ++i) {

@@ -46,6 +46,11 @@ TEST_CASE("an environment of one intensity shows it in every direction") {
     CHECK(grey.seen({0.6f, -0.8f, 0}) == Rgb{0.25f, 0.5f, 0.75f});
 }
 
+TEST_CASE("an environment's largest intensity is that of all channels and directions") {
+    CHECK(Environment({0.25f, 0.75f, 0.5f}).max_intensity() == 0.75f);
+    CHECK(numbered(8, 4).max_intensity() == 31);
+}
+
 TEST_CASE("an environment picture shows a pixel exactly where its middle is") {
     const Environment picture = numbered(8, 4);
     CHECK_FALSE(picture.is_uniform());

@@ -4,8 +4,11 @@ module;
 #include "candela/kernel.h"
 #include "candela/multiversion.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -23,15 +26,20 @@ CANDELA_KERNEL_INLINE float within(float x, float low, float high) {
     return x > low ? kernel::min(x, high) : low;
 }
 
-CANDELA_KERNEL_INLINE vec3 pixel_at(const float* pixels, std::size_t number) {
-    return vec3(pixels[3 * number], pixels[3 * number + 1], pixels[3 * number + 2]);
-}
+constexpr std::size_t k_group_size = 64;
 
-struct LookLoop {
-    CANDELA_BATCH_LOOP static void run(const float* pixels, int width, int height, ConstVec3Span towards,
-                                       std::size_t count, Vec3Span intensity) {
+/// Between which four pixels directions lie, and where between them.
+struct Places {
+    std::array<std::array<std::uint32_t, k_group_size>, 4> pixel;  // upper left, upper right, lower left …
+    std::array<float, k_group_size> across, down;
+};
+
+struct PlaceLoop {
+    CANDELA_BATCH_LOOP static void run(int width, int height, ConstVec3Span towards, std::size_t count,
+                                       Places* places) {
         constexpr float k_inverse_pi = std::numbers::inv_pi_v<float>;
         const auto columns = static_cast<float>(width), rows = static_cast<float>(height);
+        Places& p = *places;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const vec3 d = kernel::load(towards, i);
@@ -40,27 +48,39 @@ struct LookLoop {
             const float x = within(u * columns - 0.5f, -0.5f, columns - 0.5f);
             const float y = within(v * rows - 0.5f, 0.0f, rows - 1.0f);
             const float left = kernel::floor(x), top = kernel::floor(y);
-            const float s = x - left, t = y - top;
             const int column = static_cast<int>(left), row = static_cast<int>(top);
             // Around the back, the last column is beside the first.
-            const auto c0 = static_cast<std::size_t>(column < 0 ? width - 1 : column);
-            const auto c1 = static_cast<std::size_t>(column + 1 >= width ? 0 : column + 1);
-            const std::size_t r0 = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
-            const std::size_t r1 =
-                static_cast<std::size_t>(row + 1 >= height ? row : row + 1) * static_cast<std::size_t>(width);
-            const vec3 upper = (1.0f - s) * pixel_at(pixels, r0 + c0) + s * pixel_at(pixels, r0 + c1);
-            const vec3 lower = (1.0f - s) * pixel_at(pixels, r1 + c0) + s * pixel_at(pixels, r1 + c1);
-            kernel::store(intensity, i, (1.0f - t) * upper + t * lower);
+            const int c0 = column < 0 ? width - 1 : column, c1 = column + 1 >= width ? 0 : column + 1;
+            const auto upper = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(width);
+            const auto lower = static_cast<std::uint32_t>(row + 1 >= height ? row : row + 1) *
+                               static_cast<std::uint32_t>(width);
+            p.pixel[0][i] = upper + static_cast<std::uint32_t>(c0);
+            p.pixel[1][i] = upper + static_cast<std::uint32_t>(c1);
+            p.pixel[2][i] = lower + static_cast<std::uint32_t>(c0);
+            p.pixel[3][i] = lower + static_cast<std::uint32_t>(c1);
+            p.across[i] = x - left;
+            p.down[i] = y - top;
         }
     }
 };
 
+/// A pixel's three channels, and a fourth number: what comes after it.
+Eigen::Map<const Eigen::Array4f> pixel_at(const float* pixels, std::uint32_t number) {
+    return Eigen::Map<const Eigen::Array4f>(pixels + 3 * std::size_t{number});
+}
+
 }  // namespace
 
-Environment::Environment(Rgb everywhere) : everywhere_(everywhere) {}
+Environment::Environment(Rgb everywhere)
+    : everywhere_(everywhere), max_intensity_(std::max({everywhere.r, everywhere.g, everywhere.b})) {}
 
 Environment::Environment(int width, int height, std::vector<float> intensity)
-    : width_(width), height_(height), intensity_(std::move(intensity)) {}
+    : max_intensity_(std::ranges::max(intensity)),
+      width_(width),
+      height_(height),
+      intensity_(std::move(intensity)) {
+    intensity_.push_back(0);
+}
 
 Rgb Environment::seen(Vec3 towards) const noexcept {
     Rgb rgb;
@@ -76,7 +96,21 @@ void Environment::look(std::size_t count, const ConstVec3Span& towards,
         std::fill_n(intensity.z, count, everywhere_.b);
         return;
     }
-    multiversion<LookLoop>(intensity_.data(), width_, height_, towards, count, intensity);
+    Places places;
+    for (std::size_t first = 0; first < count; first += k_group_size) {
+        const std::size_t here = std::min(k_group_size, count - first);
+        multiversion<PlaceLoop>(width_, height_, towards.from(first), here, &places);
+        for (std::size_t i = 0; i < here; ++i) {
+            const auto pixel = [&](std::size_t corner) {
+                return pixel_at(intensity_.data(), places.pixel[corner][i]);
+            };
+            const float across = places.across[i], down = places.down[i];
+            const Eigen::Array4f upper = (1 - across) * pixel(0) + across * pixel(1),
+                                 lower = (1 - across) * pixel(2) + across * pixel(3),
+                                 seen = (1 - down) * upper + down * lower;
+            intensity.set(first + i, {seen[0], seen[1], seen[2]});
+        }
+    }
 }
 
 }  // namespace candela

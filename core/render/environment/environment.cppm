@@ -24,6 +24,8 @@ class CANDELA_API Environment {
     Environment(int width, int height, std::vector<float> intensity);
 
     bool is_uniform() const noexcept { return width_ == 0; }
+    /// Of all directions and channels.
+    float max_intensity() const noexcept { return max_intensity_; }
     /// Interpolated between neighbouring pixels; `towards` is a unit vector.
     Rgb seen(Vec3 towards) const noexcept;
     /// The same in `count` directions.
@@ -31,6 +33,7 @@ class CANDELA_API Environment {
 
   private:
     Rgb everywhere_;
+    float max_intensity_ = 0;
     int width_ = 0;
     int height_ = 0;
     std::vector<float> intensity_;

@@ -17,7 +17,7 @@ constexpr auto k_fields = fields(
         .minimum(1e-6f)
         .unit("m"),
     integer(&DielectricMaterial::internal_reflections, "internal_reflections", 4,
-            "number of internal reflections followed")
+            "largest number of internal reflections followed")
         .range(0, 16));
 
 CANDELA_REFRACTION_PLUGIN(

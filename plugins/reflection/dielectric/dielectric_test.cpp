@@ -2,6 +2,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "support/plugins.h"
@@ -23,6 +24,7 @@ Vec3 direction(Double3 d) {
 class BallSurroundings final : public candela::Surroundings {
   public:
     std::function<double(Double3)> intensity = [](Double3) { return 1.0; };
+    float most = 1;                 // of what it returns
     std::vector<Double3> looked;    // where the first point looked, in order
     std::vector<Double3> followed;  // the first point's rays within
 
@@ -35,6 +37,7 @@ class BallSurroundings final : public candela::Surroundings {
         }
     }
 
+    float max_intensity() const noexcept override { return most; }
     void leave(std::size_t count, const candela::ConstVec3Span& origin, const candela::ConstVec3Span& ray,
                const candela::ExitBatch& exit) override {
         followed.push_back(exact(ray[0]));
@@ -59,6 +62,7 @@ class Wall final : public candela::Surroundings {
         const float value = ++looks_ == 2 ? 1.0f : 0.0f;
         seen.set(0, {value, value, value});
     }
+    float max_intensity() const noexcept override { return 1; }
     void leave(std::size_t, const candela::ConstVec3Span& origin, const candela::ConstVec3Span& ray,
                const candela::ExitBatch& exit) override {
         const Double3 d = exact(ray[0]);
@@ -194,6 +198,44 @@ TEST_CASE(
             }
         }
     }
+}
+
+TEST_CASE("reflection/dielectric follows light until less than 1/1024 of what is seen can be left of it") {
+    // Straight through glass, 4 % are mirrored each time: 0.04, 0.0016, 6e-5, 2.6e-6, 1e-7 ... of 0.96.
+    const auto rays = [](float most) {
+        BallSurroundings around;
+        around.most = most;
+        seen_at(*dielectric(1.5, 16), 0, around);
+        return around.followed.size();
+    };
+    CHECK(rays(1) == 3);
+    CHECK(rays(1e3f) == 5);  // a sun: what little is left of it may be seen
+    CHECK(rays(1e30f) == 17);
+}
+
+TEST_CASE("reflection/dielectric shows the sum of all reflections within, to a thousandth") {
+    // Straight through, the ways out are ahead and back in turns.
+    const double mirrored = 0.04, refracted = 0.96;
+    for (const double behind : {0.0, 0.01, 1.0}) {
+        for (const double ahead : {0.0, 0.02, 1.0}) {
+            double expected = mirrored * behind, share = refracted * refracted;
+            for (int within = 0; within < 40; ++within, share *= mirrored)
+                expected += share * (within % 2 == 0 ? ahead : behind);
+            BallSurroundings around;
+            around.intensity = [&](Double3 towards) { return towards.z < 0 ? ahead : behind; };
+            const Vec3 seen = seen_at(*dielectric(1.5, 16), 0, around);
+            INFO("ahead " << ahead << ", behind " << behind);
+            CHECK(agree(seen, Double3{expected, expected, expected}, 1e-3));
+        }
+    }
+}
+
+TEST_CASE("reflection/dielectric comes to an end where its surroundings are no numbers") {
+    BallSurroundings around;
+    around.intensity = [](Double3) { return std::numeric_limits<double>::quiet_NaN(); };
+    CHECK(std::isnan(seen_at(*dielectric(1.5), 0.3, around).x));
+    Wall wall(std::numeric_limits<double>::quiet_NaN());
+    seen_at(*dielectric(1.5), 0.3, wall);
 }
 
 TEST_CASE(

@@ -15,26 +15,51 @@
 
 #include "candela/reflection_plugin.h"
 
+#include <cstdint>
+
 namespace candela::sdk {
 
-/// Three numbers for each ray of a batch.
-template <std::size_t size>
-struct RayArrays {
-    float x[size], y[size], z[size];
+/// A ray is not followed where what is left of it can change no channel of what it shows by more than this
+/// share: less than a quarter of the smallest step of a picture with eight bits.
+inline constexpr float k_negligible = 1.0f / 1024;
 
-    Vec3Span span() { return {x, y, z}; }
-};
-
-/// A group of lines of sight that are followed together.
+/// Lines of sight that are followed together. Those that have ended are removed.
 struct Rays {
     static constexpr std::size_t k_size = k_pass_size;
 
-    RayArrays<k_size> origin, direction, weight;  // `weight`: the share of what they meet that is visible
-    RayArrays<k_size> color;                      // C_o where they enter
-    RayArrays<k_size> towards, share, seen;       // where they look, and how much of that is visible
-    RayArrays<k_size> exit_position, exit_normal;
-    float distance[k_size];
+    PassVectors origin{}, direction{}, weight{};  // `weight`: the share of what they meet that is visible
+    PassVectors color{};                          // C_o where they enter
+    PassVectors towards{}, share{}, seen{};       // where they look, and how much of that is visible
+    PassVectors total{};                          // all that was visible so far
+    PassVectors exit_position{}, exit_normal{};
+    alignas(64) float distance[k_size]{};
+    std::uint32_t point[k_size];  // at which they entered
     std::size_t count = 0;
+
+    /// As many, in whole vectors: loops over them have no remainder, and what ended rays have left is no
+    /// harm.
+    std::size_t filled() const {
+        constexpr std::size_t k_vector = 16;
+        return (count + k_vector - 1) / k_vector * k_vector;
+    }
+
+    /// Removes the rays of which nothing is left, or all of them, and adds what they have shown.
+    void remove_ended(bool all, const Vec3Span& sum) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (all || (weight.x[i] == 0 && weight.y[i] == 0 && weight.z[i] == 0)) {
+                store(sum, point[i], load(sum, point[i]) + load(total, i));
+                continue;
+            }
+            if (kept < i) {
+                for (PassVectors* const v : {&origin, &direction, &weight, &color, &total})
+                    store(*v, kept, load(*v, i));
+                point[kept] = point[i];
+            }
+            ++kept;
+        }
+        count = kept;
+    }
 };
 
 /// At the surface: a part looks towards the mirror image, the rest enters.
@@ -54,6 +79,7 @@ struct EnterLoop {
             store(r.weight, i, vec3(1.0f - refracted.mirrored));
             store(r.origin, i, load(surface.position, i));
             store(r.color, i, s.color);
+            r.point[i] = static_cast<std::uint32_t>(i);
         }
     }
 };
@@ -61,9 +87,9 @@ struct EnterLoop {
 /// At the surface, from within: a part leaves and looks outwards, the rest stays.
 template <class Material, auto leave, auto transmit>
 struct LeaveLoop {
-    CANDELA_BATCH_LOOP static void run(Material material, Rays* rays, bool is_last) {
+    CANDELA_BATCH_LOOP static void run(Material material, Rays* rays, bool is_last, float max_intensity) {
         Rays& r = *rays;
-        const std::size_t count = r.count;
+        const std::size_t count = r.filled();
         const float last = is_last ? 1.0f : 0.0f;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
@@ -72,13 +98,16 @@ struct LeaveLoop {
             const kernel::Refracted refracted = call<leave>(material, direction, normal);
             const bool is_lost = r.distance[i] < 0.0f;  // the surface is open there
             const bool is_free = refracted.mirrored < 1.0f;
-            // Finally everything that is left exits, so that no light is lost; straight on if it cannot be
-            // refracted.
-            const float out = is_lost ? 1.0f : kernel::max(1.0f - refracted.mirrored, last);
-            const float refracts = !is_lost && is_free ? 1.0f : 0.0f;
-            const vec3 towards = refracts * refracted.direction + (1.0f - refracts) * direction;
             const vec3 kept = call<transmit>(material, load(r.color, i), is_lost ? 0.0f : r.distance[i]);
             const vec3 weight = load(r.weight, i) * kept;
+            const vec3 change =
+                weight * (refracted.mirrored * max_intensity) - k_negligible * load(r.total, i);
+            const bool is_negligible = kernel::max(kernel::max(change.x, change.y), change.z) <= 0.0f;
+            // Finally everything that is left exits, so that no light is lost; straight on if it cannot be
+            // refracted.
+            const float out = is_lost || is_negligible ? 1.0f : kernel::max(1.0f - refracted.mirrored, last);
+            const float refracts = !is_lost && is_free ? 1.0f : 0.0f;
+            const vec3 towards = refracts * refracted.direction + (1.0f - refracts) * direction;
             store(r.towards, i, towards);
             store(r.share, i, weight * out);
             store(r.weight, i, weight * (1.0f - out));
@@ -90,12 +119,12 @@ struct LeaveLoop {
 };
 
 struct AddSeenLoop {
-    CANDELA_BATCH_LOOP static void run(const Rays* rays, Vec3Span sum) {
-        const Rays& r = *rays;
-        const std::size_t count = r.count;
+    CANDELA_BATCH_LOOP static void run(Rays* rays) {
+        Rays& r = *rays;
+        const std::size_t count = r.filled();
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            add_product(sum, i, load(r.share, i), load(r.seen, i));
+            add_product(r.total, i, load(r.share, i), load(r.seen, i));
         }
     }
 };
@@ -139,19 +168,21 @@ class KernelRefraction : public ReflectionModel {
         Rays rays;
         rays.count = surface.count;
         multiversion<EnterLoop<Material, enter_, reads>>(material_, surface, &rays);
-        look(rays, surroundings, sum);
-        for (int within = 0; within <= material_.internal_reflections; ++within) {
+        look(rays, surroundings);
+        for (int within = 0; rays.count > 0; ++within) {
+            const bool is_last = within == material_.internal_reflections;
             surroundings.leave(rays.count, rays.origin.span(), rays.direction.span(),
                                {rays.exit_position.span(), rays.exit_normal.span(), rays.distance});
-            multiversion<LeaveLoop<Material, leave_, transmit_>>(material_, &rays,
-                                                                 within == material_.internal_reflections);
-            look(rays, surroundings, sum);
+            multiversion<LeaveLoop<Material, leave_, transmit_>>(material_, &rays, is_last,
+                                                                 surroundings.max_intensity());
+            look(rays, surroundings);
+            rays.remove_ended(is_last, sum);
         }
     }
 
-    static void look(Rays& rays, Surroundings& surroundings, const Vec3Span& sum) {
-        surroundings.look(rays.count, rays.towards.span(), rays.seen.span());
-        multiversion<AddSeenLoop>(&rays, sum);
+    static void look(Rays& rays, Surroundings& surroundings) {
+        surroundings.look(rays.filled(), rays.towards.span(), rays.seen.span());
+        multiversion<AddSeenLoop>(&rays);
     }
 
     KernelReflection<Material, reflect_, reflect_ambient_, reads> surface_;

@@ -56,6 +56,10 @@ class CANDELA_API Surroundings {
     /// vectors).
     virtual void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) = 0;
 
+    /// The largest intensity, of all channels, that arrives from anywhere: what bounds the light that is lost
+    /// where a ray is not followed any further.
+    virtual float max_intensity() const noexcept = 0;
+
     /// Follows rays within the object from `origin`, on its surface, along `direction` (unit vectors) to
     /// where they leave it. Arrays do not alias.
     virtual void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,

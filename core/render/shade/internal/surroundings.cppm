@@ -31,6 +31,7 @@ class ObjectSurroundings final : public Surroundings {
     }
 
     void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) override;
+    float max_intensity() const noexcept override { return environment_.max_intensity(); }
     void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
                const ExitBatch& exit) override;
 
