@@ -100,7 +100,7 @@ struct PacketLoop {
     CANDELA_BATCH_LOOP static void run(std::size_t count, ConstVec3Span origin, ConstVec3Span direction,
                                        Exact middle, Packet* packet) {
         Packet& p = *packet;
-        CANDELA_VECTORIZE
+        CANDELA_VECTORIZE_SIXTEEN
         for (std::size_t i = 0; i < count; ++i) {
             p.origin.x[i] = static_cast<double>(origin.x[i]) - middle.x;
             p.origin.y[i] = static_cast<double>(origin.y[i]) - middle.y;
@@ -124,7 +124,7 @@ struct ExitLoop {
     CANDELA_BATCH_LOOP static void run(const Packet* packet, PacketExits* exits) {
         const Packet& p = *packet;
         PacketExits& e = *exits;
-        CANDELA_VECTORIZE
+        CANDELA_VECTORIZE_SIXTEEN
         for (std::size_t i = 0; i < k_size; ++i) {
             const Exact origin = exact(p.origin, i), towards = exact(p.direction, i);
             const Exact a = exact(e.corner[0], i) - origin, b = exact(e.corner[1], i) - origin,
