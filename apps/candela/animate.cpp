@@ -111,7 +111,7 @@ int animate(const CommandLine& line) {
     const AnimationOutputs outputs = animation_outputs_from(line);
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = format_of_frames(outputs, registry);
+    const candela::PictureFormat format = format_of_frames(line, outputs, registry);
 
     candela::Diagnostics diagnostics;
     auto frames = candela::SceneFrames::read(scene_request_from(line, registry), registry, diagnostics);

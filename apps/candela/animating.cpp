@@ -4,6 +4,7 @@
 
 #include "compiling.h"
 #include "film_encoding.h"
+#include "picture_format.h"
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
@@ -16,6 +17,7 @@ void add_frames_options(CommandLine& line) {
                    "ffmpeg; may be repeated for both")("frames", po::value<std::string>()->value_name("A..B"),
                                                        "only these; default: all")(
         "step", po::value<int>()->value_name("N")->default_value(1), "every N-th frame");
+    add_format_option(line);
 }
 
 AnimationOutputs animation_outputs_from(const CommandLine& line) {
@@ -36,9 +38,10 @@ AnimationOutputs animation_outputs_from(const CommandLine& line) {
     return outputs;
 }
 
-candela::PictureFormat format_of_frames(const AnimationOutputs& outputs, candela::Registry& registry) {
+candela::PictureFormat format_of_frames(const CommandLine& line, const AnimationOutputs& outputs,
+                                        candela::Registry& registry) {
     candela::PictureFormat format =
-        candela::format_of(outputs.frames ? outputs.frames->file_of(0) : fs::path("0.png"), registry);
+        picture_format_from(line, outputs.frames ? outputs.frames->file_of(0) : fs::path("0.png"), registry);
     // ffmpeg reads 8-bit pictures as people see them.
     if (outputs.frames && !outputs.films.empty() && format.pixels != candela::PixelType::byte) {
         throw Error(

@@ -28,7 +28,8 @@ void add_frames_options(CommandLine& line);
 AnimationOutputs animation_outputs_from(const CommandLine& line);
 
 /// The format of the frames. Throws candela::Error (bad_request) if they cannot become a film and should.
-candela::PictureFormat format_of_frames(const AnimationOutputs& outputs, candela::Registry& registry);
+candela::PictureFormat format_of_frames(const CommandLine& line, const AnimationOutputs& outputs,
+                                        candela::Registry& registry);
 
 /// The frames that --frames and --step choose, all validated; none if the scene is not animated, which is
 /// reported with what else is wrong. Throws candela::Error (bad_request).

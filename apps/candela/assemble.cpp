@@ -13,6 +13,7 @@
 
 #include "command_line.h"
 #include "frame_record.h"
+#include "picture_format.h"
 #include "picture_parts.h"
 #include "reporting.h"
 #include "stopwatch.h"
@@ -144,7 +145,7 @@ int assemble(const CommandLine& line) {
         return 0;
     }
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = candela::format_of(picture, registry);
+    const candela::PictureFormat format = picture_format_from(line, picture, registry);
     const PartedPicture parted = read_description(picture);
     if (format.pixels != parted.whole.pixels)
         throw Error(ErrorCategory::bad_request,
@@ -182,6 +183,7 @@ int run_assemble(const std::vector<std::string>& arguments) {
     line.positional("picture", 1);
     line.options()("keep-parts", "do not remove the parts")("threads", po::value<int>()->value_name("N"),
                                                             "threads to use; default: all cores");
+    add_format_option(line);
     add_plugin_options(line);
     add_journal_option(line);
     if (!line.parse(arguments)) return 0;

@@ -20,6 +20,7 @@
 #include "exit_code.h"
 #include "json/json.h"
 #include "picture_comparison/differences.h"
+#include "picture_format.h"
 #include "reporting.h"
 #include "terminal.h"
 #include "terms/terms.h"
@@ -229,6 +230,7 @@ int run_compare(const std::vector<std::string>& arguments) {
         "columns", po::value<int>()->value_name("N"), "pictures side by side")(
         "json", "print on standard output what is where, and the differences");
     add_scene_options(line);
+    add_format_option(line);
     if (!line.parse(arguments)) return 0;
 
     const std::vector<Axis> axes = axes_from(line);
@@ -251,7 +253,7 @@ int run_compare(const std::vector<std::string>& arguments) {
     require_no_terminal(output);
     const auto wanted_columns = columns_from(line, all.size());
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = candela::format_of(output, registry);
+    const candela::PictureFormat format = picture_format_from(line, output, registry);
 
     PaneRenderer renderer(line, output, registry, format.pixels);
     std::vector<Pane> panes;

@@ -108,6 +108,12 @@ constexpr OptionValues k_values_of_options[] = {
          return result;
      }},
     {"match", [](candela::Registry& r) { return parameters_of(r, PluginKind::reflection); }},
+    {"format-set",
+     [](candela::Registry& r) {
+         std::vector<Completion> result = parameters_of(r, PluginKind::image);
+         for (Completion& parameter : result) parameter.word += '=';
+         return result;
+     }},
     {"engine", [](candela::Registry&) { return std::vector<Completion>{{"local"}, {"slurm"}, {"print"}}; }},
     {"samples", [](candela::Registry&) { return std::vector<Completion>{{"1"}, {"4"}, {"8"}, {"16"}}; }},
     {"format", [](candela::Registry&) { return std::vector<Completion>{{"json"}, {"markdown"}}; }}};

@@ -17,6 +17,7 @@
 
 import candela.diagnostics;
 import candela.files;
+import candela.parameters;
 
 namespace fs = std::filesystem;
 using candela::Error;
@@ -118,6 +119,10 @@ std::string InputFingerprints::of(const candela::SceneDraft& draft) {
     }
     for (const std::string& plugin : plugins) all += plugin;
     all += fmt::format("{} {}\n", format_.extension, of_file(core_library()));
+    for (std::size_t i = 0; i < format_.parameters.schema().size(); ++i) {
+        if (const auto& value = format_.parameters.get(i))
+            all += fmt::format("{} {}\n", format_.parameters.schema()[i].name, text_of(*value));
+    }
     return fingerprint(all);
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "reporting.h"
+
 import candela.diagnostics;
 
 using candela::Error;
@@ -50,13 +52,7 @@ candela::Scene scene_with(const NamedModel& model, candela::Registry& registry) 
     candela::Diagnostics diagnostics;
     auto scene = candela::read_scene(request_for(model, file.manifest), registry, diagnostics);
     if (scene) return *std::move(scene);
-    std::string problems;
-    for (const candela::Diagnostic& problem : diagnostics.sorted()) {
-        if (problem.severity != candela::Severity::error) continue;
-        problems += fmt::format("{}{}: {}{}", problems.empty() ? "" : "; ", problem.place.file,
-                                problem.message, problem.hint.empty() ? "" : ", " + problem.hint);
-    }
-    throw Error(ErrorCategory::bad_request, problems);
+    throw usage_error(diagnostics);
 }
 
 std::string NamedModel::label() const {

@@ -11,6 +11,7 @@
 #include "compiling.h"
 #include "exit_code.h"
 #include "frame_record.h"
+#include "picture_format.h"
 #include "picture_parts.h"
 #include "reporting.h"
 #include "terminal.h"
@@ -92,7 +93,7 @@ int render_part(const CommandLine& line) {
     require_no(line, "no-clobber", "a part that is up to date is left alone anyway");
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = candela::format_of(output, registry);
+    const candela::PictureFormat format = picture_format_from(line, output, registry);
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
     if (draft) {

@@ -7,6 +7,7 @@
 
 #include "compiling.h"
 #include "frame_record.h"
+#include "picture_format.h"
 #include "picture_parts.h"
 #include "submission.h"
 
@@ -40,7 +41,7 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
                                               candela::Diagnostics& diagnostics) {
     const fs::path picture = picture_from(line);
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = candela::format_of(picture, registry);
+    const candela::PictureFormat format = picture_format_from(line, picture, registry);
     bool has_asked = false;
     const auto draft =
         candela::draft_scene(repeatable_request_from(line, registry, has_asked), registry, diagnostics);
@@ -74,6 +75,7 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
     }
     job.last = {job.commands.front().front(), "assemble", picture.string(), "--quiet",
                 "--journal=" + job.folder.journal_of(k_last_task).string()};
+    for (const std::string& word : format_words_from(line)) job.last.push_back(word);
     for (const std::string& folder : line.all("plugin-dir")) job.last.push_back("--plugin-dir=" + folder);
     if (line.has("allow-untrusted-plugins")) job.last.emplace_back("--allow-untrusted-plugins");
     return job;

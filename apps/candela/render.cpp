@@ -12,6 +12,7 @@
 #include "compiling.h"
 #include "exit_code.h"
 #include "part_rendering.h"
+#include "picture_format.h"
 #include "reporting.h"
 #include "stopwatch.h"
 #include "task_journal.h"
@@ -57,7 +58,7 @@ int render_picture(const CommandLine& line) {
     if (existing == candela::Existing::kept) require_no_file(output);
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = candela::format_of(output, registry);
+    const candela::PictureFormat format = picture_format_from(line, output, registry);
 
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
@@ -156,6 +157,7 @@ int run_render(const std::vector<std::string>& arguments) {
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("candela.png"),
                    "the picture; - writes a PNG to standard output");
     add_scene_options(line);
+    add_format_option(line);
     add_frame_option(line);
     line.options()("threads", po::value<int>()->value_name("N"),
                    "threads to use; default: all cores, or one for a small picture")(

@@ -60,6 +60,16 @@ void report(const candela::Diagnostics& diagnostics) {
         reported_errors += diagnostics_text(diagnostics, false, k_most_diagnostics_shown, Shown::errors);
 }
 
+candela::Error usage_error(const candela::Diagnostics& diagnostics) {
+    std::string problems;
+    for (const candela::Diagnostic& problem : diagnostics.sorted()) {
+        if (problem.severity != candela::Severity::error) continue;
+        problems += fmt::format("{}{}: {}{}", problems.empty() ? "" : "; ", problem.place.file,
+                                problem.message, problem.hint.empty() ? "" : ", " + problem.hint);
+    }
+    return {candela::ErrorCategory::bad_request, problems};
+}
+
 std::string errors_reported() { return reported_errors; }
 
 Failure current_failure() {

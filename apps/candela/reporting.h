@@ -7,6 +7,7 @@
 
 #include "exit_code.h"
 
+import candela.diagnostics;
 import candela.registry;
 
 /// From now on nothing but errors is printed on stderr (--quiet).
@@ -35,6 +36,9 @@ void warn(const std::string& message);
 
 /// Prints diagnostics on stderr; only the errors if --quiet was given.
 void report(const candela::Diagnostics& diagnostics);
+
+/// The errors as one that a command line has, to be thrown.
+candela::Error usage_error(const candela::Diagnostics& diagnostics);
 
 /// The errors among what report() has printed, without colours: for who writes down why something failed.
 std::string errors_reported();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "import/import.h"
+#include "picture_format.h"
 #include "shell_words.h"
 
 std::string shell_line(const Submission& job, const Words& command) {
@@ -17,6 +18,7 @@ std::string shell_line(const Submission& job, const Words& command) {
 Words common_words(const CommandLine& line, const char* verb, bool has_asked) {
     Words words = {std::filesystem::canonical("/proc/self/exe").string(), verb};
     for (const std::string& word : scene_words_from(line)) words.push_back(word);
+    for (const std::string& word : format_words_from(line)) words.push_back(word);
     if (has_asked) words.emplace_back("--defaults");
     words.emplace_back("--quiet");
     return words;

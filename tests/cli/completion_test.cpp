@@ -74,6 +74,7 @@ TEST_CASE("completion: what can be set in a scene, part by part") {
           Words{"image.color_management=srgb", "image.color_management=none"});
     CHECK(completions({"render", "--set", "shading.model=go"}) == Words{"shading.model=gouraud"});
     CHECK(completions({"render", "--set", "nothing.of."}).empty());
+    CHECK(completions({"render", "--format-set", "qua"}) == Words{"quality="});
 }
 
 TEST_CASE("completion: files are left to the shell, and mistakes before the cursor are borne") {

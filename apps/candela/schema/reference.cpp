@@ -307,6 +307,13 @@ class ReferenceWriter {
         }
         line("\nIf several plugins write an extension, a dedicated one is preferred to a fallback.\n");
         for (const Manifest* m : all(PluginKind::image)) line("- `{}`: {}", m->id(), m->summary);
+        for (const Manifest* m : all(PluginKind::image)) {
+            if (m->parameters.empty()) continue;
+            line("\nParameters of `{}`, such as `--format-set {}={}`:\n", m->id(), m->parameters.front().name,
+                 sample_value(m->parameters.front()));
+            begin_keys();
+            for (const Parameter& p : m->parameters) key(p, constraint_text(p));
+        }
     }
 
     std::span<const Manifest> installed_;

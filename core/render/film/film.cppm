@@ -16,6 +16,7 @@ import candela.color;
 import candela.files;
 import candela.image;
 import candela.math;
+import candela.parameters;
 import candela.params;
 import candela.picture_rows;
 import candela.registry;
@@ -77,10 +78,11 @@ struct PictureFormat {
     std::string extension;
     PixelType pixels = PixelType::byte;
     bool has_layers = false;
+    ParamSet parameters{};  // of the plugin
 };
 
-/// The format of a path, by its extension; "-", standard output, is PNG. Throws Error for an extension that
-/// no plugin writes.
+/// The format of a path, by its extension, with the plugin's default parameters; "-", standard output, is
+/// PNG. Throws Error for an extension that no plugin writes.
 CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
 /// Writes the picture atomically, through an OutputFile; `existing`: what becomes of a file of that name.

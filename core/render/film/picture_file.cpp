@@ -9,6 +9,7 @@ module;
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 module candela.film;
@@ -89,8 +90,7 @@ class GatheredRows {
 
 std::unique_ptr<ImageFormat> writer_of(const PictureFormat& format, Registry& registry,
                                        ColorEncoding encoding) {
-    return registry.create<ImageFormat>(format.plugin, registry.parameters(PluginKind::image, format.plugin),
-                                        encoding);
+    return registry.create<ImageFormat>(format.plugin, format.parameters, encoding);
 }
 
 /// A file of what `call` makes the format's plugin write.
@@ -113,7 +113,16 @@ void write(const PictureFormat& format, const fs::path& path, Registry& registry
 }  // namespace
 
 PictureFormat format_of(const fs::path& path, Registry& registry) {
-    if (path == "-") return {.plugin = "png", .extension = "png", .pixels = PixelType::byte};
+    const auto defaults = [&](std::string_view plugin) {
+        return registry.parameters(PluginKind::image, plugin);
+    };
+    if (path == "-") {
+        return {.plugin = "png",
+                .extension = "png",
+                .pixels = PixelType::byte,
+                .has_layers = false,
+                .parameters = defaults("png")};
+    }
     const std::string extension = extension_of(path);
     const PluginFile* const plugin = extension.empty() ? nullptr : registry.find_format(extension);
     if (plugin == nullptr) {
@@ -132,7 +141,8 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
     return {.plugin = plugin->manifest.name,
             .extension = extension,
             .pixels = format->pixels,
-            .has_layers = format->layers};
+            .has_layers = format->layers,
+            .parameters = defaults(plugin->manifest.name)};
 }
 
 void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry,

@@ -1,0 +1,22 @@
+// The format of a picture, and what a person asks of it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+
+import candela.film;
+import candela.registry;
+
+/// Adds --format-set.
+void add_format_option(CommandLine& line);
+
+/// The format of a picture's name, with the parameters that --format-set sets. Throws candela::Error
+/// (bad_request) if no plugin writes such pictures, or for what is wrong with the parameters.
+candela::PictureFormat picture_format_from(const CommandLine& line, const std::filesystem::path& picture,
+                                           candela::Registry& registry);
+
+/// The words that say the same to another command.
+std::vector<std::string> format_words_from(const CommandLine& line);

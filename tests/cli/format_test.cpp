@@ -1,0 +1,117 @@
+// --format-set: parameters of the format that a picture is written in.
+#include <catch2/catch_test_macros.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/box_scene.h"
+#include "support/command.h"
+#include "support/expect.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path with_scene(const std::string& more = "") {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "scene.toml", box_scene(64, 48) + more);
+    return directory;
+}
+
+CommandResult candela(const fs::path& directory, const std::vector<std::string>& words) {
+    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
+}
+
+/// The size of a picture that render writes with `more`.
+std::uintmax_t rendered_size(const fs::path& directory, const std::string& name,
+                             std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"render", "scene.toml", "-o", name});
+    const CommandResult result = candela(directory, more);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return fs::file_size(directory / name);
+}
+
+constexpr const char* k_two_frames = "[animation]\nframes = 2\nfps = 1\n[animation.orbit]\n";
+
+}  // namespace
+
+TEST_CASE("format: --format-set quality: the lower, the smaller the JPEG, and the default is what describe says") {
+    const fs::path d = with_scene();
+    const auto at = [&](const std::string& quality) {
+        return rendered_size(d, quality + ".jpg", {"--format-set", "quality=" + quality});
+    };
+    CHECK(at("10") < at("50"));
+    CHECK(at("50") < at("100"));
+    CHECK(rendered_size(d, "default.jpg") == at("95"));
+}
+
+TEST_CASE("format: --format-set compression=0: a PNG as large as its pixels, and with the same ones") {
+    const fs::path d = with_scene();
+    const std::uintmax_t stored = rendered_size(d, "stored.png", {"--format-set", "compression=0"});
+    CHECK(stored > 3 * 64 * 48);
+    CHECK(rendered_size(d, "usual.png") < stored);
+    CHECK(candela(d, {"diff", "stored.png", "usual.png"}).exit_code == 0);
+    // Given twice, the last one counts; on standard output, too.
+    CHECK(rendered_size(d, "last.png", {"--format-set", "compression=9", "--format-set", "compression=0"}) ==
+          stored);
+    CHECK(candela(d, {"render", "scene.toml", "-o", "-", "--format-set", "compression=0"}).out.size() ==
+          stored);
+}
+
+TEST_CASE("format: what is wrong with --format-set is said, and no picture is written") {
+    const fs::path d = with_scene();
+    const auto refused = [&](const std::string& setting, const std::vector<std::string>& parts) {
+        expect(candela(d, {"render", "scene.toml", "-o", "a.jpg", "--format-set", setting}), 2, parts);
+        CHECK_FALSE(fs::exists(d / "a.jpg"));
+    };
+    refused("quality=300", {"--format-set quality", "300", "1 to 100"});
+    refused("quality=good", {"--format-set quality", "good", "integer"});
+    refused("qualty=80", {"--format-set qualty", "image/jpeg", "did you mean 'quality'"});
+    refused("quality=[", {"--format-set quality"});
+    refused("80", {"--format-set '80' is no value", "--format-set quality=80"});
+    refused("=80", {"--format-set '=80' is no value"});
+}
+
+TEST_CASE("frames of another --format-set are other frames, and those of the same are left alone") {
+    const fs::path d = with_scene(k_two_frames);
+    const auto animated = [&](const std::string& quality) {
+        return candela(d, {"animate", "scene.toml", "-o", "f%d.jpg", "--format-set", "quality=" + quality});
+    };
+    REQUIRE(animated("90").exit_code == 0);
+    const std::uintmax_t fine = fs::file_size(d / "f0.jpg");
+    REQUIRE(animated("20").exit_code == 0);
+    CHECK(fs::file_size(d / "f0.jpg") < fine);
+    const auto written = fs::last_write_time(d / "f0.jpg");
+    REQUIRE(animated("20").exit_code == 0);
+    CHECK(fs::last_write_time(d / "f0.jpg") == written);
+}
+
+TEST_CASE("tasks write what --format-set asked for, frames and assembled pictures alike") {
+    const fs::path d = with_scene(k_two_frames);
+    const std::uintmax_t stored = rendered_size(d, "whole.png", {"--format-set", "compression=0"});
+    const auto submitted = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"submit", "scene.toml", "--format-set", "compression=0"});
+        const CommandResult result = candela(d, more);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+    };
+    submitted({"-o", "frames/%d.png"});
+    CHECK(fs::file_size(d / "frames/0.png") == stored);
+    submitted({"-o", "parts.png", "--parts", "3"});
+    CHECK(fs::file_size(d / "parts.png") == stored);
+}
+
+TEST_CASE("a sheet of pictures is written as --format-set asks") {
+    const fs::path d = with_scene();
+    const auto size = [&](const std::string& compression) {
+        const CommandResult result =
+            candela(d, {"compare", "scene.toml", "--reflection", "phong,lambert", "-o", "sheet.png",
+                        "--format-set", "compression=" + compression});
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        return fs::file_size(d / "sheet.png");
+    };
+    CHECK(size("9") < size("0"));
+}
