@@ -37,7 +37,8 @@ constexpr const char* k_two_frames = "[animation]\nframes = 2\nfps = 1\n[animati
 
 }  // namespace
 
-TEST_CASE("format: --format-set quality: the lower, the smaller the JPEG, and the default is what describe says") {
+TEST_CASE(
+    "format: --format-set quality: the lower, the smaller the JPEG, and the default is what describe says") {
     const fs::path d = with_scene();
     const auto at = [&](const std::string& quality) {
         return rendered_size(d, quality + ".jpg", {"--format-set", "quality=" + quality});

@@ -11,54 +11,13 @@ module;
 
 export module candela.fragments;
 
+export import :points;
 import candela.arrays;
 import candela.math;
 import candela.mesh;
 import candela.raster;
 
 export namespace candela {
-
-/// The number of points shaded at once: enough to hide a virtual call, few enough to stay in the first-level
-/// cache.
-inline constexpr std::size_t k_batch_size = 256;
-
-/// Points on one object's surface, as a structure of arrays with room for k_batch_size. Reused from batch to
-/// batch.
-struct CANDELA_API SurfacePoints {
-    SurfacePoints();
-
-    std::size_t count = 0;
-    std::size_t filled = 0;  // whole_vectors(count) or count: beyond `count`, the last point is repeated
-    Vec3Arrays position;
-    Vec3Arrays face_normal;    // unit
-    Vec3Arrays vertex_normal;  // interpolated; not unit
-    Vec3Arrays barycentric;
-    AlignedVector<float> facing;  // 1, or -1 where an open surface is seen from behind
-    bool any_from_behind = false;
-    AlignedVector<float> u, v;                    // filled if requested and the mesh has them, otherwise zero
-    AlignedVector<float> dudx, dvdx, dudy, dvdy;  // by a pixel to the right and downwards; zero if not known
-    Vec3Arrays dpdu, dpdv;
-    Vec3Arrays color;                           // the mesh's; filled if has_color
-    bool has_color = false;                     // the mesh has colours, and they were requested
-    std::array<Vec3Arrays, 3> corner_position;  // of each point's triangle; empty until first requested
-    std::array<Vec3Arrays, 3> corner_normal;    // unit
-};
-
-/// Which attributes of a point are needed. Others may be filled, too.
-struct PointNeeds {
-    bool position = true;
-    bool face_normal = true;
-    bool vertex_normal = true;
-    bool barycentric = true;
-    bool color = true;  // of a mesh that has colours
-    bool uv = false;
-    bool footprint = false;  // how uv change from pixel to pixel; with uv, of fragments
-    bool derivatives = false;
-    bool triangle = false;  // of fragments, faces and places; a vertex has none
-
-    /// Whether there is more than what is interpolated in one go.
-    constexpr bool more() const { return color || uv || derivatives || triangle; }
-};
 
 /// Adjacent pixels of a row to which triangles of one object contribute equal shares.
 struct FragmentRun {

@@ -13,6 +13,7 @@ module;
 
 module candela.fragments;
 
+import :attributes;
 import :interpolation;
 import candela.simd;
 
@@ -35,123 +36,7 @@ void keep_in_range(TriangleAttributes& t) {
     }
 }
 
-using Indices = std::array<std::uint32_t, 3>;
-
-Indices corners_of(const Mesh& mesh, std::uint32_t triangle) {
-    const std::size_t first = 3 * std::size_t{triangle};
-    return {mesh.indices[first], mesh.indices[first + 1], mesh.indices[first + 2]};
-}
-
-using Corners = std::array<Vec3, 3>;
-
-Corners indices(const Vec3Arrays& arrays, const Indices& vertices) {
-    const ConstVec3Span span = arrays.span();
-    return {span[vertices[0]], span[vertices[1]], span[vertices[2]]};
-}
-
-Vec3 blend(const Corners& c, const Vec3& weight) {
-    return weight.x * c[0] + weight.y * c[1] + weight.z * c[2];
-}
-
-void resize(SurfacePoints& points, std::array<Vec3Arrays, 3> SurfacePoints::* corners) {
-    for (Vec3Arrays& arrays : points.*corners) arrays.resize(k_batch_size + k_lanes);
-}
-
-/// The vertices of a triangle, at each of its points.
-void repeat_corners(const Mesh& mesh, const Indices& vertices, std::size_t first, std::size_t count,
-                    SurfacePoints& points) {
-    if (points.corner_position[0].empty()) {
-        resize(points, &SurfacePoints::corner_position);
-        resize(points, &SurfacePoints::corner_normal);
-    }
-    const auto repeat = [&](Vec3Arrays& arrays, const Vec3& value) {
-        std::fill_n(&arrays.x[first], count, value.x);
-        std::fill_n(&arrays.y[first], count, value.y);
-        std::fill_n(&arrays.z[first], count, value.z);
-    };
-    for (std::size_t k = 0; k < 3; ++k) {
-        const MeshVertex& vertex = mesh.vertices[vertices[k]];
-        repeat(points.corner_position[k], vertex.position);
-        repeat(points.corner_normal[k], vertex.normal);
-    }
-}
-
-struct BlendLoop {
-    CANDELA_BATCH_LOOP static void run(Vec3 a, Vec3 b, ConstVec3Span weight, std::size_t count, float* to_a,
-                                       float* to_b) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            to_a[i] = weight.x[i] * a.x + weight.y[i] * a.y + weight.z[i] * a.z;
-            to_b[i] = weight.x[i] * b.x + weight.y[i] * b.y + weight.z[i] * b.z;
-        }
-    }
-};
-
-/// Colour, uv, derivatives and triangle of points whose barycentric coordinates are known.
-void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
-                      std::size_t count, SurfacePoints& points) {
-    const ConstVec3Span weight = std::as_const(points.barycentric).span();
-    if (needs.color) {
-        const Corners color = indices(mesh.color, vertices);
-        for (std::size_t i = first; i < first + count; ++i)
-            points.color.span().set(i, blend(color, weight[i]));
-    }
-    if (needs.uv && mesh.u.empty()) {
-        std::fill_n(&points.u[first], count, 0.0f);
-        std::fill_n(&points.v[first], count, 0.0f);
-    } else if (needs.uv) {
-        const auto at_corners = [&](const AlignedVector<float>& a) {
-            return Vec3{a[vertices[0]], a[vertices[1]], a[vertices[2]]};
-        };
-        multiversion<BlendLoop>(at_corners(mesh.u), at_corners(mesh.v), weight.from(first), count,
-                                &points.u[first], &points.v[first]);
-    }
-    if (needs.derivatives) {
-        Corners dpdu, dpdv;
-        if (mesh.dpdu.empty()) {
-            // A mesh without a parametrisation uses that of its triangles: the edges from the first vertex.
-            const Corners p = indices(mesh.position, vertices);
-            for (std::size_t k = 0; k < 3; ++k) {
-                dpdu[k] = p[1] - p[0];
-                dpdv[k] = p[2] - p[0];
-            }
-        } else {
-            dpdu = indices(mesh.dpdu, vertices);
-            dpdv = indices(mesh.dpdv, vertices);
-        }
-        for (std::size_t i = first; i < first + count; ++i) {
-            points.dpdu.span().set(i, blend(dpdu, weight[i]));
-            points.dpdv.span().set(i, blend(dpdv, weight[i]));
-        }
-    }
-    if (needs.triangle) repeat_corners(mesh, vertices, first, count, points);
-}
-
-/// Evaluates point `i` of a batch, a position on a triangle.
-void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
-                    SurfacePoints& points) {
-    const Indices vertices = corners_of(mesh, triangle);
-    const MeshVertex &a = mesh.vertices[vertices[0]], &b = mesh.vertices[vertices[1]],
-                     &c = mesh.vertices[vertices[2]];
-    points.position.span().set(i, blend({a.position, b.position, c.position}, weight));
-    points.face_normal.span().set(i, mesh.face_normal.span()[triangle]);
-    points.vertex_normal.span().set(i, blend({a.normal, b.normal, c.normal}, weight));
-    points.barycentric.span().set(i, weight);
-    if (needs.more()) blend_attributes(mesh, vertices, needs, i, 1, points);
-}
-
 }  // namespace
-
-SurfacePoints::SurfacePoints() {
-    // The whole vectors of a batch's last triangle may begin anywhere.
-    for (Vec3Arrays* const arrays :
-         {&position, &face_normal, &vertex_normal, &barycentric, &dpdu, &dpdv, &color}) {
-        arrays->resize(k_batch_size + k_lanes);
-    }
-    for (AlignedVector<float>* const array : {&facing, &u, &v, &dudx, &dvdx, &dudy, &dvdy})
-        array->resize(k_batch_size + k_lanes);
-    std::ranges::fill(facing, 1.0f);
-}
 
 bool ProjectedMesh::is_back(std::uint32_t triangle) const {
     if (mesh.closed) return false;
@@ -285,50 +170,6 @@ void clear_uv(SurfacePoints& points) {
         std::ranges::fill(*array, 0.0f);
 }
 
-/// Writes nothing where all points of the last batch, too, were seen from the front.
-void face_forward(SurfacePoints& points) {
-    if (points.any_from_behind) std::ranges::fill(points.facing, 1.0f);
-    points.any_from_behind = false;
-}
-
-/// Of points that belong to no pixel.
-void clear_footprint(SurfacePoints& points) {
-    for (AlignedVector<float>* const array : {&points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
-        std::ranges::fill(*array, 0.0f);
-}
-
-/// Pads a batch that was assembled point by point with its last point.
-void fill_up(PointNeeds needs, SurfacePoints& points) {
-    points.filled = whole_vectors(points.count);
-    const auto fill = [&](AlignedVector<float>& array) {
-        std::fill(&array[points.count], &array[points.filled], array[points.count - 1]);
-    };
-    const auto fill_all = [&](Vec3Arrays& arrays) {
-        fill(arrays.x);
-        fill(arrays.y);
-        fill(arrays.z);
-    };
-    fill_all(points.position);
-    fill_all(points.face_normal);
-    fill_all(points.vertex_normal);
-    fill_all(points.barycentric);
-    fill(points.facing);
-    if (needs.color) fill_all(points.color);
-    if (needs.uv) {
-        fill(points.u);
-        fill(points.v);
-    }
-    if (needs.footprint) clear_footprint(points);
-    if (needs.derivatives) {
-        fill_all(points.dpdu);
-        fill_all(points.dpdv);
-    }
-    if (needs.triangle) {
-        for (Vec3Arrays& arrays : points.corner_position) fill_all(arrays);
-        for (Vec3Arrays& arrays : points.corner_normal) fill_all(arrays);
-    }
-}
-
 Interpolated interpolated_for(PointNeeds needs) {
     const bool has_points = needs.position || needs.vertex_normal || needs.uv;
     if (needs.face_normal || needs.color || needs.derivatives || (needs.barycentric && has_points))
@@ -427,60 +268,6 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
                           blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first,
                                            end - first, points);
                   });
-}
-
-void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> triangles, PointNeeds needs,
-                  SurfacePoints& points) {
-    constexpr float k_third = 1.0f / 3.0f;
-    points.has_color = needs.color = needs.color && !source.mesh.color.empty();
-    points.count = triangles.size();
-    face_forward(points);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        evaluate_point(source.mesh, triangles[i], {k_third, k_third, k_third}, needs, i, points);
-        const bool is_back = source.is_back(triangles[i]);
-        if (is_back) points.facing[i] = -1;
-        points.any_from_behind = points.any_from_behind || is_back;
-    }
-    fill_up(needs, points);
-}
-
-void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, ConstVec3Span barycentric,
-                   PointNeeds needs, SurfacePoints& points) {
-    points.has_color = needs.color = needs.color && !mesh.color.empty();
-    points.count = points.filled = triangles.size();
-    face_forward(points);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        evaluate_point(mesh, triangles[i], barycentric[i], needs, i, points);
-    }
-}
-
-void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> vertices, PointNeeds needs,
-                     SurfacePoints& points) {
-    const Mesh& mesh = source.mesh;
-    needs.triangle = false;
-    points.has_color = needs.color = needs.color && !mesh.color.empty();
-    points.count = vertices.size();
-    face_forward(points);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const std::uint32_t v = vertices[i].vertex;
-        const Vec3 normal = mesh.vertices[v].normal;
-        points.position.span().set(i, mesh.position.span()[v]);
-        points.face_normal.span().set(i, normal);
-        points.vertex_normal.span().set(i, normal);
-        points.barycentric.span().set(i, {1, 0, 0});
-        if (vertices[i].is_back) points.facing[i] = -1;
-        points.any_from_behind = points.any_from_behind || vertices[i].is_back;
-        if (needs.color) points.color.span().set(i, mesh.color.span()[v]);
-        if (needs.uv) {
-            points.u[i] = mesh.u.empty() ? 0 : mesh.u[v];
-            points.v[i] = mesh.v.empty() ? 0 : mesh.v[v];
-        }
-        if (needs.derivatives) {
-            points.dpdu.span().set(i, mesh.dpdu.empty() ? Vec3{} : mesh.dpdu.span()[v]);
-            points.dpdv.span().set(i, mesh.dpdv.empty() ? Vec3{} : mesh.dpdv.span()[v]);
-        }
-    }
-    fill_up(needs, points);
 }
 
 }  // namespace candela

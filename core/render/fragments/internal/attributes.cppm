@@ -1,0 +1,35 @@
+// Attributes of a mesh at points of its triangles.
+module;
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+module candela.fragments:attributes;
+
+import :points;
+import candela.math;
+import candela.mesh;
+
+namespace candela {
+
+/// The vertices of a triangle.
+using Indices = std::array<std::uint32_t, 3>;
+
+inline Indices corners_of(const Mesh& mesh, std::uint32_t triangle) {
+    const std::size_t first = 3 * std::size_t{triangle};
+    return {mesh.indices[first], mesh.indices[first + 1], mesh.indices[first + 2]};
+}
+
+/// Colour, uv, derivatives and triangle of points whose barycentric coordinates are known.
+void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
+                      std::size_t count, SurfacePoints& points);
+
+/// Evaluates point `i` of a batch, a position on a triangle.
+void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
+                    SurfacePoints& points);
+
+/// All points as seen from the front. Writes nothing where those of the last batch were, too.
+void face_forward(SurfacePoints& points);
+
+}  // namespace candela
