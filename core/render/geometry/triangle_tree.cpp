@@ -195,7 +195,9 @@ TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
         embree.commit_geometry(geometry);
         embree.attach_geometry(t.scene, geometry);
         // Robust, so that nothing slips between triangles.
-        embree.set_scene_flags(t.scene, RTC_SCENE_FLAG_ROBUST | Embree::k_filters_by_call);
+        constexpr unsigned k_flags = unsigned{RTC_SCENE_FLAG_ROBUST} | unsigned{Embree::k_filters_by_call};
+        // NOLINTNEXTLINE(clang-analyzer-optin.core.EnumCastOutOfRange): they are bits
+        embree.set_scene_flags(t.scene, static_cast<RTCSceneFlags>(k_flags));
         embree.commit(t.scene);
     }
     embree.release_geometry(geometry);
