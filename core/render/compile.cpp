@@ -85,10 +85,6 @@ class Compiler {
 
     std::optional<CompiledScene> take(int threads) {
         if (diagnostics_.has_errors()) return std::nullopt;
-        double triangles = 0;
-        for (const auto& placed : placed_)
-            triangles += placed ? static_cast<double>(placed->mesh.triangle_count()) : 0;
-        constexpr double k_milliseconds = 2e-5;  // for a triangle's normals, by one thread
         with_threads(
             threads,
             [&] {
@@ -96,8 +92,9 @@ class Compiler {
                     finish(i);
                     count_step();
                 }
+                make_trees();
             },
-            k_milliseconds * triangles);
+            rough_milliseconds());
         if (diagnostics_.has_errors()) return std::nullopt;
         return std::move(compiled_);
     }
@@ -297,6 +294,35 @@ class Compiler {
         check_constraints(draft, surfaces, diagnostics_, [this] { count_step(); });
     }
 
+    /// What one thread takes to finish all objects.
+    double rough_milliseconds() const {
+        constexpr double k_normals = 2e-5, k_tree = 1e-3;  // of a triangle
+        double sum = 0;
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            if (!placed_[i]) continue;
+            const double each = needs_tree(compiled_.objects[i]) ? k_normals + k_tree : k_normals;
+            sum += each * static_cast<double>(placed_[i]->mesh.triangle_count());
+        }
+        return sum;
+    }
+
+    static bool needs_tree(const SolidObject& solid) {
+        return solid.surface.reflection->shows_surroundings() && !solid.tree;
+    }
+
+    void make_trees() {
+        std::vector<SolidObject*> without;
+        for (SolidObject& solid : compiled_.objects) {
+            if (needs_tree(solid)) without.push_back(&solid);
+        }
+        parallel_for(without.size(), 1, [&](std::size_t first, std::size_t end) {
+            for (std::size_t i = first; i < end; ++i) {
+                const Mesh& mesh = without[i]->mesh;
+                without[i]->tree.emplace(mesh.position.span(), mesh.vertex_count(), mesh.indices);
+            }
+        });
+    }
+
     void finish(std::size_t i) {
         const Object& object = scene_.objects[i];
         SolidObject& solid = compiled_.objects[i];
@@ -305,9 +331,6 @@ class Compiler {
                     [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
             multiply(solid.mesh.color, solid.surface.color);
         }
-        if (solid.surface.reflection->shows_surroundings() && !solid.tree)
-            solid.tree.emplace(std::as_const(solid.mesh.position).span(), solid.mesh.vertex_count(),
-                               solid.mesh.indices);
         if (object.encloses) {
             solid.mesh.closed = false;  // seen from within, too
         } else if (!solid.mesh.closed) {

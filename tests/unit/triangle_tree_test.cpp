@@ -243,3 +243,30 @@ TEST_CASE("a tree is built by the thread that asks for it, and is thus the same 
         CHECK(threads() == before);
     });
 }
+
+TEST_CASE("trees that are built at the same time give what those give that are built one after the other") {
+    std::vector<candela::Mesh> meshes;
+    for (const std::int64_t segments : {16, 40, 100, 160})
+        for (const char* const name : {"sphere", "torus"})
+            meshes.push_back(shape(name, {{"segments", segments}}));
+    // Towards corners, where the form of the tree decides which of several triangles a ray meets.
+    const auto exits = [&](const candela::Mesh& mesh, const TriangleTree& tree) {
+        std::vector<std::pair<std::uint32_t, float>> result;
+        const candela::ConstVec3Span vertices = mesh.position.span();
+        for (std::size_t i = 0; i < mesh.vertex_count(); i += 7) {
+            const Vec3 from = vertices[(i * 31) % mesh.vertex_count()], to = vertices[i];
+            if (length(to - from) == 0) continue;
+            const auto exit = exit_of(tree, from, normalized(to - from));
+            result.emplace_back(exit ? exit->triangle : ~0u, exit ? exit->distance : -1);
+        }
+        return result;
+    };
+    std::vector<std::optional<TriangleTree>> trees(meshes.size());
+    candela::with_threads(8, [&] {
+        candela::parallel_for(meshes.size(), 1, [&](std::size_t first, std::size_t end) {
+            for (std::size_t i = first; i < end; ++i) trees[i].emplace(tree_of(meshes[i]));
+        });
+    });
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        CHECK(exits(meshes[i], *trees[i]) == exits(meshes[i], tree_of(meshes[i])));
+}

@@ -7,7 +7,7 @@ module;
 
 #include <array>
 #include <boost/dll/shared_library.hpp>
-#include <mutex>
+#include <memory>
 #include <new>
 #include <system_error>
 
@@ -15,6 +15,7 @@ module candela.geometry;
 
 import :embree;
 import candela.diagnostics;
+import candela.pool;
 
 namespace candela {
 
@@ -48,12 +49,11 @@ Embree::Embree() : library(loaded()), device(new_device("set_affinity=0")) {
 }
 
 void Embree::commit(RTCScene scene) const {
-    // Neither is destroyed: threads may still be working while the process exits.
-    static auto& mutex = *new std::mutex;
-    static auto& alone = *new tbb::task_arena(1);
-    // Of two threads in an arena for one, oneTBB would let the one work for the other.
-    const std::scoped_lock lock(mutex);
-    alone.execute([&] { commit_scene(scene); });
+    // Of two threads in an arena for one, oneTBB would let the one work for the other. Never destroyed:
+    // threads may still be working while the process exits.
+    static auto& arenas = *new Pool<tbb::task_arena>;
+    arenas.with([] { return std::make_unique<tbb::task_arena>(1); },
+                [&](tbb::task_arena& alone) { alone.execute([&] { commit_scene(scene); }); });
 }
 
 void Embree::trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCFilterFunctionN filter,
