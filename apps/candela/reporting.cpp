@@ -64,8 +64,10 @@ candela::Error usage_error(const candela::Diagnostics& diagnostics) {
     std::string problems;
     for (const candela::Diagnostic& problem : diagnostics.sorted()) {
         if (problem.severity != candela::Severity::error) continue;
-        problems += fmt::format("{}{}: {}{}", problems.empty() ? "" : "; ", problem.place.file,
-                                problem.message, problem.hint.empty() ? "" : ", " + problem.hint);
+        const std::string hint = full_hint(problem);
+        const char* const before_hint = hint.empty() ? "" : hint.starts_with('(') ? " " : ", ";
+        problems += fmt::format("{}{}: {}{}{}", problems.empty() ? "" : "; ", problem.place.file,
+                                problem.message, before_hint, hint);
     }
     return {candela::ErrorCategory::bad_request, problems};
 }

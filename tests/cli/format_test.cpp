@@ -70,6 +70,7 @@ TEST_CASE("format: what is wrong with --format-set is said, and no picture is wr
     refused("quality=300", {"--format-set quality", "300", "1 to 100"});
     refused("quality=good", {"--format-set quality", "good", "integer"});
     refused("qualty=80", {"--format-set qualty", "image/jpeg", "did you mean 'quality'"});
+    refused("compression=3", {"unknown key 'compression' in image/jpeg (candela describe image/jpeg)"});
     refused("quality=[", {"--format-set quality"});
     refused("80", {"--format-set '80' is no value", "--format-set quality=80"});
     refused("=80", {"--format-set '=80' is no value"});
