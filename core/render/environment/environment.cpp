@@ -64,10 +64,24 @@ struct PlaceLoop {
     }
 };
 
-/// A pixel's three channels, and a fourth number: what comes after it.
-Eigen::Map<const Eigen::Array4f> pixel_at(const float* pixels, std::uint32_t number) {
-    return Eigen::Map<const Eigen::Array4f>(pixels + 3 * std::size_t{number});
-}
+/// A picture's pixels, each read with a fourth number, which does not matter.
+class Pixels {
+  public:
+    explicit Pixels(const std::vector<float>& channels)
+        : first_(channels.data()), last_(channels.size() / 3 - 1) {
+        std::copy_n(&channels[3 * last_], 3, last_pixel_.data());
+    }
+
+    Eigen::Map<const Eigen::Array4f> operator[](std::size_t number) const {
+        // Behind the last one there is nothing to read.
+        return Eigen::Map<const Eigen::Array4f>(number < last_ ? first_ + 3 * number : last_pixel_.data());
+    }
+
+  private:
+    const float* first_;
+    std::size_t last_;
+    std::array<float, 4> last_pixel_{};
+};
 
 }  // namespace
 
@@ -78,9 +92,7 @@ Environment::Environment(int width, int height, std::vector<float> intensity)
     : max_intensity_(std::ranges::max(intensity)),
       width_(width),
       height_(height),
-      intensity_(std::move(intensity)) {
-    intensity_.push_back(0);
-}
+      intensity_(std::move(intensity)) {}
 
 Rgb Environment::seen(Vec3 towards) const noexcept {
     Rgb rgb;
@@ -96,14 +108,13 @@ void Environment::look(std::size_t count, const ConstVec3Span& towards,
         std::fill_n(intensity.z, count, everywhere_.b);
         return;
     }
+    const Pixels pixels(intensity_);
     Places places;
     for (std::size_t first = 0; first < count; first += k_group_size) {
         const std::size_t here = std::min(k_group_size, count - first);
         multiversion<PlaceLoop>(width_, height_, towards.from(first), here, &places);
         for (std::size_t i = 0; i < here; ++i) {
-            const auto pixel = [&](std::size_t corner) {
-                return pixel_at(intensity_.data(), places.pixel[corner][i]);
-            };
+            const auto pixel = [&](std::size_t corner) { return pixels[places.pixel[corner][i]]; };
             const float across = places.across[i], down = places.down[i];
             const Eigen::Array4f upper = (1 - across) * pixel(0) + across * pixel(1),
                                  lower = (1 - across) * pixel(2) + across * pixel(3),

@@ -267,6 +267,7 @@ void TriangleTree::Tree::trace(const Packet& packet, const Mask& is_valid, doubl
         exits.triangle[i] = is_hit ? rays.hit.primID[i] : 0;
         const std::uint32_t* const corner = &indices[3 * std::size_t{exits.triangle[i]}];
         for (std::size_t k = 0; k < 3; ++k) {
+            // A ray without a hit gets a triangle without extent, which is no exit.
             const float* const vertex = &position[3 * std::size_t{corner[is_hit ? k : 0]}];
             exits.corner[k].x[i] = vertex[0];
             exits.corner[k].y[i] = vertex[1];

@@ -26,6 +26,7 @@ void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& ori
                                      const ConstVec3Span& direction, const ExitBatch& exit) {
     triangles_.assign(count, 0);
     barycentric_.resize(k_batch_size);
+    normal_.resize(k_batch_size);
     if (interior_.tree != nullptr) {
         interior_.tree->find_exits(count, origin, direction,
                                    {triangles_.data(), exit.distance, barycentric_.span()});
@@ -35,12 +36,14 @@ void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& ori
     PointNeeds needs = surface_->needs();
     needs.color = needs.footprint = false;
     gather_places(*interior_.mesh, triangles_, std::as_const(barycentric_).span(), needs, points_);
-    shading_normals(*surface_, points_, exit.normal);
-    const ConstVec3Span position = std::as_const(points_).position.span();
+    // Into an array with room for a whole batch, as everywhere: not all plugins stop where they should.
+    shading_normals(*surface_, points_, normal_.span());
+    const ConstVec3Span position = std::as_const(points_).position.span(),
+                        normal = std::as_const(normal_).span();
     for (std::size_t i = 0; i < count; ++i) {
         const bool leaves = exit.distance[i] >= 0;
         exit.position.set(i, leaves ? position[i] : origin[i]);
-        if (!leaves) exit.normal.set(i, direction[i]);
+        exit.normal.set(i, leaves ? normal[i] : direction[i]);
     }
 }
 

@@ -43,7 +43,7 @@ class ObjectSurroundings final : public Surroundings {
     const SurfaceModels* surface_ = nullptr;
     Interior interior_;
     SurfacePoints points_;  // where rays left
-    Vec3Arrays barycentric_;
+    Vec3Arrays barycentric_, normal_;
     std::vector<std::uint32_t> triangles_;
 };
 
