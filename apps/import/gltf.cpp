@@ -201,13 +201,6 @@ class Reader {
     // ---- materials
 
     void add_parts() {
-        if (used_materials_.size() > k_most_parts) {
-            model_.note(
-                fmt::format("of its {} materials only the first is used, for all triangles; a scene is "
-                            "given at most {}",
-                            used_materials_.size(), k_most_parts));
-            used_materials_.resize(1);
-        }
         std::map<std::string, int> names;
         for (const Json& material : array_of(json_, "materials")) ++names[text(material, "name")];
         for (const std::optional<std::size_t> index : used_materials_) {

@@ -28,9 +28,6 @@ struct Material {
     bool clamps = false;                                                // it, at its edges
 };
 
-/// Each part of a model reads its file again.
-inline constexpr std::size_t k_most_parts = 100;
-
 /// The triangles of one material.
 struct Part {
     std::string selector;                   // as the shape's parameter `part` has it; empty: all

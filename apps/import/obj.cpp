@@ -297,13 +297,6 @@ Model read_obj(const fs::path& file, candela::Registry& registry) {
             is_listed = true;
         }
     });
-    if (used.size() > k_most_parts) {
-        model.note(
-            fmt::format("of its {} materials only the first is used, for all triangles; a scene is given "
-                        "at most {}",
-                        used.size(), k_most_parts));
-        used.resize(1);
-    }
     for (const std::string& name : used) {
         Part part;
         // A scene is UTF-8, which an OBJ file need not be.

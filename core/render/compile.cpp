@@ -229,26 +229,32 @@ class Compiler {
 
     void place_shapes() {
         placed_.resize(scene_.objects.size());
+        const auto has_surface = [&](std::size_t i) {
+            return i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
+        };
+        // All exist before the first is placed: those that read the same file read it once.
+        std::vector<std::unique_ptr<Shape>> shapes(placed_.size());
         for (std::size_t i = 0; i < placed_.size(); ++i) {
             const Object& object = scene_.objects[i];
-            const bool has_surface =
-                i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
-            const PointNeeds needs = has_surface ? compiled_.objects[i].surface.needs() : PointNeeds{};
-            if (has_surface && keep(i, needs)) {
-                say_once(object, warnings_[i]);
-                count_step();
-                continue;
+            if (has_surface(i) && keep(i, compiled_.objects[i].surface.needs())) continue;
+            guarded(object, PluginKind::shape, object.shape.name,
+                    [&] { shapes[i] = made<Shape>(object.shape); });
+        }
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            const Object& object = scene_.objects[i];
+            const PointNeeds needs = has_surface(i) ? compiled_.objects[i].surface.needs() : PointNeeds{};
+            if (shapes[i] != nullptr) {
+                guarded(object, PluginKind::shape, object.shape.name, [&] {
+                    placed_[i] = place(*shapes[i],
+                                       {.uv = needs.uv,
+                                        .derivatives = needs.derivatives,
+                                        .color = true,
+                                        .color_management = encoding()},
+                                       object.transform, [this](double part) { tell(part); });
+                });
+                if (placed_[i]) warnings_[i] = placed_[i]->warnings;
+                if (has_surface(i)) require_texture_coordinates(i);
             }
-            guarded(object, PluginKind::shape, object.shape.name, [&] {
-                placed_[i] = place(*made<Shape>(object.shape),
-                                   {.uv = needs.uv,
-                                    .derivatives = needs.derivatives,
-                                    .color = true,
-                                    .color_management = encoding()},
-                                   object.transform, [this](double part) { tell(part); });
-            });
-            if (placed_[i]) warnings_[i] = placed_[i]->warnings;
-            if (has_surface) require_texture_coordinates(i);
             say_once(object, warnings_[i]);
             count_step();
         }

@@ -60,6 +60,18 @@ Array<char> read_file(const std::filesystem::path& file) {
     return bytes;
 }
 
+FileState state_of(const std::filesystem::path& file) {
+    struct stat status{};
+    if (::stat(file.c_str(), &status) != 0) return {};
+    return {static_cast<std::int64_t>(status.st_dev),
+            static_cast<std::int64_t>(status.st_ino),
+            status.st_size,
+            status.st_mtim.tv_sec,
+            status.st_mtim.tv_nsec,
+            status.st_ctim.tv_sec,
+            status.st_ctim.tv_nsec};
+}
+
 std::filesystem::path part_named(const std::filesystem::path& file, const std::filesystem::path& folder,
                                  Reach reach) {
     if (reach == Reach::anywhere) return folder / file;

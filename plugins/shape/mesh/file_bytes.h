@@ -1,6 +1,8 @@
 // A file's content.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -11,6 +13,10 @@ namespace mesh {
 /// A whole file, read at once: what happens to the file afterwards cannot be seen (a mapped file that shrinks
 /// ends the process). Throws BadFile if it is no regular file or cannot be read; a pipe is not waited for.
 Array<char> read_file(const std::filesystem::path& file);
+
+/// What differs once a file has been changed: where it is, its size and its times; all zero if it is absent.
+using FileState = std::array<std::int64_t, 7>;
+FileState state_of(const std::filesystem::path& file);
 
 /// Which files a file may name as parts of itself.
 enum class Reach : bool { its_folder, anywhere };

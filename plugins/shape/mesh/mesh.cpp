@@ -19,7 +19,7 @@
 #include "crease.h"
 #include "derivatives.h"
 #include "file_bytes.h"
-#include "orientation.h"
+#include "loaded.h"
 #include "part.h"
 #include "readers.h"
 #include "surface.h"
@@ -109,12 +109,25 @@ class FileMesh final : public candela::Shape {
           reach_(shape.allow_outside != 0 ? mesh::Reach::anywhere : mesh::Reach::its_folder),
           uses_colors_(shape.vertex_colors != 0),
           part_(shape.part != nullptr ? shape.part : ""),
-          appearance_imported_(shape.appearance_imported != 0) {}
+          appearance_imported_(shape.appearance_imported != 0),
+          shared_(mesh::SharedFile::of(file_, reach_)) {}
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         try {
-            const auto reading = [&](double part) { sink.progress(k_read * part); };
-            write(surface_of(file_, reach_, reading), request, sink);
+            const auto read = [&] {
+                const auto reading = [&](double part) { sink.progress(k_read * part); };
+                mesh::Surface surface = surface_of(file_, reach_, reading);
+                sink.progress(k_read);
+                return std::make_shared<const mesh::Loaded>(std::move(surface));
+            };
+            const bool is_shared = shared_.use_count() > 1;
+            std::shared_ptr<const mesh::Loaded> whole = is_shared ? shared_->loaded(read) : read();
+            sink.progress(k_oriented);
+            if (part_.empty()) return write(whole->surface(), whole->corners(), whole->open(), request, sink);
+            const mesh::Surface part = mesh::part_of(whole->surface(), whole->by_material(), part_);
+            whole.reset();
+            const mesh::Corners corners(part);
+            write(part, corners, mesh::open_edges(part, corners), request, sink);
         } catch (const mesh::BadFile& problem) {
             throw std::runtime_error(fmt::format("'{}' {}", file_, problem.what()));
         }
@@ -122,21 +135,10 @@ class FileMesh final : public candela::Shape {
 
   private:
     // What has been done after each step, for ten million triangles.
-    static constexpr double k_read = 0.5, k_joined = 0.7, k_oriented = 0.8, k_split = 0.9;
+    static constexpr double k_read = 0.5, k_oriented = 0.8, k_split = 0.9;
 
-    void write(mesh::Surface surface, const candela::MeshRequest& request, candela::MeshSink& sink) const {
-        sink.progress(k_read);
-        if (!uses_colors_ || !request.color) surface.color = {};
-        mesh::Corners corners(surface);
-        sink.progress(k_joined);
-        mesh::OpenEdges open = mesh::open_edges(surface, corners);
-        if (mesh::turn_outwards(surface, corners, open)) corners = mesh::Corners(surface);
-        if (!part_.empty()) {
-            mesh::keep_part(surface, part_);
-            corners = mesh::Corners(surface);
-            open = mesh::open_edges(surface, corners);
-        }
-        sink.progress(k_oriented);
+    void write(const mesh::Surface& surface, const mesh::Corners& corners, const mesh::OpenEdges& open,
+               const candela::MeshRequest& request, candela::MeshSink& sink) const {
         mesh::SplitVertices split;
         if (!has_all_normals(surface)) split = mesh::split_at_creases(surface, corners, crease_angle_);
         sink.progress(k_split);
@@ -150,7 +152,7 @@ class FileMesh final : public candela::Shape {
             // Zero without texture coordinates: a triangle's edges, which differ from its neighbours', would
             // make no better tangents.
             .has_derivatives = request.derivatives,
-            .has_color = !surface.color.empty(),
+            .has_color = request.color && uses_colors_ && !surface.color.empty(),
             .has_smooth_groups = !split.group.empty(),
             .closedness = open.count == 0 ? candela::Closedness::closed : candela::Closedness::open,
             .open_edges = open.count};
@@ -198,6 +200,7 @@ class FileMesh final : public candela::Shape {
     bool uses_colors_;
     std::string part_;
     bool appearance_imported_;
+    std::shared_ptr<mesh::SharedFile> shared_;
 };
 
 constexpr auto k_fields = fields(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <string>
 
 #include "text_scanner.h"
@@ -37,51 +38,81 @@ std::vector<bool> chosen_of(const Surface& surface, std::string_view part) {
                               names.empty() ? "" : "; its materials: " + listed(names)));
 }
 
-/// Moves the kept elements, whose numbers rise, to the front.
 template <class Values>
-void keep_used(const std::vector<std::uint32_t>& kept, Values& values) {
-    if (values.empty()) return;
-    for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-    values.resize(kept.size());
+Values picked(const Values& values, std::span<const std::uint32_t> which) {
+    Values result;
+    if (values.empty()) return result;
+    result.resize(which.size());
+    for (std::size_t i = 0; i < which.size(); ++i) result[i] = values[which[i]];
+    return result;
 }
 
-void keep_used(const std::vector<std::uint32_t>& kept, Vectors& values) {
-    for (Array<float>* const channel : {&values.x, &values.y, &values.z}) keep_used(kept, *channel);
+Vectors picked(const Vectors& values, std::span<const std::uint32_t> which) {
+    return {picked(values.x, which), picked(values.y, which), picked(values.z, which)};
+}
+
+/// The values of `indices`, each once, in rising order; `indices` become positions among them.
+std::vector<std::uint32_t> renumbered(Array<std::uint32_t>& indices) {
+    const auto [low, high] = std::ranges::minmax(indices);
+    const std::size_t range = std::size_t{high} - low + 1;
+    std::vector<std::uint32_t> values;
+    constexpr std::size_t k_sparse = 16;
+    if (range / k_sparse > indices.size()) {
+        values.assign(indices.begin(), indices.end());
+        std::ranges::sort(values);
+        values.erase(std::ranges::unique(values).begin(), values.end());
+        for (std::uint32_t& index : indices)
+            index = static_cast<std::uint32_t>(std::ranges::lower_bound(values, index) - values.begin());
+        return values;
+    }
+    std::vector<std::uint32_t> number(range, k_unused);
+    for (const std::uint32_t index : indices) number[index - low] = 0;
+    for (std::size_t i = 0; i < range; ++i) {
+        if (number[i] == k_unused) continue;
+        number[i] = static_cast<std::uint32_t>(values.size());
+        values.push_back(low + static_cast<std::uint32_t>(i));
+    }
+    for (std::uint32_t& index : indices) index = number[index - low];
+    return values;
 }
 
 }  // namespace
 
-void keep_part(Surface& surface, std::string_view part) {
-    const std::vector<bool> chosen = chosen_of(surface, part);
-    std::vector<std::uint32_t> kept_triangles;
-    for (std::uint32_t t = 0; t < surface.material.size(); ++t)
-        if (chosen[surface.material[t]]) kept_triangles.push_back(t);
-    if (kept_triangles.empty()) refuse(surface, part);
+TrianglesByMaterial::TrianglesByMaterial(const Surface& surface)
+    : begin_(surface.materials.size() + 1), triangles_(surface.material.size()) {
+    for (const std::uint32_t material : surface.material) ++begin_[material + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::uint32_t t = 0; t < surface.material.size(); ++t) triangles_[next[surface.material[t]]++] = t;
+}
 
-    // In their order, so that each moves only forwards.
-    std::vector<std::uint32_t> number(surface.position.size(), k_unused);
-    for (std::size_t i = 0; i < kept_triangles.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = surface.indices[3 * std::size_t{kept_triangles[i]} + k];
-            surface.indices[3 * i + k] = vertex;
-            number[vertex] = 0;
-        }
-    surface.indices.resize(3 * kept_triangles.size());
-    std::vector<std::uint32_t> kept_vertices;
-    for (std::uint32_t v = 0; v < number.size(); ++v) {
-        if (number[v] == k_unused) continue;
-        number[v] = static_cast<std::uint32_t>(kept_vertices.size());
-        kept_vertices.push_back(v);
+Surface part_of(const Surface& surface, const TrianglesByMaterial& triangles, std::string_view part) {
+    const std::vector<bool> chosen = chosen_of(surface, part);
+    std::vector<std::uint32_t> kept;
+    for (std::size_t material = 0; material < chosen.size(); ++material) {
+        if (!chosen[material]) continue;
+        const auto more = triangles.of(material);
+        kept.insert(kept.end(), more.begin(), more.end());
     }
-    for (std::uint32_t& index : surface.indices) index = number[index];
-    keep_used(kept_vertices, surface.position);
-    keep_used(kept_vertices, surface.normal);
-    keep_used(kept_vertices, surface.color);
-    keep_used(kept_vertices, surface.u);
-    keep_used(kept_vertices, surface.v);
-    keep_used(kept_triangles, surface.facet_normal);
-    keep_used(kept_triangles, surface.smoothing);
-    surface.material.clear();
+    if (kept.empty()) refuse(surface, part);
+    std::ranges::sort(kept);  // several materials may have one name
+
+    Surface result;
+    result.indices.resize(3 * kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        std::copy_n(&surface.indices[3 * std::size_t{kept[i]}], 3, &result.indices[3 * i]);
+    const std::vector<std::uint32_t> vertices = renumbered(result.indices);
+    result.position = picked(surface.position, vertices);
+    result.normal = picked(surface.normal, vertices);
+    result.color = picked(surface.color, vertices);
+    result.u = picked(surface.u, vertices);
+    result.v = picked(surface.v, vertices);
+    result.facet_normal = picked(surface.facet_normal, kept);
+    result.smoothing = picked(surface.smoothing, kept);
+    result.is_color_linear = surface.is_color_linear;
+    result.losses = surface.losses;
+    result.notes = surface.notes;
+    return result;
 }
 
 }  // namespace mesh

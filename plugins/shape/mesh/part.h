@@ -1,14 +1,32 @@
 // A part of a surface: the triangles of one material.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "surface.h"
 
 namespace mesh {
 
-/// Keeps the triangles whose material has that name, or that number: "#0". Throws BadFile, which names those
-/// there are, if there are none.
-void keep_part(Surface& surface, std::string_view part);
+/// A surface's triangles, sorted by material, so that each of a hundred parts costs no more than itself.
+class TrianglesByMaterial {
+  public:
+    explicit TrianglesByMaterial(const Surface& surface);
+
+    /// In rising order; none of a material that no triangle has.
+    std::span<const std::uint32_t> of(std::size_t material) const {
+        return std::span(triangles_).subspan(begin_[material], begin_[material + 1] - begin_[material]);
+    }
+
+  private:
+    std::vector<std::uint32_t> begin_{};  // per material, and the end
+    Array<std::uint32_t> triangles_;
+};
+
+/// The triangles whose material has that name, or that number: "#0", with the vertices that they use. Throws
+/// BadFile, which names the materials, if there are none.
+Surface part_of(const Surface& surface, const TrianglesByMaterial& triangles, std::string_view part);
 
 }  // namespace mesh

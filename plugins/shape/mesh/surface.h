@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -83,6 +84,7 @@ struct Surface {
     std::vector<std::uint32_t> material;  // per triangle: one of the materials; or empty
     std::vector<std::string> materials;   // their names; k_no_material is that of triangles without one
 
+    std::vector<std::filesystem::path> files;  // others that it was read from
     std::vector<Loss> losses;
     std::vector<std::string> notes;  // what was found strange, as whole predicates of the file's name
 

@@ -1,0 +1,56 @@
+#include "loaded.h"
+
+#include <map>
+#include <utility>
+
+#include "orientation.h"
+
+namespace mesh {
+
+Loaded::Loaded(Surface whole)
+    : surface_(std::move(whole)), corners_(surface_), open_(open_edges(surface_, corners_)) {
+    if (turn_outwards(surface_, corners_, open_)) corners_ = Corners(surface_);
+}
+
+const TrianglesByMaterial& Loaded::by_material() const {
+    std::call_once(is_sorted_, [&] { by_material_.emplace(surface_); });
+    return *by_material_;
+}
+
+std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, Reach reach) {
+    static std::mutex mutex;
+    static std::map<std::pair<std::string, Reach>, std::weak_ptr<SharedFile>> files;
+    const std::scoped_lock lock(mutex);
+    std::weak_ptr<SharedFile>& known = files[{file, reach}];
+    std::shared_ptr<SharedFile> shared = known.lock();
+    if (shared == nullptr) {
+        shared.reset(new SharedFile(file));
+        known = shared;
+        std::erase_if(files, [](const auto& each) { return each.second.expired(); });
+    }
+    return shared;
+}
+
+std::shared_ptr<const Loaded> SharedFile::loaded(const std::function<std::shared_ptr<const Loaded>()>& read) {
+    const auto states_now = [&](const Surface* surface) {
+        std::vector<FileState> states{state_of(file_)};
+        if (surface != nullptr)
+            for (const std::filesystem::path& part : surface->files) states.push_back(state_of(part));
+        return states;
+    };
+    {
+        const std::scoped_lock lock(mutex_);
+        if (loaded_ != nullptr && states_ == states_now(&loaded_->surface())) return loaded_;
+    }
+    // Not under the lock: a thread that waits for others within read() may be given work that comes here.
+    const FileState before = state_of(file_);
+    std::shared_ptr<const Loaded> result = read();
+    std::vector<FileState> states = states_now(&result->surface());
+    states[0] = before;
+    const std::scoped_lock lock(mutex_);
+    loaded_ = result;
+    states_ = std::move(states);
+    return result;
+}
+
+}  // namespace mesh
