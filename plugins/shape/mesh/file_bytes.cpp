@@ -72,6 +72,14 @@ FileState state_of(const std::filesystem::path& file) {
             status.st_ctim.tv_nsec};
 }
 
+std::string_view without_mark(std::string_view text) {
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        throw BadFile("is text in UTF-16; expected UTF-8: save it as that");
+    constexpr std::string_view k_mark = "\xef\xbb\xbf";
+    if (text.starts_with(k_mark)) text.remove_prefix(k_mark.size());
+    return text;
+}
+
 std::filesystem::path part_named(const std::filesystem::path& file, const std::filesystem::path& folder,
                                  Reach reach) {
     if (reach == Reach::anywhere) return folder / file;

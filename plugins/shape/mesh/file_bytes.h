@@ -28,4 +28,7 @@ std::filesystem::path part_named(const std::filesystem::path& file, const std::f
 
 inline std::string_view text_of(const Array<char>& bytes) { return {bytes.data(), bytes.size()}; }
 
+/// The text behind a UTF-8 byte order mark, if it begins with one. Throws BadFile for UTF-16.
+std::string_view without_mark(std::string_view text);
+
 }  // namespace mesh

@@ -147,7 +147,7 @@ class Walk {
 
 class Reader {
   public:
-    explicit Reader(Document document) : document_(std::move(document)) {}
+    Reader(Document document, const Origin& origin) : document_(std::move(document)), origin_(origin) {}
 
     Surface read() {
         const Walk walk(document_.model);
@@ -207,7 +207,12 @@ class Reader {
         const Accessor position = accessor(attributes.at("POSITION"), 3);
         const std::size_t count = position.count();
         add_vectors(
-            position, [&](std::array<double, 3> v) { return placed.to_world.point(v); }, surface_.position);
+            position,
+            [&](std::array<double, 3> v) {
+                v = placed.to_world.point(v);
+                return std::array{v[0] - origin_.at[0], v[1] - origin_.at[1], v[2] - origin_.at[2]};
+            },
+            surface_.position);
         const bool is_mirrored = placed.to_world.determinant() < 0;
         if (has_normals_) {
             if (attributes.contains("NORMAL")) {
@@ -314,6 +319,7 @@ class Reader {
     }
 
     Document document_;
+    const Origin& origin_;
     Surface surface_;
     std::optional<std::uint32_t> no_material_;  // its number, where a primitive has none
     bool has_normals_ = false;
@@ -326,8 +332,9 @@ class Reader {
 
 }  // namespace gltf
 
-Surface read_gltf(std::string_view bytes, const std::filesystem::path& folder, Reach reach) {
-    return gltf::Reader(gltf::read_document(bytes, folder, reach)).read();
+Surface read_gltf(std::string_view bytes, const Origin& origin, const std::filesystem::path& folder,
+                  Reach reach) {
+    return gltf::Reader(gltf::read_document(without_mark(bytes), folder, reach), origin).read();
 }
 
 }  // namespace mesh

@@ -1,6 +1,8 @@
 #include "loaded.h"
 
+#include <array>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "orientation.h"
@@ -17,11 +19,11 @@ const TrianglesByMaterial& Loaded::by_material() const {
     return *by_material_;
 }
 
-std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, Reach reach) {
+std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin& origin, Reach reach) {
     static std::mutex mutex;
-    static std::map<std::pair<std::string, Reach>, std::weak_ptr<SharedFile>> files;
+    static std::map<std::tuple<std::string, std::array<double, 3>, Reach>, std::weak_ptr<SharedFile>> files;
     const std::scoped_lock lock(mutex);
-    std::weak_ptr<SharedFile>& known = files[{file, reach}];
+    std::weak_ptr<SharedFile>& known = files[{file, origin.at, reach}];
     std::shared_ptr<SharedFile> shared = known.lock();
     if (shared == nullptr) {
         shared.reset(new SharedFile(file));

@@ -10,6 +10,7 @@
 
 #include "corners.h"
 #include "file_bytes.h"
+#include "origin.h"
 #include "part.h"
 #include "surface.h"
 
@@ -37,7 +38,7 @@ class Loaded {
 /// Owned by all shapes of a file.
 class SharedFile {
   public:
-    static std::shared_ptr<SharedFile> of(const std::string& file, Reach reach);
+    static std::shared_ptr<SharedFile> of(const std::string& file, const Origin& origin, Reach reach);
 
     /// What `read` returned last time, unless the file, or one that it names, has changed since. `read` may
     /// run on several threads at once.

@@ -20,6 +20,7 @@
 #include "derivatives.h"
 #include "file_bytes.h"
 #include "loaded.h"
+#include "origin.h"
 #include "part.h"
 #include "readers.h"
 #include "surface.h"
@@ -35,6 +36,7 @@ struct MeshShape {
     std::int32_t vertex_colors;
     const char* part;
     std::int32_t appearance_imported;
+    const char* origin;
 };
 
 enum class Format { obj, ply, stl, gltf };
@@ -50,28 +52,39 @@ Format format_of(const std::filesystem::path& file) {
     throw mesh::BadFile("has not the extension of a mesh: .obj, .ply, .stl, .gltf or .glb");
 }
 
-mesh::Surface surface_of(const std::filesystem::path& file, mesh::Reach reach,
+mesh::Surface surface_of(const std::filesystem::path& file, const mesh::Origin& origin, mesh::Reach reach,
                          const mesh::Progress& progress) {
     const Format format = format_of(file);
     const mesh::Array<char> bytes = mesh::read_file(file);
     mesh::Surface surface;
     switch (format) {
         case Format::obj:
-            surface = mesh::read_obj(mesh::text_of(bytes), progress);
+            surface = mesh::read_obj(mesh::text_of(bytes), origin, progress);
             break;
         case Format::ply:
-            surface = mesh::read_ply(mesh::text_of(bytes), progress);
+            surface = mesh::read_ply(mesh::text_of(bytes), origin, progress);
             break;
         case Format::stl:
-            surface = mesh::read_stl(mesh::text_of(bytes), progress);
+            surface = mesh::read_stl(mesh::text_of(bytes), origin, progress);
             break;
         case Format::gltf:
-            surface = mesh::read_gltf(mesh::text_of(bytes), file.parent_path(), reach);
+            surface = mesh::read_gltf(mesh::text_of(bytes), origin, file.parent_path(), reach);
             break;
     }
     if (surface.triangles() == 0) throw mesh::BadFile("has no faces, and so no triangles");
     if (surface.indices.size() > 0xffff'fff0u) throw mesh::BadFile("has more triangles than can be numbered");
+    if (const std::string note = mesh::too_far_note(surface, origin); !note.empty())
+        surface.notes.push_back(note);
     return surface;
+}
+
+mesh::Origin origin_of(const MeshShape& shape) {
+    const std::string_view text = shape.origin != nullptr ? shape.origin : "";
+    const auto origin = mesh::origin_from(text);
+    if (!origin)
+        throw std::invalid_argument(fmt::format(
+            "'origin' is {}; expected three numbers, such as \"500000 4500000 120\"", mesh::in_quotes(text)));
+    return *origin;
 }
 
 bool has_all_normals(const mesh::Surface& surface) {
@@ -110,13 +123,14 @@ class FileMesh final : public candela::Shape {
           uses_colors_(shape.vertex_colors != 0),
           part_(shape.part != nullptr ? shape.part : ""),
           appearance_imported_(shape.appearance_imported != 0),
-          shared_(mesh::SharedFile::of(file_, reach_)) {}
+          origin_(origin_of(shape)),
+          shared_(mesh::SharedFile::of(file_, origin_, reach_)) {}
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         try {
             const auto read = [&] {
                 const auto reading = [&](double part) { sink.progress(k_read * part); };
-                mesh::Surface surface = surface_of(file_, reach_, reading);
+                mesh::Surface surface = surface_of(file_, origin_, reach_, reading);
                 sink.progress(k_read);
                 return std::make_shared<const mesh::Loaded>(std::move(surface));
             };
@@ -200,6 +214,7 @@ class FileMesh final : public candela::Shape {
     bool uses_colors_;
     std::string part_;
     bool appearance_imported_;
+    mesh::Origin origin_;
     std::shared_ptr<mesh::SharedFile> shared_;
 };
 
@@ -222,7 +237,15 @@ constexpr auto k_fields = fields(
                      .text = &MeshShape::part},
     boolean(&MeshShape::appearance_imported, "appearance_imported", false,
             "whether the scene has the file's materials, textures, lights and cameras in its own words, as "
-            "candela import writes it, so that they are left out without a warning"));
+            "candela import writes it, so that they are left out without a warning"),
+    Field<MeshShape>{
+        .spec = {.name = "origin",
+                 .type = candela::ParamType::text,
+                 .meaning = "the point of the file's coordinates that is the object's origin, as a "
+                            "text of three numbers in double precision, for files far from their "
+                            "own origin, such as \"500000.25 4500000.5 120\"; empty: the file's own",
+                 .default_value = {.text = ""}},
+        .text = &MeshShape::origin});
 
 }  // namespace
 

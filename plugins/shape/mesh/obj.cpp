@@ -2,6 +2,7 @@
 
 #include <array>
 #include <boost/unordered/unordered_flat_map.hpp>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -31,16 +32,18 @@ struct Hash {
 
 class Reader {
   public:
-    Reader(std::string_view text, const Progress& progress) : scanner_(text, progress) {}
+    Reader(std::string_view text, const Origin& origin, const Progress& progress)
+        : scanner_(text, progress), origin_(origin) {}
 
     Surface read() {
         for (; !scanner_.at_end(); scanner_.next_line()) {
             const std::string_view word = next();
             if (!word.empty()) statement(word);
         }
-        require_listed(highest_[0], position_.size(), "vertex", "vertices");
-        require_listed(highest_[1], u_.size(), "texture coordinate", "texture coordinates");
-        require_listed(highest_[2], normal_.size(), "normal", "normals");
+        require_faces();
+        require_listed(highest_[0], position_.size());
+        leave_out_missing(1, u_.size(), "texture coordinates");
+        leave_out_missing(2, normal_.size(), "normals");
         make_vertices();
         if (has_smoothing_) {
             triangulate(polygons_, smoothing_, surface_);
@@ -58,11 +61,9 @@ class Reader {
         if (keyword == "v") {
             vertex();
         } else if (keyword == "vn") {
-            normal_.push_back({coordinate(), coordinate(), coordinate()});
+            normal();
         } else if (keyword == "vt") {
-            u_.push_back(coordinate());
-            const std::string_view word = next();
-            v_.push_back(word.empty() ? 0.0f : number(word));
+            texture_coordinates();
         } else if (keyword == "f" || keyword == "fo") {
             face();
         } else if (keyword == "s") {
@@ -76,18 +77,23 @@ class Reader {
             ++losses_["list of points"];
         } else if (keyword == "curv" || keyword == "curv2" || keyword == "surf") {
             ++losses_["free-form curve or surface"];
+            has_free_surfaces_ = has_free_surfaces_ || keyword == "surf";
         } else if (keyword != "o" && keyword != "g") {
             other(keyword);
         }
     }
 
     void vertex() {
-        std::array<float, 8> values{};
+        std::array<double, 8> values{};
         std::size_t count = 0;
-        for (std::string_view word = next(); !word.empty() && count < values.size(); word = next())
-            values[count++] = number(word);
+        for (std::string_view word = next(); !word.empty() && count < values.size(); word = next()) {
+            values[count] = number(word);
+            if (count < 3 && !std::isfinite(values[count]))
+                refuse(in_quotes(word) + " is not a finite number; a position must be one");
+            ++count;
+        }
         if (count < 3) refuse("a vertex has three coordinates");
-        position_.push_back({values[0], values[1], values[2]});
+        position_.push_back(origin_.moved({values[0], values[1], values[2]}));
         // A fourth number is the weight that a rational curve gives the vertex; the last three of six or
         // seven are its colour.
         const bool has_color = count == 6 || count == 7;
@@ -96,10 +102,28 @@ class Reader {
             for (std::size_t i = 1; i < position_.size(); ++i) color_.push_back({1, 1, 1});
         }
         if (has_color) {
-            color_.push_back({values[count - 3], values[count - 2], values[count - 1]});
+            color_.push_back({static_cast<float>(values[count - 3]), static_cast<float>(values[count - 2]),
+                              static_cast<float>(values[count - 1])});
         } else if (!color_.empty()) {
             color_.push_back({1, 1, 1});
         }
+    }
+
+    void normal() {
+        const Vec3 n = {single(coordinate()), single(coordinate()), single(coordinate())};
+        const bool is_finite = std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z);
+        normal_.push_back(is_finite ? n : Vec3{});
+        if (!is_finite) ++non_finite_normals_;
+    }
+
+    void texture_coordinates() {
+        const float u = single(coordinate());
+        const std::string_view word = next();
+        const float v = word.empty() ? 0 : single(number(word));
+        const bool are_finite = std::isfinite(u) && std::isfinite(v);
+        u_.push_back(are_finite ? u : 0);
+        v_.push_back(are_finite ? v : 0);
+        if (!are_finite) ++non_finite_uv_;
     }
 
     void face() {
@@ -134,6 +158,12 @@ class Reader {
     /// Counts from 1, or backwards from the last one listed so far.
     std::uint32_t index_from(std::string_view word, std::size_t count, std::size_t part) {
         const auto index = integer_from(word);
+        // Only a vertex cannot be done without.
+        const bool is_needed = part == 0;
+        if (!is_needed && index && (*index == 0 || *index < -static_cast<std::int64_t>(count))) {
+            ++missing_[part];
+            return k_none;
+        }
         if (!index || *index == 0)
             refuse(in_quotes(word) + " is no index; they count from 1, or backwards from -1");
         const std::int64_t at = *index > 0 ? *index - 1 : static_cast<std::int64_t>(count) + *index;
@@ -150,8 +180,10 @@ class Reader {
 
     void use_material() {
         ++losses_["use of a material"];
+        // No comment ends a name, and no backslash continues it: "Paint #2", "wood\\".
         std::string name;
-        for (std::string_view word = next(); !word.empty(); word = next())
+        TextScanner words(scanner_.rest_of_line());
+        for (std::string_view word = words.word(); !word.empty(); word = words.word())
             name.append(name.empty() ? "" : " ").append(word);
         material_ = number_of(name.empty() ? k_no_material : name);
     }
@@ -204,17 +236,19 @@ class Reader {
         }
     }
 
-    float coordinate() {
+    double coordinate() {
         const std::string_view word = next();
         if (word.empty()) refuse("a number is missing");
         return number(word);
     }
 
-    float number(std::string_view word) const {
+    double number(std::string_view word) const {
         const auto value = number_from(word);
-        if (!value) refuse(in_quotes(word) + " is no number");
-        return static_cast<float>(*value);
+        if (!value) refuse(in_quotes(word) + " is not a number");
+        return *value;
     }
+
+    static float single(double x) { return static_cast<float>(x); }
 
     [[noreturn]] void refuse(const std::string& problem) const {
         throw BadFile(fmt::format("line {}: {}", scanner_.line(), problem));
@@ -227,11 +261,51 @@ class Reader {
         std::size_t line = 0;  // 0: none
     };
 
-    static void require_listed(const Highest& highest, std::size_t count, std::string_view what,
-                               std::string_view plural) {
+    /// Says what a file has that has no faces.
+    void require_faces() const {
+        if (!polygons_.ends.empty() || polygons_.too_small > 0) return;
+        if (unknown_ > 0)
+            throw BadFile(fmt::format("is not an OBJ file: {} begins no statement", first_unknown_));
+        const auto count_of = [&](const char* what) {
+            const auto found = losses_.find(what);
+            return found == losses_.end() ? std::uint64_t{0} : found->second;
+        };
+        std::vector<std::string> others;
+        if (const auto lines = count_of("line"); lines > 0) others.push_back(counted(lines, "line"));
+        if (const auto points = count_of("list of points"); points > 0)
+            others.push_back(fmt::format("{} set{} of points", points, points == 1 ? "" : "s"));
+        if (count_of("free-form curve or surface") > 0) {
+            const char* const what = has_free_surfaces_ ? "free-form surfaces" : "free-form curves";
+            if (others.empty()) throw BadFile(fmt::format("has {} only; Candela draws triangles", what));
+            others.emplace_back(what);
+        }
+        if (others.empty() && !position_.empty())
+            others.push_back(
+                fmt::format("{} {}", position_.size(), position_.size() == 1 ? "vertex" : "vertices"));
+        if (!others.empty())
+            throw BadFile(fmt::format("has {} and no triangles; Candela draws surfaces", listed(others)));
+    }
+
+    static void require_listed(const Highest& highest, std::size_t count) {
         if (highest.line == 0 || highest.index < count) return;
-        throw BadFile(fmt::format("line {}: {} {} of a face is out of range; there are only {} {}",
-                                  highest.line, what, std::uint64_t{highest.index} + 1, count, plural));
+        throw BadFile(fmt::format("line {}: vertex {} of a face is out of range; there are only {} vertices",
+                                  highest.line, std::uint64_t{highest.index} + 1, count));
+    }
+
+    /// Corners do without texture coordinates, or normals, that the file does not have.
+    void leave_out_missing(std::size_t part, std::size_t count, std::string_view what) {
+        Highest& highest = highest_[part];
+        if (highest.line != 0 && highest.index >= count) {
+            for (Corner& corner : corners_) {
+                if (corner[part] == k_none || corner[part] < count) continue;
+                corner[part] = k_none;
+                ++missing_[part];
+            }
+            if (count == 0) highest.line = 0;
+        }
+        if (missing_[part] > 0)
+            surface_.notes.push_back(fmt::format("has {} with {} that it does not have; they are left out",
+                                                 counted(missing_[part], "corner"), what));
     }
 
     /// A vertex for each combination that corners name.
@@ -263,11 +337,17 @@ class Reader {
     }
 
     void note_losses() {
-        if (unknown_ > 0 && polygons_.ends.empty())
-            throw BadFile(fmt::format("is no OBJ file: {} begins no statement", first_unknown_));
         if (unknown_ > 0)
             surface_.losses.emplace_back(fmt::format("{} that no OBJ file has, such as {}",
                                                      counted(unknown_, "statement"), first_unknown_));
+        if (non_finite_normals_ > 0)
+            surface_.notes.push_back(fmt::format("has {} that {} not finite; computed ones take their place",
+                                                 counted(non_finite_normals_, "normal"),
+                                                 non_finite_normals_ == 1 ? "is" : "are"));
+        if (non_finite_uv_ > 0)
+            surface_.notes.push_back(
+                fmt::format("has {} that are not finite; zeros take their place",
+                            counted(non_finite_uv_, "pair") + " of texture coordinates"));
         for (const auto& [what, count] : losses_) {
             if (what == "use of a material") {
                 surface_.losses.emplace_back(
@@ -288,6 +368,7 @@ class Reader {
     }
 
     TextScanner scanner_;
+    const Origin& origin_;
     Surface surface_;
     Vectors position_, normal_, color_;
     Array<float> u_, v_;
@@ -295,6 +376,9 @@ class Reader {
     Polygons polygons_;                     // their corners are filled in at the end
     std::vector<std::uint32_t> smoothing_;  // per face
     std::array<Highest, 3> highest_{};
+    std::array<std::uint64_t, 3> missing_{};  // corners, by what they lack
+    std::uint64_t non_finite_normals_ = 0, non_finite_uv_ = 0;
+    bool has_free_surfaces_ = false;
     std::uint32_t group_ = k_flat;
     std::map<std::string, std::uint32_t, std::less<>> materials_;  // their numbers
     std::optional<std::uint32_t> material_;
@@ -306,6 +390,8 @@ class Reader {
 
 }  // namespace
 
-Surface read_obj(std::string_view text, const Progress& progress) { return Reader(text, progress).read(); }
+Surface read_obj(std::string_view text, const Origin& origin, const Progress& progress) {
+    return Reader(without_mark(text), origin, progress).read();
+}
 
 }  // namespace mesh

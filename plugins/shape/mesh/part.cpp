@@ -19,6 +19,10 @@ constexpr std::uint32_t k_unused = 0xffff'ffffu;
 std::vector<bool> chosen_of(const Surface& surface, std::string_view part) {
     std::vector<bool> chosen(surface.materials.size());
     for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = surface.materials[i] == part;
+    // Somebody may have written "red" for "usemtl red # a comment".
+    if (std::ranges::find(chosen, true) == chosen.end())
+        for (std::size_t i = 0; i < chosen.size(); ++i)
+            chosen[i] = surface.materials[i].starts_with(std::string(part) + " #");
     if (std::ranges::find(chosen, true) != chosen.end() || !part.starts_with('#')) return chosen;
     std::size_t number = 0;
     const auto [end, problem] = std::from_chars(part.data() + 1, part.data() + part.size(), number);

@@ -19,8 +19,12 @@ namespace {
 
 constexpr std::size_t k_per_task = 65536;
 
-/// Where a property of the vertices goes; null: nowhere.
-using Columns = std::vector<Array<float>*>;
+/// Where a property of the vertices goes; null: nowhere. `origin` is taken from it while it is a double.
+struct Column {
+    Array<float>* to = nullptr;
+    double origin = 0;
+};
+using Columns = std::vector<Column>;
 
 /// Whether each vertex takes the same number of bytes.
 bool has_fixed_rows(const Header& header, const Element& element) {
@@ -37,11 +41,14 @@ void read_fixed_rows(std::string_view bytes, const Header& header, const Element
         std::size_t offset = 0;
         for (std::size_t p = 0; p < columns.size(); ++p) {
             const Type type = element.properties[p].type;
-            if (columns[p] != nullptr) {
-                float* const out = columns[p]->data();
+            if (columns[p].to != nullptr) {
+                float* const out = columns[p].to->data();
+                const double origin = columns[p].origin;
                 with_type(type, [&](auto t) {
-                    for (std::size_t i = from; i < to; ++i)
-                        out[i] = static_cast<float>(load<decltype(t)>(first + i * stride + offset, swapped));
+                    for (std::size_t i = from; i < to; ++i) {
+                        const auto value = load<decltype(t)>(first + i * stride + offset, swapped);
+                        out[i] = static_cast<float>(static_cast<double>(value) - origin);
+                    }
                 });
             }
             offset += size_of(type);
@@ -63,8 +70,8 @@ void skip(Values& values, const Element& element) {
 
 class Reader {
   public:
-    Reader(std::string_view bytes, const Header& header, const Progress& progress)
-        : bytes_(bytes), header_(header), progress_(progress) {}
+    Reader(std::string_view bytes, const Header& header, const Origin& origin, const Progress& progress)
+        : bytes_(bytes), header_(header), origin_(origin), progress_(progress) {}
 
     Surface read() {
         if (header_.encoding == Encoding::text) {
@@ -118,7 +125,7 @@ class Reader {
         std::vector<std::size_t> used;
         const auto use = [&](std::optional<std::size_t> property, Array<float>& column) {
             column.resize(element.count);
-            columns[*property] = &column;
+            columns[*property].to = &column;
             used.push_back(*property);
         };
         const auto scalar = [&](std::initializer_list<std::string_view> names) {
@@ -131,6 +138,9 @@ class Reader {
         use(x, surface_.position.x);
         use(y, surface_.position.y);
         use(z, surface_.position.z);
+        columns[*x].origin = origin_.at[0];
+        columns[*y].origin = origin_.at[1];
+        columns[*z].origin = origin_.at[2];
         const auto nx = scalar({"nx"}), ny = scalar({"ny"}), nz = scalar({"nz"});
         if (nx && ny && nz) {
             use(nx, surface_.normal.x);
@@ -190,10 +200,11 @@ class Reader {
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             for (std::size_t p = 0; p < columns.size(); ++p) {
-                if (columns[p] == nullptr) {
+                if (columns[p].to == nullptr) {
                     skip(values, element.properties[p]);
                 } else {
-                    (*columns[p])[i] = static_cast<float>(values.number(element.properties[p].type));
+                    (*columns[p].to)[i] =
+                        static_cast<float>(values.number(element.properties[p].type) - columns[p].origin);
                 }
             }
         }
@@ -351,6 +362,7 @@ class Reader {
 
     std::string_view bytes_;
     const Header& header_;
+    const Origin& origin_;
     const Progress& progress_;
     Surface surface_;
     Polygons polygons_;
@@ -364,9 +376,10 @@ class Reader {
 
 }  // namespace ply
 
-Surface read_ply(std::string_view bytes, const Progress& progress) {
+Surface read_ply(std::string_view bytes, const Origin& origin, const Progress& progress) {
+    bytes = without_mark(bytes);
     const ply::Header header = ply::read_header(bytes);
-    return ply::Reader(bytes, header, progress).read();
+    return ply::Reader(bytes, header, origin, progress).read();
 }
 
 }  // namespace mesh

@@ -1,27 +1,30 @@
 // One function per format: from bytes to a surface. All throw BadFile for what is no such file, check counts
 // against the bytes there are before they allocate, and have no state. Texts tell how far they are read.
+// Positions are those of the file, moved by `origin` while they are doubles.
 #pragma once
 
 #include <filesystem>
 #include <string_view>
 
 #include "file_bytes.h"
+#include "origin.h"
 #include "surface.h"
 #include "text_scanner.h"
 
 namespace mesh {
 
 /// The Polygon File Format, text or binary (Turk 1994).
-Surface read_ply(std::string_view bytes, const Progress& progress);
+Surface read_ply(std::string_view bytes, const Origin& origin, const Progress& progress);
 
 /// Stereolithography, text or binary (3D Systems 1989).
-Surface read_stl(std::string_view bytes, const Progress& progress);
+Surface read_stl(std::string_view bytes, const Origin& origin, const Progress& progress);
 
 /// Wavefront OBJ: polygons, no curves. Material libraries are not opened.
-Surface read_obj(std::string_view text, const Progress& progress);
+Surface read_obj(std::string_view text, const Origin& origin, const Progress& progress);
 
 /// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder`, and as far from
 /// it as `reach` allows.
-Surface read_gltf(std::string_view bytes, const std::filesystem::path& folder, Reach reach);
+Surface read_gltf(std::string_view bytes, const Origin& origin, const std::filesystem::path& folder,
+                  Reach reach);
 
 }  // namespace mesh

@@ -46,12 +46,12 @@ bool is_binary(std::string_view bytes) {
         const std::uint64_t facets = little_endian<std::uint32_t>(bytes.data() + 80);
         if (k_header + facets * k_facet == bytes.size()) return true;
     }
-    TextScanner scanner(bytes.substr(0, 4096));
+    TextScanner scanner(without_mark(bytes.substr(0, 4096)));
     if (!is_word(scanner.word(), "solid")) return true;
     return bytes.substr(0, 4096).find('\0') != std::string_view::npos;
 }
 
-Surface read_binary(std::string_view bytes) {
+Surface read_binary(std::string_view bytes, const Origin& origin) {
     if (bytes.size() < k_header)
         throw BadFile("is no STL file: it neither begins with 'solid' nor has 84 bytes");
     const std::uint64_t facets = little_endian<std::uint32_t>(bytes.data() + 80);
@@ -71,7 +71,8 @@ Surface read_binary(std::string_view bytes) {
             const char* const facet = bytes.data() + k_header + t * k_facet;
             surface.facet_normal.span().set(t, candela::normalized(vector_at(facet)));
             for (std::size_t k = 0; k < 3; ++k) {
-                surface.position.span().set(3 * t + k, vector_at(facet + 12 * (k + 1)));
+                const Vec3 p = vector_at(facet + 12 * (k + 1));
+                surface.position.span().set(3 * t + k, origin.moved({p.x, p.y, p.z}));
                 surface.indices[3 * t + k] = static_cast<std::uint32_t>(3 * t + k);
             }
             attributes |= little_endian<std::uint16_t>(facet + 48);
@@ -86,7 +87,8 @@ Surface read_binary(std::string_view bytes) {
 
 class TextReader {
   public:
-    TextReader(std::string_view text, const Progress& progress) : scanner_(text, progress) {}
+    TextReader(std::string_view text, const Origin& origin, const Progress& progress)
+        : scanner_(text, progress), origin_(origin) {}
 
     Surface read() {
         expect("solid");
@@ -115,27 +117,27 @@ class TextReader {
   private:
     void read_facet() {
         expect("normal");
-        surface_.facet_normal.push_back(candela::normalized(vector()));
+        surface_.facet_normal.push_back(candela::normalized(Origin().moved(vector())));
         expect("outer");
         expect("loop");
         for (int k = 0; k < 3; ++k) {
             expect("vertex");
             surface_.indices.push_back(static_cast<std::uint32_t>(surface_.position.size()));
-            surface_.position.push_back(vector());
+            surface_.position.push_back(origin_.moved(vector()));
         }
         expect("endloop");
         expect("endfacet");
     }
 
-    Vec3 vector() {
-        std::array<float, 3> v{};
-        for (float& x : v) {
+    std::array<double, 3> vector() {
+        std::array<double, 3> v{};
+        for (double& x : v) {
             const std::string_view word = scanner_.word();
             const auto number = number_from(word);
             if (!number) refuse(word, "a number");
-            x = static_cast<float>(*number);
+            x = *number;
         }
-        return {v[0], v[1], v[2]};
+        return v;
     }
 
     void expect(std::string_view wanted) {
@@ -149,6 +151,7 @@ class TextReader {
     }
 
     TextScanner scanner_;
+    const Origin& origin_;
     Surface surface_;
     bool is_solid_ended_ = false;
 };
@@ -177,8 +180,9 @@ void note_contradictions(Surface& surface) {
 
 }  // namespace
 
-Surface read_stl(std::string_view bytes, const Progress& progress) {
-    Surface surface = is_binary(bytes) ? read_binary(bytes) : TextReader(bytes, progress).read();
+Surface read_stl(std::string_view bytes, const Origin& origin, const Progress& progress) {
+    Surface surface = is_binary(bytes) ? read_binary(bytes, origin)
+                                       : TextReader(without_mark(bytes), origin, progress).read();
     note_contradictions(surface);
     return surface;
 }

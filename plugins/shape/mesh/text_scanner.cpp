@@ -25,6 +25,16 @@ double beyond_range(std::string_view word) {
     return is_negative ? -size : size;
 }
 
+/// As Microsoft's C library printed them for twenty years.
+std::optional<double> old_non_finite(std::string_view word) {
+    const bool is_negative = word.starts_with('-');
+    if (is_negative) word.remove_prefix(1);
+    if (!word.starts_with("1.#")) return std::nullopt;
+    const double infinity = std::numeric_limits<double>::infinity();
+    if (word.starts_with("1.#INF")) return is_negative ? -infinity : infinity;
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 std::optional<double> number_from(std::string_view word) {
@@ -32,7 +42,7 @@ std::optional<double> number_from(std::string_view word) {
     double value = 0;
     const char* const end = std::to_address(word.end());
     const auto [stop, problem] = std::from_chars(std::to_address(word.begin()), end, value);
-    if (stop != end || word.empty()) return std::nullopt;
+    if (stop != end || word.empty()) return old_non_finite(word);
     if (problem == std::errc::result_out_of_range) return beyond_range(word);
     if (problem != std::errc()) return std::nullopt;
     return value;

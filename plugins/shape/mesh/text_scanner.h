@@ -12,8 +12,9 @@
 namespace mesh {
 
 /// A number as any of these formats writes it: a sign, digits, a point, an exponent; `.5` and `5.` too. One
-/// that is too small for a double is zero, one that is too large infinite. Nothing for anything else, and for
-/// what stands behind a number.
+/// that is too small for a double is zero, one that is too large infinite. Infinities, and what is not a
+/// number, as C libraries print them: `inf`, `-nan(ind)`, `1.#INF`, `-1.#IND`. Nothing for anything else, and
+/// for what stands behind a number.
 std::optional<double> number_from(std::string_view word);
 
 /// An integer, or a number that is one ("3.0"); nothing if it does not fit.
@@ -39,6 +40,12 @@ class TextScanner {
         if (at_ < text_.size() && is_blank(text_[at_])) return {};
         return rest_of_word();
     }
+    /// What is left of this line, without the blanks around it.
+    std::string_view rest_of_line() {
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
+        return trimmed(text_.substr(begin, at_ - begin));
+    }
     /// Goes to the beginning of the next line.
     void next_line() {
         while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
@@ -49,6 +56,11 @@ class TextScanner {
     std::size_t position() const { return at_; }
 
   private:
+    static std::string_view trimmed(std::string_view text) {
+        while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+        while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+        return text;
+    }
     static bool is_blank(char c) {
         return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\v' || c == '\f';
     }

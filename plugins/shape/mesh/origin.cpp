@@ -1,0 +1,65 @@
+#include "origin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "text_scanner.h"
+
+namespace mesh {
+
+namespace {
+
+/// Rounded to a power of ten of at most `size`, so that it has few digits.
+double short_number(double x, double size) {
+    const double power = std::floor(std::log10(size)), step = std::pow(10.0, std::abs(power));
+    return power < 0 ? std::round(x * step) / step : std::round(x / step) * step;
+}
+
+}  // namespace
+
+std::optional<Origin> origin_from(std::string_view text) {
+    Origin origin;
+    std::string words(text);
+    std::ranges::replace(words, ',', ' ');
+    TextScanner scanner(words);
+    std::string_view word = scanner.word();
+    if (word.empty()) return origin;
+    for (double& x : origin.at) {
+        const auto number = number_from(word);
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        x = *number;
+        word = scanner.word();
+    }
+    return word.empty() ? std::optional(origin) : std::nullopt;
+}
+
+std::string too_far_note(const Surface& surface, const Origin& origin) {
+    std::array<double, 3> center{};
+    double size = 0, farthest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Array<float>& values = axis == 0   ? surface.position.x
+                                     : axis == 1 ? surface.position.y
+                                                 : surface.position.z;
+        if (values.empty()) return {};
+        const auto [low, high] = std::ranges::minmax(values);
+        center[axis] = 0.5 * (double{low} + double{high});
+        size = std::max(size, double{high} - double{low});
+        farthest = std::max({farthest, std::abs(double{low}), std::abs(double{high})});
+    }
+    // Of a thousandth of a picture's width 0.06 is lost at this distance.
+    constexpr double k_too_far = 1e3;
+    if (!std::isfinite(farthest) || !(farthest > k_too_far * size) || size == 0) return {};
+    const double step =
+        std::exp2(std::floor(std::log2(farthest))) * double{std::numeric_limits<float>::epsilon()};
+    return fmt::format(
+        "lies so far from the origin that its coordinates are rounded to {:.2g} m; origin = \"{} {} {}\" "
+        "moves "
+        "it there before they are",
+        step, origin.at[0] + short_number(center[0], size), origin.at[1] + short_number(center[1], size),
+        origin.at[2] + short_number(center[2], size));
+}
+
+}  // namespace mesh
