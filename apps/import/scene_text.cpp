@@ -69,9 +69,11 @@ class Writer {
         if (const Vector up = direction(camera.up); up != Vector{0, 1, 0}) add("up", vector_text(up));
         if (camera.is_orthographic) add("projection", "\"orthographic\"");
         add(camera.is_orthographic ? "height" : "fov", real(camera.extent));
+        // Pictures of any other size show the same frame.
+        const double aspect = camera.aspect > 0.1 && camera.aspect < 10 ? camera.aspect : 4.0 / 3;
+        add("frame_aspect", real(std::floor(1e3 * aspect) / 1e3));
         end();
         begin("[image]");
-        const double aspect = camera.aspect > 0.1 && camera.aspect < 10 ? camera.aspect : 4.0 / 3;
         add("width", fmt::format("{}", std::lround(k_height * aspect)));
         add("height", fmt::format("{}", k_height));
         add("samples", "4");

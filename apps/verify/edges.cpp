@@ -28,7 +28,7 @@ namespace {
 
 constexpr float k_shift = 1.0f / 8;  // pixels; OpenGL may round vertices to a sixteenth
 
-/// The observer, turned or moved so little that the picture moves by (x, y) pixels.
+/// The observer (fitted to the picture), turned or moved so little that the picture moves by (x, y) pixels.
 Observer shifted(const Observer& observer, float x, float y, int height) {
     const Vec3 forward = observer.look_at - observer.position;
     const Vec3 right = candela::normalized(candela::cross(forward, observer.up));
@@ -94,7 +94,11 @@ using Intensities = std::vector<float>;
 class Mover {
   public:
     Mover(candela::CompiledScene& scene, const candela::Film& reference)
-        : scene_(scene), reference_(reference), observer_(scene.observer), samples_(scene.image.samples) {
+        : scene_(scene),
+          reference_(reference),
+          own_observer_(scene.observer),
+          observer_(candela::fitted(scene.observer, reference.width(), reference.height())),
+          samples_(scene.image.samples) {
         scene_.image.samples = 1;
         for (candela::LitSource& source : scene_.lights) {
             auto turned = std::make_unique<TurnedLight>(std::move(source.light), way_);
@@ -105,7 +109,7 @@ class Mover {
     Mover(const Mover&) = delete;
     Mover& operator=(const Mover&) = delete;
     ~Mover() {
-        scene_.observer = observer_;
+        scene_.observer = own_observer_;
         scene_.image.samples = samples_;
         for (std::size_t i = 0; i < turned_.size(); ++i) {
             std::unique_ptr<candela::Light> own = turned_[i]->release();
@@ -127,7 +131,7 @@ class Mover {
   private:
     candela::CompiledScene& scene_;
     const candela::Film& reference_;
-    Observer observer_;
+    Observer own_observer_, observer_;
     int samples_;
     std::optional<float> way_;
     std::vector<TurnedLight*> turned_;

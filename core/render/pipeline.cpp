@@ -26,7 +26,8 @@ import candela.transform;
 
 namespace candela {
 
-Camera camera_of(const Observer& observer, int width, int height) {
+Camera camera_of(const Observer& unfitted, int width, int height) {
+    const Observer observer = fitted(unfitted, width, height);
     const bool is_perspective = observer.projection == Projection::perspective;
     return Camera::looking(observer.position, observer.look_at, observer.up, observer.projection,
                            is_perspective ? observer.fov : observer.height, width, height);

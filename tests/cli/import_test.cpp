@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/command.h"
@@ -48,6 +49,14 @@ struct Pixels {
             3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
         return {static_cast<unsigned char>(bytes[i]), static_cast<unsigned char>(bytes[i + 1]),
                 static_cast<unsigned char>(bytes[i + 2])};
+    }
+    /// Whether the outermost pixels are all of one colour.
+    bool has_free_border() const {
+        for (int x = 0; x < width; ++x)
+            if (at(x, 0) != at(0, 0) || at(x, height - 1) != at(0, 0)) return false;
+        for (int y = 0; y < height; ++y)
+            if (at(0, y) != at(0, 0) || at(width - 1, y) != at(0, 0)) return false;
+        return true;
     }
     /// The share of pixels that differ from the first, the background.
     double covered() const {
@@ -121,14 +130,39 @@ TEST_CASE("a model in place of a scene is framed: it is seen whole, lit, and in 
     const Pixels picture = read_ppm(folder / "cube.ppm");
     CHECK(picture.covered() > 0.2);
     CHECK(picture.at(picture.width / 2, picture.height / 2)[1] > 60);
-    for (int x = 0; x < picture.width; ++x) {
-        REQUIRE(picture.at(x, 0) == picture.at(0, 0));
-        REQUIRE(picture.at(x, picture.height - 1) == picture.at(0, 0));
+    CHECK(picture.has_free_border());
+}
+
+TEST_CASE("a model is seen whole in pictures of every proportion, by its scene too") {
+    const fs::path folder = scratch_directory();
+    std::string text;
+    for (int i = 0; i < 8; ++i)
+        text += fmt::format("v {} {} {}\n", 4 * (i & 1 ? 1 : -1), i >> 1 & 1 ? 1 : -1,
+                            0.3 * (i >> 2 != 0 ? 1 : -1));
+    text += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    write_file(folder / "box.obj", text);
+    REQUIRE(candela(folder, {"import", "box.obj", "-o", "scene.toml"}).exit_code == 0);
+    for (const char* const input : {"box.obj", "scene.toml"}) {
+        for (const auto& [width, height] :
+             {std::pair{"300", "300"}, {"300", "600"}, {"60", "900"}, {"600", "300"}, {"900", "60"}}) {
+            INFO(input << " at " << width << " x " << height);
+            REQUIRE(candela(folder, {"render", input, "-o", "box.ppm", "--width", width, "--height", height})
+                        .exit_code == 0);
+            const Pixels picture = read_ppm(folder / "box.ppm");
+            CHECK(picture.covered() > 0.01);
+            CHECK(picture.has_free_border());
+        }
     }
-    for (int y = 0; y < picture.height; ++y) {
-        REQUIRE(picture.at(0, y) == picture.at(0, 0));
-        REQUIRE(picture.at(picture.width - 1, y) == picture.at(0, 0));
-    }
+    // What is wide fills a narrow picture from side to side.
+    const CommandResult narrow =
+        candela(folder, {"render", "scene.toml", "-o", "box.ppm", "--set", "image.width=300"});
+    REQUIRE(narrow.exit_code == 0);
+    const Pixels picture = read_ppm(folder / "box.ppm");
+    int first = picture.width, last = 0;
+    for (int x = 0; x < picture.width; ++x)
+        for (int y = 0; y < picture.height; ++y)
+            if (picture.at(x, y) != picture.at(0, 0)) first = std::min(first, x), last = std::max(last, x);
+    CHECK(last - first > picture.width * 8 / 10);
 }
 
 TEST_CASE("import writes the scene that render shows: both make the same picture") {
@@ -249,7 +283,8 @@ TEST_CASE("import takes over a glTF file's camera, lights and metallic-roughness
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     INFO(result.out);
-    CHECK(holds(result.out, "position = [0.0, 0.5, 4.0]\nlook_at  = [0.0, 0.5, 0.0]\nfov      = 30.0\n"));
+    CHECK(holds(result.out,
+                "position     = [0.0, 0.5, 4.0]\nlook_at      = [0.0, 0.5, 0.0]\nfov          = 30.0\n"));
     CHECK(holds(result.out, "width      = 1200\nheight     = 600\n"));
     // 10 pi candela; a node turned by -90 degrees about x shines along -y. 0.2158605 is 128 in sRGB.
     CHECK(holds(result.out,

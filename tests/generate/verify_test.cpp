@@ -275,6 +275,23 @@ object = [
     expect_match("thousand.toml", text);
 }
 
+TEST_CASE("verify: a picture narrower than the observer's frame matches in C++, in OpenGL and in a browser",
+          "[whole]") {
+    for (const char* const projection : {"fov = 30", "projection = \"orthographic\", height = 1.6"})
+        expect_match("narrow.toml", fmt::format(R"(version = 1
+observer = {{position = [0.4, 1.1, 3.6], look_at = [0, -0.1, 0], {}, frame_aspect = 1.5}}
+image = {{width = 80, height = 160}}
+shading = {{model = "phong"}}
+reflection = {{model = "phong"}}
+light = [{{type = "point", position = [1, 2, 3], intensity = 9}}]
+object = [
+    {{type = "sphere", radius = 0.5, segments = 24, position = [-0.6, -0.2, 0]}},
+    {{type = "cube", size = 0.7, position = [0.7, -0.3, 0], shading = "gouraud"}},
+]
+)",
+                                                projection));
+}
+
 TEST_CASE("verify: where the last bits of N.L decide on a step of brightness, programs that are right match",
           "[whole]") {
     // Two of the cube's faces are parallel to the light, so that N.L is 0 but for rounding.

@@ -1,5 +1,8 @@
+#include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -449,4 +452,28 @@ TEST_CASE("names of lights and objects are unique, each of their kind") {
     REQUIRE(result.found.size() == 1);
     CHECK(result.found[0].place.line == 16);
     CHECK(result.found[0].message.find("another object is called 'box'") != std::string::npos);
+}
+
+TEST_CASE("a picture narrower than its observer's frame shows as much at the sides as the frame") {
+    candela::Observer observer;
+    observer.fov = 35;
+    observer.height = 3;
+    observer.frame_aspect = 1.5f;
+    const auto half_width = [](const candela::Observer& o, double aspect) {
+        return aspect * std::tan(static_cast<double>(o.fov) * std::numbers::pi / 360);
+    };
+    const candela::Observer wide = candela::fitted(observer, 300, 200),
+                            wider = candela::fitted(observer, 900, 200);
+    CHECK(wide.fov == 35);
+    CHECK(wide.height == 3);
+    CHECK(wider.fov == 35);
+    const candela::Observer square = candela::fitted(observer, 200, 200),
+                            tall = candela::fitted(observer, 1, 65536);
+    CHECK(square.height == 4.5f);
+    CHECK(half_width(square, 1) == Catch::Approx(half_width(observer, 1.5)));
+    CHECK(tall.fov < 180);
+    INFO("what has been fitted is not fitted again");
+    CHECK(candela::fitted(square, 100, 200) == square);
+    observer.frame_aspect = 0;
+    CHECK(candela::fitted(observer, 100, 200) == observer);
 }

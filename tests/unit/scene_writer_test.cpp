@@ -180,6 +180,7 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.observer.projection = candela::Projection::orthographic; },
         [](Scene& s) { s.observer.fov += 1; },
         [](Scene& s) { s.observer.height += 1; },
+        [](Scene& s) { s.observer.frame_aspect = 1.5f; },
         [](Scene& s) { s.image.width += 1; },
         [](Scene& s) { s.image.height += 1; },
         [](Scene& s) { s.image.samples = 4; },

@@ -116,13 +116,15 @@ class Exporter {
                            .environment = to_.environment.c_str(),
                            .color_management = image.color_management};
         to_.scene.room = {scene_.room.width, scene_.room.height, scene_.room.depth};
-        const Observer& observer = scene_.observer;
+        const Observer observer = fitted(scene_.observer, image.width, image.height);
         to_.scene.observer = {.position = observer.position,
                               .look_at = observer.look_at,
                               .up = observer.up,
                               .projection = observer.projection,
                               .fov = observer.fov,
-                              .height = observer.height};
+                              .height = observer.height,
+                              .unfitted_fov = scene_.observer.fov,
+                              .unfitted_height = scene_.observer.height};
     }
 
     template <class Interface>

@@ -44,14 +44,22 @@ struct Observer {
     Projection projection = Projection::perspective;
     float fov = 40;    // perspective: full vertical angle, degrees
     float height = 4;  // orthographic: height of the view, metres
+    /// Width to height of the frame that every picture shows whole; 0: none, and a narrow picture cuts off
+    /// the sides.
+    float frame_aspect = 0;
     SourcePlace position_place{};
 
     /// Ignores where it is in its file.
     friend inline bool operator==(const Observer& a, const Observer& b) {
         return a.position == b.position && a.look_at == b.look_at && a.up == b.up &&
-               a.projection == b.projection && a.fov == b.fov && a.height == b.height;
+               a.projection == b.projection && a.fov == b.fov && a.height == b.height &&
+               a.frame_aspect == b.frame_aspect;
     }
 };
+
+/// The observer of a picture of that size: one narrower than the frame sees more above and below instead of
+/// less at the sides.
+CANDELA_API Observer fitted(Observer observer, int width, int height);
 
 struct ImageSettings {
     int width = 512;

@@ -116,6 +116,7 @@ class Reader {
             text(values, "projection") == "orthographic" ? Projection::orthographic : Projection::perspective;
         observer.fov = real(values, "fov");
         observer.height = real(values, "height");
+        observer.frame_aspect = real(values, "frame_aspect");
         const TableNode* const table = tables_.single("observer");
         if (table == nullptr) return;
         if (tables_.has_valid("observer", {"position"})) {

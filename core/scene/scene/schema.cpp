@@ -93,6 +93,12 @@ constexpr ParamSpec k_observer[] = {
      .default_value = {{4}},
      .minimum = 0,
      .minimum_excluded = true},
+    {.name = "frame_aspect",
+     .meaning = "width to height of the frame that every picture shows whole: one that is narrower shows "
+                "more above and below, one that is wider more at the sides; 0: no frame, and a narrower "
+                "picture shows less at the sides",
+     .default_value = {{0}},
+     .minimum = 0},
 };
 constexpr ParamSpec k_image[] = {
     {.name = "width",

@@ -149,6 +149,8 @@ class Writer {
         // A value without effect draws a warning; but if it was set, it is written again.
         if (perspective || observer.fov != standard.fov) add("fov", toml_text(observer.fov));
         if (!perspective || observer.height != standard.height) add("height", toml_text(observer.height));
+        if (observer.frame_aspect != standard.frame_aspect)
+            add("frame_aspect", toml_text(observer.frame_aspect));
         end();
     }
 

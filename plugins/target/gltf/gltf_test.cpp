@@ -220,8 +220,8 @@ material = {kd = 1, ka = 0}
         INFO(line);
         CHECK(back.find(line + "\n") != std::string::npos);
     };
-    has("position = [1.0, 2.0, 4.0]");
-    has("fov      = 40.0");
+    has("position     = [1.0, 2.0, 4.0]");
+    has("fov          = 40.0");
     has("color     = [255, 200, 100]");
     has("intensity = 12.0");
     has("position  = [1.5, 3.0, 2.0]");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -223,14 +224,25 @@ Json image_json(const ExportedImage& image) {
             {"color_management", image.color_management == ColorEncoding::srgb ? "srgb" : "none"}};
 }
 
+/// How many times as high as its own angle or height the picture is, so that the scene's frame fits in.
+double widening(const ExportedObserver& observer) {
+    if (observer.projection == Projection::orthographic)
+        return observer.height == observer.unfitted_height
+                   ? 1
+                   : double{observer.height} / double{observer.unfitted_height};
+    const auto height = [](double degrees) { return std::tan(degrees * std::numbers::pi / 360); };
+    return observer.fov == observer.unfitted_fov ? 1 : height(observer.fov) / height(observer.unfitted_fov);
+}
+
 Json observer_json(const ExportedObserver& observer) {
     const bool is_perspective = observer.projection == Projection::perspective;
     return {{"position", vector_json(observer.position)},
             {"look_at", vector_json(observer.look_at)},
             {"up", vector_json(observer.up)},
             {"projection", is_perspective ? "perspective" : "orthographic"},
-            {"fov", observer.fov},
-            {"height", observer.height}};
+            {"fov", observer.unfitted_fov},
+            {"height", observer.unfitted_height},
+            {"widening", widening(observer)}};
 }
 
 /// The arrays that it names are put where they belong.

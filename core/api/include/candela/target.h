@@ -104,6 +104,10 @@ struct ExportedObserver {
     Projection projection = Projection::perspective;
     float fov = 0;     // perspective: full vertical angle, degrees
     float height = 0;  // orthographic: metres that fit the picture's height
+    // As the scene has them, for users who edit it: `frame_aspect` may have made the above larger for a
+    // narrow picture.
+    float unfitted_fov = 0;
+    float unfitted_height = 0;
 };
 
 /// The triangles of one object. Arrays that there are not are null or empty.

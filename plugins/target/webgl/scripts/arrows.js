@@ -1,4 +1,4 @@
-import { viewAxes } from "./camera.js";
+import { viewAxes, viewHeight } from "./camera.js";
 import { svgElement } from "./elements.js";
 import { add, dot, scale, subtract } from "./vectors.js";
 
@@ -8,7 +8,7 @@ export const ARROW_LENGTH = 0.16;  // of the picture's height, at the depth of t
 export function project(observer, position) {
     const { forward, right, up } = viewAxes(observer), from = subtract(position, observer.position);
     const depth = dot(forward, from);
-    const across = observer.projection === "orthographic" ? observer.height : 2 * depth * Math.tan((observer.fov * Math.PI) / 360);
+    const across = (observer.projection === "orthographic" ? 1 : depth) * viewHeight(observer);
     return across > 0 ? { x: dot(right, from) / across, y: -dot(up, from) / across, across } : null;
 }
 

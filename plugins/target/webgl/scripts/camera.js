@@ -8,6 +8,12 @@ export function viewAxes(observer) {
     return { forward, right, up: cross(right, forward) };
 }
 
+/** The height of the picture: in metres, at a distance of 1 in perspective. */
+export function viewHeight(observer) {
+    const own = observer.projection === "orthographic" ? observer.height : 2 * Math.tan((observer.fov * Math.PI) / 360);
+    return (observer.widening ?? 1) * own;
+}
+
 /** What is wrong with an observer; null if it is valid. */
 export function validateObserver(observer) {
     const view = subtract(observer.look_at, observer.position);
@@ -42,7 +48,7 @@ export function viewProjection(observer, bounds, width, height, offset) {
     const { forward, right, up } = viewAxes(observer);
     const { near, far } = clippingPlanes(observer, forward, bounds);
     const isOrthographic = observer.projection === "orthographic";
-    const focal = isOrthographic ? 2 / observer.height : 1 / Math.tan((observer.fov * Math.PI) / 360);
+    const focal = 2 / viewHeight(observer);
     const viewRow = (axis, factor) => [...scale(axis, factor), -factor * dot(axis, observer.position)];
     const addScaled = (a, b, factor) => a.map((coordinate, i) => coordinate + factor * b[i]);
     const depth = viewRow(forward, 1);
@@ -57,10 +63,7 @@ export function viewProjection(observer, bounds, width, height, offset) {
 }
 
 /** How far apart the lines of sight of two pixels, one beside the other, are: in metres, at a distance of 1 in perspective. */
-export function pixelSize(observer, height) {
-    const whole = observer.projection === "orthographic" ? observer.height : 2 * Math.tan((observer.fov * Math.PI) / 360);
-    return whole / height;
-}
+export const pixelSize = (observer, height) => viewHeight(observer) / height;
 
 /** The observer turned around what it looks at, by angles in radians; it stops short of the poles. */
 export function orbit(observer, azimuth, elevation) {

@@ -1,5 +1,5 @@
 import { project } from "./arrows.js";
-import { viewAxes } from "./camera.js";
+import { viewAxes, viewHeight } from "./camera.js";
 import { element, isolated, newId, svgElement } from "./elements.js";
 import { ballAround, lightPlaces } from "./light_places.js";
 import { announce } from "./messages.js";
@@ -17,9 +17,9 @@ const numbers = (vector) => roundToFloat(vector).join(", ");
 
 /** The height of what is seen in the plane through a point that faces the observer. */
 function heightAt(observer, point) {
-    if (observer.projection === "orthographic") return observer.height;
+    if (observer.projection === "orthographic") return viewHeight(observer);
     const depth = Math.abs(dot(viewAxes(observer).forward, subtract(point, observer.position)));
-    return 2 * Math.max(depth, 1e-3) * Math.tan((observer.fov * Math.PI) / 360);
+    return Math.max(depth, 1e-3) * viewHeight(observer);
 }
 
 /** Where a point is in the picture, in its heights from its middle; what is outside stands at a margin from the border. */

@@ -169,9 +169,9 @@ export class Settings {
     }
 
     observer() {
-        const { up, projection } = this.scene.observer;
+        const { up, projection, widening } = this.scene.observer;
         const values = this.observerParameters().map(({ name }) => [name, this.get(`observer.${name}`)]);
-        return { up, projection, ...Object.fromEntries(values) };
+        return { up, projection, widening, ...Object.fromEntries(values) };
     }
 
     /** For an observer that orbiting or zooming made, which is valid. */

@@ -1,5 +1,5 @@
 import { project } from "./arrows.js";
-import { viewAxes } from "./camera.js";
+import { viewAxes, viewHeight } from "./camera.js";
 import { svgElement } from "./elements.js";
 import { add, dot, scale, subtract } from "./vectors.js";
 
@@ -19,7 +19,7 @@ export function boxLines(extent) {
 export function viewLines(observer, aspect) {
     const { forward, right, up } = viewAxes(observer), depth = dot(forward, subtract(observer.look_at, observer.position));
     const isOrthographic = observer.projection === "orthographic";
-    const half = isOrthographic ? observer.height / 2 : depth * Math.tan((observer.fov * Math.PI) / 360);
+    const half = (isOrthographic ? 0.5 : 0.5 * depth) * viewHeight(observer);
     const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => add(scale(right, x * half * aspect), scale(up, y * half)));
     const ends = corners.map((corner) => add(add(observer.position, scale(forward, depth)), corner));
     const begins = corners.map((corner) => (isOrthographic ? add(observer.position, corner) : observer.position));
