@@ -10,6 +10,7 @@ module;
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 
 module candela.formats;
@@ -47,8 +48,12 @@ class Decoder final : public PictureSink {
 
 std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file, Registry& registry,
                                              ColorEncoding encoding) {
-    const PluginFile* const plugin = registry.find_format(extension_of(file), FormatUse::read);
+    const PluginFile* const plugin = reader_of(file, registry);
     if (plugin == nullptr) return std::nullopt;
+    std::error_code none;
+    if (std::filesystem::is_regular_file(file, none) && std::filesystem::file_size(file, none) == 0)
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' cannot be read as a picture: it is empty", file.string()));
     const std::string& name = plugin->manifest.name;
     const auto reader =
         registry.create<ImageFormat>(name, registry.parameters(PluginKind::image, name), encoding);
