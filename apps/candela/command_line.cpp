@@ -151,13 +151,14 @@ const std::string& contents_of(const std::string& stream) {
 
 /// The scene that shows a model; made once, and so are the files of pictures that the model contains, which
 /// live as long as the command.
-const std::string& scene_of_model(const std::string& file, candela::Registry& registry) {
+const std::string& scene_of_model(const std::string& file, bool allow_outside, candela::Registry& registry) {
     static std::map<std::string, std::string> known;
     static std::optional<TemporaryFolder> pictures;
     const auto [scene, is_new] = known.try_emplace(file);
     if (!is_new) return scene->second;
     const importing::Imported imported = importing::import_model(
         {.file = file,
+         .allow_outside = allow_outside,
          .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
          .write_picture =
              [&](const std::string& name, const std::string& content) {
@@ -185,6 +186,7 @@ void add_scene_options(CommandLine& line) {
         "samples", po::value<std::string>()->value_name("N"), "samples per pixel: 1, 4, 8 or 16")(
         "set", po::value<std::vector<std::string>>()->value_name("PATH=VALUE"),
         "override one value, such as light.lamp.intensity=3 or object.0.color=[255,0,0]; may be repeated")(
+        "allow-outside", "let a model name files outside its own folder, such as ../textures/wood.png")(
         "defaults", "if the scene names no shading or reflection model, use Phong without asking");
     add_plugin_options(line);
 }
@@ -235,9 +237,14 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
                     fmt::format("'{}' is a model, which is shown on its own; candela import makes a scene of "
                                 "it that can be combined with others",
                                 file));
-            request.streams.emplace(file, scene_of_model(file, registry));
+            request.streams.emplace(file, scene_of_model(file, line.has("allow-outside"), registry));
         }
     }
+    if (line.has("allow-outside") &&
+        std::ranges::none_of(files, [](const std::string& file) { return importing::is_model(file); }))
+        throw Error(ErrorCategory::bad_request,
+                    "--allow-outside is for a model in place of a scene; in a scene, give the object "
+                    "allow_outside = true");
     for (const char* const flag : {"width", "height", "samples"}) {
         if (!line.has(flag)) continue;
         request.settings.push_back(
@@ -263,7 +270,7 @@ std::vector<std::string> scene_words_from(const CommandLine& line) {
     for (const char* const option : {"set", "plugin-dir"})
         for (const std::string& value : line.all(option))
             words.push_back(fmt::format("--{}={}", option, value));
-    for (const char* const option : {"defaults", "allow-untrusted-plugins"})
+    for (const char* const option : {"defaults", "allow-outside", "allow-untrusted-plugins"})
         if (line.has(option)) words.push_back(fmt::format("--{}", option));
     return words;
 }

@@ -56,7 +56,8 @@ int run_import(const std::vector<std::string>& arguments) {
         "force", "replace an existing scene")(
         "up", po::value<std::string>()->value_name("AXIS"),
         "which axis points up in the file: y or z; default: z in STL files, "
-        "y in others");
+        "y in others")("allow-outside",
+                       "let the model name files outside its own folder, such as ../textures/wood.png");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     if (!line.has("file")) throw Error(ErrorCategory::bad_request, "candela import needs a model's file");
@@ -82,6 +83,7 @@ int run_import(const std::vector<std::string>& arguments) {
     const importing::Imported imported = importing::import_model(
         {.file = file,
          .up = up_from(line),
+         .allow_outside = line.has("allow-outside"),
          .shown_file = name_in(folder, file),
          .write_picture =
              [&](const std::string& name, const std::string& content) {

@@ -25,6 +25,8 @@ double Bounds::radius() const {
     return r > 0 ? r : 1;
 }
 
+double Bounds::tolerance() const { return 1e-5 * radius(); }
+
 Camera camera_for(const Bounds& bounds, double aspect) {
     const Vector back = unit({0.55, 0.42, 1}), right = unit(cross({0, 1, 0}, back));
     const Vector up = cross(back, right);
@@ -82,12 +84,13 @@ double expose(std::vector<Light>& lights, const Bounds& bounds) {
 
 bool separate(std::vector<Light>& lights, const Camera& camera, const Bounds& bounds) {
     const Vector view = length(camera.towards) > 0 ? unit(camera.towards) : Vector{0, 0, -1};
-    std::unordered_map<std::string, int> used{{vector_text(camera.position), 1}};
+    const double tolerance = bounds.tolerance();
+    std::unordered_map<std::string, int> used{{vector_text(camera.position, tolerance), 1}};
     bool has_moved = false;
     for (Light& light : lights) {
         if (!light.has_position()) continue;
         for (;;) {
-            const int count = used[vector_text(light.position)]++;
+            const int count = used[vector_text(light.position, tolerance)]++;
             if (count == 0) break;
             // Not away from the origin: nothing may be too far out.
             const double step = 1e-3 * count * std::max(bounds.radius(), length(light.position));

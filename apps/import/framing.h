@@ -12,6 +12,8 @@ struct Bounds {
 
     Vector center() const;
     double radius() const;  // of the sphere around it; 1 for a single point
+    /// By how much a place may be off without a difference in the picture.
+    double tolerance() const;
 };
 
 /// From the front, the right and above, as near as the box fits the picture.

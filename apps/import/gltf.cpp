@@ -82,8 +82,8 @@ Placement within(const Placement& a, const Placement& b) {
 
 class Reader {
   public:
-    Reader(const fs::path& file, candela::Registry& registry)
-        : registry_(registry), container_(file), json_(container_.json()) {}
+    Reader(const Source& source, candela::Registry& registry)
+        : registry_(registry), container_(source), json_(container_.json()) {}
 
     Model read() {
         walk();
@@ -346,6 +346,6 @@ class Reader {
 
 }  // namespace
 
-Model read_gltf(const fs::path& file, candela::Registry& registry) { return Reader(file, registry).read(); }
+Model read_gltf(const Source& source, candela::Registry& registry) { return Reader(source, registry).read(); }
 
 }  // namespace importing

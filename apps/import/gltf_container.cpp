@@ -100,9 +100,9 @@ std::string stem_of(const std::string& name, std::size_t number) {
 
 }  // namespace
 
-Container::Container(fs::path file) : file_(std::move(file)) {
-    auto text = candela::read_text_file(file_);
-    if (!text) fail(fmt::format("'{}' cannot be read", file_.string()));
+Container::Container(Source source) : source_(std::move(source)) {
+    auto text = candela::read_text_file(source_.file);
+    if (!text) fail(fmt::format("'{}' cannot be read", source_.file.string()));
     bytes_ = std::move(*text);
     std::string_view json = bytes_;
     if (json.starts_with("glTF")) {
@@ -111,13 +111,15 @@ Container::Container(fs::path file) : file_(std::move(file)) {
         while (json.ends_with('\0')) json.remove_suffix(1);
     }
     json_ = Json::parse(json, nullptr, false);
-    if (!json_.is_object()) fail(fmt::format("'{}' is no glTF file: it has no JSON object", file_.string()));
+    if (!json_.is_object())
+        fail(fmt::format("'{}' is no glTF file: it has no JSON object", source_.file.string()));
 }
 
 fs::path Container::part_named(const std::string& uri) const {
-    const fs::path path = candela::canonical_path(fs::absolute(file_).parent_path() / decoded_percents(uri));
-    if (!is_beside(path, file_))
-        fail(fmt::format("'{}' is outside the model's folder", candela::shortened(uri)));
+    const fs::path path =
+        candela::canonical_path(fs::absolute(source_.file).parent_path() / decoded_percents(uri));
+    if (!source_.may_read(path))
+        fail(fmt::format("'{}' is outside the model's folder{}", candela::shortened(uri), k_outside_remedy));
     std::error_code problem;
     if (!fs::is_regular_file(path, problem))
         fail(fmt::format("there is no file '{}'", candela::shortened(uri)));

@@ -8,13 +8,14 @@
 
 #include "import/gltf_json.h"
 #include "import/model.h"
+#include "import/readers.h"
 
 namespace importing::gltf {
 
 class Container {
   public:
     /// Reads the file, text or binary. Throws candela::Error (failure).
-    explicit Container(std::filesystem::path file);
+    explicit Container(Source source);
 
     const Json& json() const { return json_; }
 
@@ -28,7 +29,7 @@ class Container {
     /// A file beside this one.
     std::filesystem::path part_named(const std::string& uri) const;
 
-    std::filesystem::path file_;
+    Source source_;
     std::string bytes_;
     std::string_view binary_;  // of a GLB file
     Json json_;

@@ -5,20 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
-#include <numbers>
 
 #include "import/framing.h"
+#include "import/geometry.h"
 #include "import/readers.h"
 #include "import/scene_text.h"
 #include "import/vectors.h"
 
 import candela.diagnostics;
-import candela.mesh;
-import candela.parameters;
-import candela.shape;
 import candela.text;
-import candela.transform;
 
 namespace fs = std::filesystem;
 
@@ -35,49 +30,10 @@ bool is_model(const fs::path& file) {
 
 namespace {
 
-/// What only the triangles tell.
-struct Geometry {
-    Bounds bounds;
-    bool has_colors = false, has_uv = false, is_closed = false;
-};
-
-Geometry geometry_of(const fs::path& file, bool is_z_up, candela::Registry& registry) {
-    candela::ParamSet parameters = registry.parameters(candela::PluginKind::shape, "mesh");
-    parameters.set("file", fs::absolute(file).string());
-    const auto shape = registry.create<candela::Shape>("mesh", parameters, candela::ColorEncoding::srgb);
-    candela::Transform transform;
-    if (is_z_up) transform.rotation = {-90, 0, 0};
-    candela::PlacedShape placed;
-    try {
-        placed = candela::place(*shape, {.uv = true, .color = true}, transform);
-    } catch (const candela::Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& problem) {
-        throw candela::Error(candela::ErrorCategory::failure, problem.what());
-    }
-    const candela::Mesh& mesh = placed.mesh;
-    Geometry result;
-    result.has_colors = !mesh.color.empty();
-    result.has_uv = !mesh.u.empty();
-    result.is_closed = mesh.open_edges == 0;
-    const candela::ConstVec3Span position = mesh.position.span();
-    const auto grow = [&](std::size_t axis, const float* values) {
-        const auto [low, high] = std::minmax_element(values, values + mesh.vertex_count());
-        result.bounds.low[axis] = static_cast<double>(*low);
-        result.bounds.high[axis] = static_cast<double>(*high);
-    };
-    grow(0, position.x);
-    grow(1, position.y);
-    grow(2, position.z);
-    return result;
-}
-
-Model model_of(const fs::path& file, candela::Registry& registry) {
-    const std::string extension = candela::extension_of(file);
-    if (extension == "obj") return read_obj(file, registry);
-    if (extension == "gltf" || extension == "glb") return read_gltf(file, registry);
+Model model_of(const Source& source, candela::Registry& registry) {
+    const std::string extension = candela::extension_of(source.file);
+    if (extension == "obj") return read_obj(source, registry);
+    if (extension == "gltf" || extension == "glb") return read_gltf(source, registry);
     Model model;
     model.parts.emplace_back();
     return model;
@@ -87,6 +43,38 @@ Model model_of(const fs::path& file, candela::Registry& registry) {
 bool is_near(const Vector& position) {
     constexpr double k_farthest = 1e9;
     return std::ranges::all_of(position, [](double x) { return std::abs(x) <= k_farthest; });
+}
+
+/// By what the model's coordinates are moved, too.
+void move(Model& model, const Geometry& geometry) {
+    if (geometry.origin.empty()) return;
+    if (model.camera) model.camera->position = model.camera->position - geometry.moved;
+    for (Light& light : model.lights) light.position = light.position - geometry.moved;
+    model.note(fmt::format("it lies around [{}] of the file's coordinates, which is the scene's origin",
+                           geometry.origin));
+}
+
+/// How bright the chosen lights are, so that the brightest surface that faces them does not burn out.
+double brightness_for(const Model& model) {
+    double brightest = 0;
+    bool is_physical = false;
+    for (const Material& material : model.materials) {
+        is_physical = is_physical || material.reflection == "ggx";
+        // Bright spots of a picture are somewhat brighter than its mean.
+        constexpr double k_spots = 1.3;
+        const double picture =
+            material.picture ? std::min(1.0, k_spots * model.pictures[*material.picture].brightness) : 1;
+        double sum = 0;
+        // Of the key light and most of the fill light, and of the ambient light.
+        constexpr double k_direct = 1.9, k_ambient = 0.6;
+        for (const auto& [name, value] : material.values) {
+            const double factor = name == "kd" ? k_direct : name == "ka" ? k_ambient : 0;
+            sum += factor * *std::ranges::max_element(value);
+        }
+        brightest = std::max(brightest, picture * sum);
+    }
+    if (is_physical) return 0.55;
+    return brightest > 1 ? 1 / brightest : 1;
 }
 
 void leave_out_what_is_too_far(Model& model) {
@@ -116,9 +104,11 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     // What machines print has z upwards.
     const bool is_stl = candela::extension_of(request.file) == "stl";
     const bool is_z_up = request.up == UpAxis::z || (request.up == UpAxis::by_format && is_stl);
-    const Geometry geometry = geometry_of(request.file, is_z_up, registry);
-    Model model = model_of(request.file, registry);
+    const Source source{.file = request.file, .allows_outside = request.allow_outside};
+    const Geometry geometry = geometry_of(source, is_z_up, registry);
+    Model model = model_of(source, registry);
     model.is_z_up = is_z_up;
+    move(model, geometry);
     leave_out_what_is_too_far(model);
 
     Setting setting;
@@ -126,6 +116,9 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     setting.has_vertex_colors = geometry.has_colors;
     setting.is_textured = geometry.has_uv;
     setting.is_closed = geometry.is_closed;
+    setting.origin = geometry.origin;
+    setting.allows_outside = request.allow_outside;
+    setting.tolerance = geometry.bounds.tolerance();
     if (!model.pictures.empty() && !geometry.has_uv) {
         model.note("its textures are left out: it has no texture coordinates");
         model.pictures.clear();
@@ -145,9 +138,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     if (!model.camera) setting.look_at = bounds.center();
     setting.lights = model.lights;
     if (setting.lights.empty()) {
-        const bool is_physical = std::ranges::any_of(
-            model.materials, [](const Material& material) { return material.reflection == "ggx"; });
-        setting.lights = lights_for(setting.camera, is_physical ? 0.55 : 1);
+        setting.lights = lights_for(setting.camera, brightness_for(model));
     } else {
         const double factor = expose(setting.lights, bounds);
         if (factor != 1)

@@ -17,6 +17,7 @@ using Vector = std::array<double, 3>;
 struct Picture {
     std::filesystem::path file;  // absolute; or the name that it should have
     std::string content{};       // empty: it is there
+    double brightness = 1;       // the mean of its pixels' largest channels, linear
 };
 
 struct Material {

@@ -9,18 +9,29 @@ import candela.registry;
 
 namespace importing {
 
+/// A model's file, and which files it may name as parts of itself.
+struct Source {
+    std::filesystem::path file;
+    bool allows_outside = false;  // of its folder
+
+    bool may_read(const std::filesystem::path& part) const;
+};
+
+/// What to add to a message about a file that a model may not read.
+inline constexpr const char* k_outside_remedy = "; --allow-outside reads it";
+
 /// Wavefront OBJ with its material libraries. Never throws for what is wrong with a library or a picture:
 /// that is noted.
-Model read_obj(const std::filesystem::path& file, candela::Registry& registry);
+Model read_obj(const Source& source, candela::Registry& registry);
 
 /// glTF 2.0 or GLB whose triangles have been read. Throws candela::Error (failure) for what is no such file.
-Model read_gltf(const std::filesystem::path& file, candela::Registry& registry);
+Model read_gltf(const Source& source, candela::Registry& registry);
 
 /// Whether `part`, which `model` names as a part of itself, lies in its folder or below, once links are
 /// resolved: models are often somebody else's.
 bool is_beside(const std::filesystem::path& part, const std::filesystem::path& model);
 
-/// Whether an image plugin reads pictures of that name.
+/// Whether an image plugin reads the picture, or pictures of that name if it is not there.
 bool is_readable_picture(const std::filesystem::path& file, candela::Registry& registry);
 
 }  // namespace importing

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "import/vectors.h"
@@ -17,9 +19,12 @@ namespace {
 
 constexpr int k_height = 600;
 
-/// Six digits are enough for places; a scene's numbers are single precision.
-std::string real(double x) {
-    const std::string text = fmt::format("{:.6g}", x == 0 ? 0.0 : x);
+/// In six digits, and where these are off by more than `tolerance`, in as many as single precision has.
+std::string real(double x, double tolerance = std::numeric_limits<double>::infinity()) {
+    std::string text = fmt::format("{:.6g}", x == 0 ? 0.0 : x);
+    double six = 0;
+    std::from_chars(text.data(), text.data() + text.size(), six);
+    if (std::abs(six - x) > tolerance) text = fmt::format("{}", static_cast<float>(x));
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 std::string color(const Vector& v) { return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v[0], v[1], v[2]); }
@@ -64,8 +69,8 @@ class Writer {
         end();
         const Camera& camera = setting_.camera;
         begin("[observer]");
-        add("position", vector_text(camera.position));
-        add("look_at", vector_text(setting_.look_at));
+        add("position", vector_text(camera.position, setting_.tolerance));
+        add("look_at", vector_text(setting_.look_at, setting_.tolerance));
         if (const Vector up = direction(camera.up); up != Vector{0, 1, 0}) add("up", vector_text(up));
         if (camera.is_orthographic) add("projection", "\"orthographic\"");
         add(camera.is_orthographic ? "height" : "fov", real(camera.extent));
@@ -111,7 +116,7 @@ class Writer {
         add("type", candela::toml_text(light.type));
         add("color", color(light.color));
         add("intensity", real(light.intensity));
-        if (light.has_position()) add("position", vector_text(light.position));
+        if (light.has_position()) add("position", vector_text(light.position, setting_.tolerance));
         if (light.type == "directional" || light.type == "spot")
             add("direction", vector_text(direction(light.direction)));
         if (light.type == "spot") {
@@ -132,6 +137,8 @@ class Writer {
         add("file", candela::toml_text(setting_.file));
         if (!part.selector.empty()) add("part", candela::toml_text(part.selector));
         add("appearance_imported", "true");
+        if (!setting_.origin.empty()) add("origin", candela::toml_text(setting_.origin));
+        if (setting_.allows_outside) add("allow_outside", "true");
         if (model_.is_z_up) add("rotation", "[-90.0, 0.0, 0.0]");
         // Seen from both sides, and on purpose.
         if (model_.parts.size() > 1 || !setting_.is_closed) add("encloses", "true");
@@ -172,8 +179,8 @@ class Writer {
 
 }  // namespace
 
-std::string vector_text(const Vector& v) {
-    return fmt::format("[{}, {}, {}]", real(v[0]), real(v[1]), real(v[2]));
+std::string vector_text(const Vector& v, double tolerance) {
+    return fmt::format("[{}, {}, {}]", real(v[0], tolerance), real(v[1], tolerance), real(v[2], tolerance));
 }
 
 std::string scene_text(const Model& model, const Setting& setting) { return Writer(model, setting).write(); }

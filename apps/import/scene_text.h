@@ -1,6 +1,7 @@
 // A model as the text of a scene.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,14 @@ struct Setting {
     bool has_vertex_colors = false;
     bool is_textured = false;  // it has texture coordinates
     bool is_closed = false;
+    std::string origin{};  // of the mesh, in the file's coordinates; empty: its own
+    bool allows_outside = false;
+    double tolerance = 0;  // of places
 };
 
-/// A place or a direction as the scene has it, in six digits.
-std::string vector_text(const Vector& v);
+/// A vector as the scene has it: in six digits, and where these are off by more than `tolerance`, in as many
+/// as single precision has.
+std::string vector_text(const Vector& v, double tolerance = std::numeric_limits<double>::infinity());
 
 std::string scene_text(const Model& model, const Setting& setting);
 

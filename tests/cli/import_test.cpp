@@ -222,8 +222,9 @@ TEST_CASE("import says which libraries, materials and textures are not there, an
     result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
     CHECK(result.exit_code == 0);
     CHECK(holds(result.err, "there is no texture 'no such.png', which material 'left' names"));
-    CHECK(holds(result.err,
-                "the texture 'a.xyz' of material 'right side' is of a format that no image plugin reads"));
+    CHECK(
+        holds(result.err,
+              "the texture 'a.xyz' of material 'right side' is left out: no image plugin reads its format"));
     CHECK(holds(result.err, "the offset and scale of textures are left out"));
 }
 

@@ -75,7 +75,13 @@ class Materials:
             return Material(color, diffuse, diffuse)
         if part.material in self.library:
             found = self.library[part.material]
-            return Material((1, 1, 1), found["Ka"], found["Kd"], found["Ks"][0], found["Ns"][0])
+            # docs/importing.md: no highlight without an exponent, no more is sent out than is received, and white ambient
+            # light is the surface's colour.
+            ka, kd, ks = (np.array(found[key]) for key in ("Ka", "Kd", "Ks"))
+            ks = ks * (found["Ns"][0] > 0)
+            most = max(1, *(kd + ks))
+            kd, ks = kd / most, ks / most
+            return Material((1, 1, 1), kd if all(ka == 1) else ka, kd, ks[0], found["Ns"][0])
         said = self.objects[part.material if part.material in self.objects else ""]
         values = said["material"]
         return Material(linear(np.array(said["color"]) / 255), values["ka"], values["kd"], values["ks"], values["shininess"])

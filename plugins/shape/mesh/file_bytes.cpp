@@ -89,8 +89,7 @@ std::filesystem::path part_named(const std::filesystem::path& file, const std::f
     if (end != root.end())
         throw BadFile(
             fmt::format("names '{}', which is not in its own folder or below; if that is as it should be, "
-                        "give the object "
-                        "allow_outside = true",
+                        "give the object allow_outside = true, or the command --allow-outside",
                         file.string()));
     return real;
 }

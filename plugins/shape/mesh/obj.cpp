@@ -280,8 +280,8 @@ class Reader {
             others.emplace_back(what);
         }
         if (others.empty() && !position_.empty())
-            others.push_back(
-                fmt::format("{} {}", position_.size(), position_.size() == 1 ? "vertex" : "vertices"));
+            throw BadFile(fmt::format("has {} {} and no faces; Candela draws surfaces", position_.size(),
+                                      position_.size() == 1 ? "vertex" : "vertices"));
         if (!others.empty())
             throw BadFile(fmt::format("has {} and no triangles; Candela draws surfaces", listed(others)));
     }

@@ -127,7 +127,7 @@ TEST_CASE("shape/mesh: a file without faces is refused with what it has instead"
                ContainsSubstring("has 1 line and no triangles; Candela draws surfaces"));
     CHECK_THAT(refusal_of("v 0 0 0\nv 1 0 0\nl 1 2\nl 2 1\np 1 2\n"),
                ContainsSubstring("has 2 lines and 1 set of points and no triangles"));
-    CHECK_THAT(refusal_of("v 0 0 0\nv 1 0 0\n"), ContainsSubstring("has 2 vertices and no triangles"));
+    CHECK_THAT(refusal_of("v 0 0 0\nv 1 0 0\n"), ContainsSubstring("has 2 vertices and no faces"));
     CHECK_THAT(
         refusal_of(std::string(k_square) +
                    "cstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 4 3\nparm u 0 0 1 1\nparm v 0 0 1 1\nend\n"),

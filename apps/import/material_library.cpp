@@ -1,0 +1,261 @@
+#include "import/material_library.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "import/named_file.h"
+#include "import/obj_statements.h"
+#include "import/pictures.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.text;
+
+namespace fs = std::filesystem;
+
+namespace importing::obj {
+
+namespace {
+
+constexpr std::size_t k_most_library_bytes = std::size_t{16} << 20;
+
+bool is_utf16(std::string_view text) { return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"); }
+
+bool are_all(const std::vector<double>& values, double value) {
+    return !values.empty() && std::ranges::all_of(values, [&](double x) { return x == value; });
+}
+
+/// What a surface sends out must not be more than what it receives: both coefficients by the same factor,
+/// which keeps the material's look. Rounded down, so that the sum in a scene's text is not above 1. Whether
+/// it was more.
+bool limit(std::vector<double>& kd, std::vector<double>& ks) {
+    double most = 0;
+    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, kd[c] + ks[c]);
+    if (most <= 1) return false;
+    constexpr double k_digits = 1e4;
+    for (std::vector<double>* const values : {&kd, &ks})
+        for (double& x : *values) x = std::floor(k_digits * x / most) / k_digits;
+    return true;
+}
+
+}  // namespace
+
+void MaterialLibraries::read_named(std::string_view names) {
+    names = trimmed(names);
+    if (names.empty() || read_if_there(names)) return;
+    // Several, if each of them has an extension.
+    std::vector<std::string_view> words;
+    for (std::string_view rest = names, word = word_from(rest); !word.empty(); word = word_from(rest))
+        words.push_back(word);
+    const bool are_several =
+        std::ranges::all_of(words, [](std::string_view word) { return word.find('.') != word.npos; });
+    if (!are_several) words = {names};
+    for (const std::string_view word : words)
+        if ((words.size() == 1 && word == names) || !read_if_there(word))
+            model_.note(fmt::format("the material library '{}' cannot be read", word));
+}
+
+bool MaterialLibraries::read_if_there(std::string_view name) {
+    const auto found = find_named(source_.file.parent_path(), name);
+    if (!found) return false;
+    if (found->is_renamed)
+        model_.note(fmt::format("the material library '{}' is read from '{}'", name,
+                                found->path.filename().string()));
+    read(found->path);
+    return true;
+}
+
+void MaterialLibraries::read(const fs::path& file) {
+    if (!source_.may_read(file)) {
+        return model_.note(fmt::format("the material library '{}' is outside the model's folder{}",
+                                       file.string(), k_outside_remedy));
+    }
+    if (!known_files_.insert(file).second) return;
+    const auto text = candela::read_text_file(file, k_most_library_bytes);
+    if (!text) return model_.note(fmt::format("the material library '{}' cannot be read", file.string()));
+    if (text->size() > k_most_library_bytes)
+        return model_.note(fmt::format("the material library '{}' is too large", file.string()));
+    if (is_utf16(*text))
+        return model_.note(fmt::format(
+            "the material library '{}' is text in UTF-16 and left out; save it as UTF-8", file.string()));
+    folder_ = file.parent_path();
+    Description* current = nullptr;
+    each_statement(*text, [&](const Statement& s) {
+        if (s.keyword == "newmtl") {
+            current = &descriptions_[name_from(s.rest)];
+            *current = {};
+        } else if (current != nullptr) {
+            statement(lower(s.keyword), s.rest, *current);
+        }
+    });
+}
+
+const MaterialLibraries::Description* MaterialLibraries::find(const std::string& name) const {
+    const auto same = descriptions_.find(name);
+    if (same != descriptions_.end()) return &same->second;
+    // One of them may have a comment behind it.
+    const std::string_view bare = without_comment(name);
+    for (const auto& [other, description] : descriptions_)
+        if (other == bare || without_comment(other) == bare) return &description;
+    return nullptr;
+}
+
+std::vector<double> MaterialLibraries::coefficients(const std::vector<double>& value, double otherwise) {
+    std::vector<double> rgb = value.empty() ? std::vector(3, otherwise) : value;
+    for (double& x : rgb) {
+        if (x < 0 || x > 1) model_.note("coefficients of materials beyond 0 to 1 are clamped");
+        x = std::clamp(x, 0.0, 1.0);
+    }
+    return rgb;
+}
+
+Material MaterialLibraries::material(const std::string& name) {
+    const Description& d = *find(name);
+    Material material{.name = name};
+    if (d.illumination == 0)
+        model_.note("materials of illumination model 0, a constant colour, are lit like others");
+    if (d.illumination > 2)
+        model_.note("reflections, refraction and other effects of illumination models 3 to 10 are left out");
+    std::vector<double> kd = coefficients(d.kd, 0.8),
+                        ks = coefficients(d.illumination < 2 ? std::vector<double>{} : d.ks, 0.0);
+    constexpr double k_sharpest = 1e6;  // a highlight of a tenth of a degree; files have up to 1000
+    if (d.shininess > k_sharpest) model_.note("exponents of highlights beyond a million are a million");
+    const double shininess = std::clamp(d.shininess, 0.0, k_sharpest);
+    if (shininess == 0 && !are_all(ks, 0)) {
+        model_.note("highlights without an exponent (Ns), as bright everywhere, are left out");
+        ks = {0, 0, 0};
+    }
+    // Some programs write black next to a texture, and mean the texture.
+    if (!d.texture.empty() && are_all(kd, 0)) kd = {1, 1, 1};
+    if (limit(kd, ks))
+        model_.note("materials that send out more light than they receive (Kd + Ks above 1) are scaled to 1");
+    std::vector<double> ka = coefficients(d.ka, 1);
+    // White is what programs write that have no ambient colour: the surface's own is meant. So it is, weaker,
+    // where there is none; grey would bleach it.
+    if (d.ka.empty() || d.illumination == 0) {
+        for (std::size_t c = 0; c < 3; ++c) ka[c] = 0.2 * kd[c];
+    } else if (are_all(ka, 1)) {
+        ka = kd;
+    }
+    for (const auto& [parameter, rgb] : {std::pair{"ka", &ka}, {"kd", &kd}, {"ks", &ks}})
+        material.values.emplace_back(parameter, are_all(*rgb, (*rgb)[0]) ? std::vector{(*rgb)[0]} : *rgb);
+    material.values.push_back({"shininess", {shininess}});
+    if (!d.texture.empty()) {
+        material.picture = picture(name, d);
+        material.clamps = d.clamps;
+    }
+    return material;
+}
+
+void MaterialLibraries::statement(const std::string& keyword, std::string_view rest, Description& to) {
+    if (keyword == "ka") return color(rest, to.ka);
+    if (keyword == "kd") return color(rest, to.kd);
+    if (keyword == "ks") return color(rest, to.ks);
+    if (keyword == "map_kd") return texture(rest, to);
+    const std::vector<double> numbers = numbers_from(rest);
+    const double first = numbers.empty() ? 0 : numbers[0];
+    if (keyword == "ns") {
+        to.shininess = first;
+    } else if (keyword == "illum") {
+        to.illumination = static_cast<int>(std::clamp(first, 0.0, 10.0));
+    } else if (keyword == "d" || keyword == "tr") {
+        if (numbers.empty() || first != (keyword == "d" ? 1 : 0))
+            model_.note("the opacity of materials is left out: they are opaque");
+    } else if (keyword == "ke") {
+        if (std::ranges::any_of(numbers, [](double x) { return x > 0; }))
+            model_.note("the light that materials emit is left out");
+    } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" || keyword == "disp" ||
+               keyword == "decal" || keyword == "refl") {
+        model_.note(fmt::format("textures other than those of colours are left out, such as '{}'", keyword));
+    } else if (keyword == "pr" || keyword == "pm" || keyword == "ps" || keyword == "pc" || keyword == "pcr" ||
+               keyword == "aniso" || keyword == "anisor") {
+        model_.note("the roughness and metalness of materials are left out; they are Phong's");
+    } else if (keyword == "tf") {
+        // White lets all through, and says nothing of how much there is.
+        if (!are_all(numbers, 1)) model_.note("the transmission of materials is left out");
+    }
+    // Ni, the index of refraction, matters only together with opacity; sharpness only to reflections.
+}
+
+void MaterialLibraries::color(std::string_view rest, std::vector<double>& to) {
+    std::string_view after = rest;
+    const std::string_view first = word_from(after);
+    if (first == "spectral" || first == "xyz")
+        return model_.note("colours of materials as spectra or XYZ are left out");
+    std::vector<double> numbers = numbers_from(rest);
+    if (numbers.size() == 1) numbers = {numbers[0], numbers[0], numbers[0]};
+    if (numbers.size() < 3) return model_.note("colours of materials that are no numbers are left out");
+    numbers.resize(3);
+    to = numbers;
+}
+
+/// Options come before the name, which may have blanks in it.
+void MaterialLibraries::texture(std::string_view rest, Description& to) {
+    while (rest.starts_with('-')) {
+        std::string_view after = rest;
+        const std::string option = lower(word_from(after));
+        const bool takes_numbers = option == "-o" || option == "-s" || option == "-t" || option == "-mm";
+        const bool takes_word = option == "-clamp" || option == "-blendu" || option == "-blendv" ||
+                                option == "-cc" || option == "-texres" || option == "-boost" ||
+                                option == "-bm" || option == "-imfchan" || option == "-type";
+        if (!takes_numbers && !takes_word) break;
+        if (takes_word) {
+            const std::string value = lower(word_from(after));
+            if (option == "-clamp") to.clamps = value == "on";
+        } else {
+            for (int i = 0; i < 3; ++i) {
+                std::string_view next = after;
+                const std::string_view word = word_from(next);
+                if (next.empty() || numbers_from(word).empty()) break;
+                after = next;
+            }
+            model_.note("the offset and scale of textures are left out");
+        }
+        rest = after;
+    }
+    to.texture = trimmed(rest);
+    to.texture_folder = folder_;
+}
+
+std::optional<std::size_t> MaterialLibraries::picture(const std::string& material, const Description& of) {
+    const auto say = [&](std::string_view what) {
+        model_.note(fmt::format("the texture '{}' of material '{}' {}", of.texture, material, what));
+    };
+    const auto found = find_named(of.texture_folder, of.texture);
+    if (!found) {
+        model_.note(fmt::format("there is no texture '{}', which material '{}' names", of.texture, material));
+        return std::nullopt;
+    }
+    if (!source_.may_read(found->path)) {
+        say(fmt::format("is outside the model's folder{}", k_outside_remedy));
+        return std::nullopt;
+    }
+    const fs::path file = candela::canonical_path(found->path);
+    const auto [known, is_new] = pictures_.try_emplace(file);
+    if (!is_new) return known->second;
+    if (found->is_renamed) say(fmt::format("is read from '{}'", found->path.filename().string()));
+    Picture picture{file};
+    try {
+        // A scene is UTF-8, and could not name it.
+        if (candela::first_invalid_byte(file.string())) {
+            picture.content = candela::read_text_file(file).value_or("");
+            picture.file = fmt::format("texture_{}{}", model_.pictures.size(), file.extension().string());
+            if (candela::first_invalid_byte(picture.file.string())) picture.file.replace_extension();
+        }
+        const InspectedPicture inspected = inspect(picture, registry_);
+        picture.brightness = inspected.brightness;
+        if (!inspected.other_format.empty())
+            say(fmt::format("is read as {}, which its content says it is", inspected.other_format));
+    } catch (const candela::Error& problem) {
+        say(fmt::format("is left out: {}", problem.what()));
+        return std::nullopt;
+    }
+    model_.pictures.push_back(std::move(picture));
+    return known->second = model_.pictures.size() - 1;
+}
+
+}  // namespace importing::obj

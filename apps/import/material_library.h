@@ -1,0 +1,63 @@
+// MTL files: what they say of materials, in the words of a scene.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "import/model.h"
+#include "import/readers.h"
+
+import candela.registry;
+
+namespace importing::obj {
+
+/// The libraries that an OBJ file names.
+class MaterialLibraries {
+  public:
+    /// What is lost is noted in `model`, to which the pictures of materials are added.
+    MaterialLibraries(Model& model, const Source& source, candela::Registry& registry)
+        : model_(model), source_(source), registry_(registry) {}
+
+    /// Reads those of a statement mtllib: one, whose name may have blanks in it, or several.
+    void read_named(std::string_view names);
+
+    bool are_there() const { return !known_files_.empty(); }
+    bool has(const std::string& name) const { return find(name) != nullptr; }
+    Material material(const std::string& name);
+
+  private:
+    /// What a library says of a material, before it is a scene's.
+    struct Description {
+        std::vector<double> ka, kd, ks;
+        double shininess = 0;
+        int illumination = 2;
+        std::string texture;
+        std::filesystem::path texture_folder{};  // which it is relative to
+        bool clamps = false;
+    };
+
+    bool read_if_there(std::string_view name);
+    void read(const std::filesystem::path& file);
+    /// Null if there is none.
+    const Description* find(const std::string& name) const;
+    void statement(const std::string& keyword, std::string_view rest, Description& to);
+    void color(std::string_view rest, std::vector<double>& to);
+    void texture(std::string_view rest, Description& to);
+    std::vector<double> coefficients(const std::vector<double>& value, double otherwise);
+    std::optional<std::size_t> picture(const std::string& material, const Description& of);
+
+    Model& model_;
+    const Source& source_;
+    candela::Registry& registry_;
+    std::filesystem::path folder_;  // of the library that is being read
+    std::set<std::filesystem::path> known_files_;
+    std::map<std::string, Description, std::less<>> descriptions_;
+    std::map<std::filesystem::path, std::optional<std::size_t>> pictures_;  // of the model, by file
+};
+
+}  // namespace importing::obj

@@ -1,0 +1,388 @@
+// OBJ and MTL files with the habits of the programs that wrote them, and the pictures that they name.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+CommandResult candela(const fs::path& folder, const std::vector<std::string>& words) {
+    return run_candela(words, {.input = "", .environment = {}, .directory = folder});
+}
+
+/// A square that faces +z, with texture coordinates.
+std::string square(const std::string& library, const std::string& material) {
+    return "mtllib " + library +
+           "\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl " + material +
+           "\nf 1/1 2/2 3/3 4/4\n";
+}
+
+/// A ball of radius `r` at a place.
+std::string ball(double r, std::array<double, 3> at, const std::string& begin = "") {
+    constexpr int k_rings = 24, k_columns = 48;
+    std::string text = begin;
+    for (int i = 0; i <= k_rings; ++i)
+        for (int k = 0; k <= k_columns; ++k) {
+            const double t = std::numbers::pi * i / k_rings,
+                         f = 2 * std::numbers::pi * (k % k_columns) / k_columns;
+            text += fmt::format("v {:.7f} {:.7f} {:.7f}\n", at[0] + r * std::sin(t) * std::cos(f),
+                                at[1] + r * std::cos(t), at[2] - r * std::sin(t) * std::sin(f));
+        }
+    for (int i = 0; i < k_rings; ++i)
+        for (int k = 1; k <= k_columns; ++k) {
+            const int a = i * (k_columns + 1) + k, b = a + k_columns + 1;
+            text += fmt::format("f {} {} {}\nf {} {} {}\n", a, b, b + 1, a, b + 1, a + 1);
+        }
+    return text;
+}
+
+struct Pixels {
+    int width = 0, height = 0;
+    std::string bytes;
+
+    std::array<int, 3> at(int x, int y) const {
+        const std::size_t i =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        return {static_cast<unsigned char>(bytes[i]), static_cast<unsigned char>(bytes[i + 1]),
+                static_cast<unsigned char>(bytes[i + 2])};
+    }
+    std::array<int, 3> middle() const { return at(width / 2, height / 2); }
+    double burnt() const {
+        int count = 0, covered = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                covered += at(x, y) != at(0, 0);
+                count += at(x, y) == std::array{255, 255, 255};
+            }
+        return static_cast<double>(count) / covered;
+    }
+};
+
+Pixels read_ppm(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    Pixels pixels;
+    std::string magic;
+    int most = 0;
+    in >> magic >> pixels.width >> pixels.height >> most;
+    in.get();
+    pixels.bytes.resize(3 * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+    in.read(pixels.bytes.data(), static_cast<std::streamsize>(pixels.bytes.size()));
+    return pixels;
+}
+
+struct Rendered {
+    CommandResult result;
+    Pixels picture;
+};
+
+Rendered rendered(const fs::path& folder, const std::string& model,
+                  const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"render", model, "-o", model + ".ppm"};
+    words.insert(words.end(), more.begin(), more.end());
+    Rendered result{candela(folder, words), {}};
+    INFO(result.result.err);
+    REQUIRE(result.result.exit_code == 0);
+    result.picture = read_ppm(folder / (model + ".ppm"));
+    return result;
+}
+
+bool is_red(std::array<int, 3> pixel) { return pixel[0] > 100 && pixel[1] < 60 && pixel[2] < 60; }
+
+constexpr const char* k_red = "newmtl m\nKd 1 0 0\n";
+
+std::string red_ppm() { return std::string("P6\n1 1\n255\n\xff\0\0", 14); }
+
+}  // namespace
+
+TEST_CASE("a library is found by the name that another system gives it") {
+    const fs::path folder = scratch_directory();
+    fs::create_directory(folder / "Materials");
+    write_file(folder / "my paints.mtl", k_red);
+    write_file(folder / "Materials" / "a.mtl", k_red);
+    struct Case {
+        const char* name;
+        bool is_noted;
+    };
+    for (const Case& named :
+         {Case{".\\my paints.mtl", false}, Case{"C:\\models\\my paints.mtl", false},
+          Case{"MY Paints.MTL", true}, Case{"\"my paints.mtl\"", false}, Case{"my paints.mtl\\", false},
+          Case{"Materials\\a.mtl", false}, Case{".\\materials\\A.mtl", true},
+          Case{"no.mtl Materials/a.mtl", false}, Case{"my paints.mtl \t", false}}) {
+        INFO(named.name);
+        write_file(folder / "a.obj", square(named.name, "m"));
+        const Rendered model = rendered(folder, "a.obj");
+        CHECK(is_red(model.picture.middle()));
+        CHECK(holds(model.result.err, "is read from") == named.is_noted);
+    }
+    write_file(folder / "a.obj", square("no such.mtl", "m"));
+    CHECK(holds(rendered(folder, "a.obj").result.err, "the material library 'no such.mtl' cannot be read"));
+}
+
+TEST_CASE("a texture is found with other capitals, with a note") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "Red.ppm", red_ppm());
+    write_file(folder / "a.mtl", "newmtl m\nmap_Kd textures\\RED.PPM\n");
+    write_file(folder / "a.obj", square("a.mtl", "m"));
+    const Rendered model = rendered(folder, "a.obj");
+    CHECK(is_red(model.picture.middle()));
+    CHECK(holds(model.result.err, "the texture 'textures\\RED.PPM' of material 'm' is read from 'Red.ppm'"));
+}
+
+TEST_CASE("names in encodings of 8 bits are found as bytes, and as what they mean") {
+    const fs::path folder = scratch_directory();
+    // Latin-1 in the files, UTF-8 on the disk.
+    write_file(folder /
+                   "gr\xc3\xbc\xc3\x9f"
+                   "e.mtl",
+               "newmtl t\xfcr\nmap_Kd h\xf6lzern.ppm\n");
+    write_file(folder / "h\xc3\xb6lzern.ppm", red_ppm());
+    write_file(folder / "a.obj", square("gr\xfc\xdf"
+                                        "e.mtl",
+                                        "t\xfcr"));
+    CHECK(is_red(rendered(folder, "a.obj").picture.middle()));
+    // Shift-JIS, whose second bytes may be a backslash.
+    write_file(folder / "\xe8\xa1\xa8.ppm", red_ppm());
+    write_file(folder / "b.mtl", "newmtl m\nmap_Kd \x95\\.ppm\n");
+    write_file(folder / "b.obj", square("b.mtl", "m"));
+    CHECK(is_red(rendered(folder, "b.obj").picture.middle()));
+    // The same bytes on the disk, which no scene can name: the picture is written beside it.
+    fs::remove(folder / "h\xc3\xb6lzern.ppm");
+    write_file(folder / "h\xf6lzern.ppm", red_ppm());
+    CHECK(is_red(rendered(folder, "a.obj").picture.middle()));
+    REQUIRE(candela(folder, {"import", "a.obj", "-o", "c.toml"}).exit_code == 0);
+    CHECK(is_red(rendered(folder, "c.toml").picture.middle()));
+}
+
+TEST_CASE("materials whose names have '#', tabs, blanks or a backslash at their end are told apart") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.mtl",
+               "newmtl Paint #1 \nKd 1 0 0\nnewmtl Paint\t#2\nKd 0 1 0\nnewmtl wood\\\nKd 0 0 1\n"
+               "newmtl door # of oak\nKd 0 0 0.5\n");
+    write_file(
+        folder / "a.obj",
+        "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Paint #1\nf 1 2 3\nusemtl Paint #2\t\nf 1 2 3\n"
+        "usemtl wood\\\nf 1 2 3\nusemtl door\nf 1 2 3\n");
+    const CommandResult result = candela(folder, {"import", "a.obj", "-o", "a.toml"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK_FALSE(holds(result.err, "warning"));
+    const std::string scene = read_file(folder / "a.toml");
+    for (const char* const part :
+         {"part                = \"Paint #1\"\n", "part                = \"Paint #2\"\n",
+          "part                = \"wood\\\\\"\n", "part                = \"door\"\n",
+          "kd        = [1.0, 0.0, 0.0]\n", "kd        = [0.0, 1.0, 0.0]\n", "kd        = [0.0, 0.0, 1.0]\n",
+          "kd        = [0.0, 0.0, 0.5]\n"})
+        CHECK(holds(scene, part));
+    CHECK(candela(folder, {"check", "a.toml"}).exit_code == 0);
+}
+
+TEST_CASE("byte order marks of a model and its library are skipped") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.mtl", std::string("\xef\xbb\xbf") + k_red);
+    write_file(folder / "a.obj", "\xef\xbb\xbf" + square("a.mtl", "m"));
+    CHECK(is_red(rendered(folder, "a.obj").picture.middle()));
+    write_file(folder / "a.mtl", std::string("\xff\xfen\0e\0w\0", 8));
+    CHECK(holds(rendered(folder, "a.obj").result.err, "is text in UTF-16"));
+}
+
+TEST_CASE("a library that no face uses is noted") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.mtl", k_red);
+    write_file(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK(holds(rendered(folder, "a.obj").result.err, "no face uses a material (usemtl)"));
+}
+
+TEST_CASE("an ambient colour of white, or none, is the surface's own: unlit sides keep its hue") {
+    const fs::path folder = scratch_directory();
+    for (const char* const ambient : {"Ka 1 1 1\n", "Ka 1.000000 1.000000 1.000000\nillum 1\n", ""}) {
+        INFO(ambient);
+        write_file(folder / "a.mtl", fmt::format("newmtl m\nKd 0.8 0 0\n{}", ambient));
+        write_file(folder / "a.obj", ball(1, {}, "mtllib a.mtl\nusemtl m\n"));
+        const Rendered model = rendered(folder, "a.obj");
+        int bleached = 0;
+        for (int y = 0; y < model.picture.height; ++y)
+            for (int x = 0; x < model.picture.width; ++x) {
+                const auto pixel = model.picture.at(x, y);
+                bleached += pixel[1] > 70;  // the background has 43
+            }
+        CHECK(bleached == 0);
+    }
+    write_file(folder / "a.mtl", "newmtl m\nKd 0.8 0.4 0\nKa 0.1 0.2 0.3\n");
+    CHECK(holds(candela(folder, {"import", "a.obj", "-o", "-"}).out, "ka        = [0.1, 0.2, 0.3]\n"));
+}
+
+TEST_CASE("a texture's factor of zero is one") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "red.ppm", red_ppm());
+    write_file(folder / "a.mtl",
+               "newmtl m\nillum 4\nKd 0.00 0.00 0.00\nKa 0 0 0\nTf 1 1 1\nmap_Kd red.ppm\n");
+    write_file(folder / "a.obj", square("a.mtl", "m"));
+    const Rendered model = rendered(folder, "a.obj");
+    CHECK(is_red(model.picture.middle()));
+    CHECK_FALSE(holds(model.result.err, "transmission"));
+}
+
+TEST_CASE(
+    "imported materials send out no more than they receive, which is said once, and are not burnt out") {
+    const fs::path folder = scratch_directory();
+    for (const char* const material :
+         {"Ka 1 1 1\nKd .8 .8 .8\nKs .5 .5 .5\nNs 225\nillum 2\n",
+          "Ka 0 0 0\nKd .8 .8 .8\nKs .8 .8 .8\nNs 0\n", "Ka 1 1 1\nKd 1 1 1\nKs 1 1 1\nNs 10\n", "Kd 1 1 1\n",
+          "Ka 1 1 1\nKd 0.9 0.2 0.1\nKs 0.3 0.9 0.1\nNs 5\n"}) {
+        INFO(material);
+        write_file(folder / "a.mtl", fmt::format("newmtl m\n{0}newmtl n\n{0}", material));
+        write_file(folder / "a.obj", ball(1, {}, "mtllib a.mtl\nusemtl m\n") + "usemtl n\nf 1 2 3\n");
+        const Rendered model = rendered(folder, "a.obj");
+        CHECK(model.picture.burnt() < 0.05);
+        CHECK_FALSE(holds(model.result.err, "more light than it receives"));
+        const std::string note = "materials that send out more light than they receive";
+        CHECK(model.result.err.find(note) == model.result.err.rfind(note));
+    }
+    write_file(folder / "a.mtl", "newmtl m\nKd .8 .8 .8\nKs .5 .5 .5\nNs 225\n");
+    CHECK(
+        holds(rendered(folder, "a.obj").result.err, "materials that send out more light than they receive"));
+    write_file(folder / "a.mtl", "newmtl m\nKd .5 .5 .5\nKs .5 .5 .5\n");
+    const CommandResult without = candela(folder, {"import", "a.obj", "-o", "-"});
+    CHECK(holds(without.err, "highlights without an exponent (Ns)"));
+    CHECK(holds(without.out, "ks        = 0.0\n"));
+}
+
+TEST_CASE("a picture is known by its content: one of another name is read, with a note") {
+    const fs::path folder = scratch_directory();
+    write_file(
+        folder / "flat.toml",
+        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 8\nheight = 8\n"
+        "background = [230, 10, 20]\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n");
+    for (const char* const name : {"red.jpg", "red.png"})
+        REQUIRE(candela(folder, {"render", "flat.toml", "-o", name}).exit_code == 0);
+    fs::rename(folder / "red.jpg", folder / "wrong.png");
+    fs::rename(folder / "red.png", folder / "wrong.jpg");
+    write_file(folder / "a.obj", square("a.mtl", "m"));
+    for (const char* const name : {"wrong.png", "wrong.jpg"}) {
+        INFO(name);
+        write_file(folder / "a.mtl", fmt::format("newmtl m\nmap_Kd {}\n", name));
+        const Rendered model = rendered(folder, "a.obj");
+        CHECK(is_red(model.picture.middle()));
+        CHECK(holds(model.result.err, fmt::format("is read as {}, which its content says it is",
+                                                  name == std::string("wrong.png") ? "jpg" : "png")));
+        REQUIRE(candela(folder, {"import", "a.obj", "-o", "a.toml", "--force"}).exit_code == 0);
+        const Rendered scene = rendered(folder, "a.toml");
+        CHECK(is_red(scene.picture.middle()));
+        CHECK_FALSE(holds(scene.result.err, "warning"));
+    }
+}
+
+TEST_CASE("a broken or empty picture is a note on import and the plain colour, and an error in a scene") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.obj", square("a.mtl", "m"));
+    write_file(folder / "cut.ppm", "P6\n100 100\n255\nabc");
+    write_file(folder / "empty.png", "");
+    write_file(folder / "text.png", "this is not a picture");
+    write_file(folder / "cut.jpg", "\xff\xd8\xff\xe0");
+    for (const char* const name : {"cut.ppm", "empty.png", "text.png", "cut.jpg"}) {
+        INFO(name);
+        write_file(folder / "a.mtl", fmt::format("newmtl m\nKd 1 0 0\nmap_Kd {}\n", name));
+        const Rendered model = rendered(folder, "a.obj");
+        CHECK(is_red(model.picture.middle()));
+        CHECK(holds(model.result.err, fmt::format("the texture '{}' of material 'm' is left out: ", name)));
+        write_file(folder / "a.toml",
+                   fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+                               "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\n"
+                               "type = \"mesh\"\nfile = \"a.obj\"\nencloses = true\ncolor_texture = \"{}\"\n",
+                               name));
+        const CommandResult scene = candela(folder, {"render", "a.toml", "-o", "b.ppm"});
+        CHECK(scene.exit_code != 0);
+        CHECK(holds(scene.err, "cannot be read as a picture"));
+    }
+}
+
+TEST_CASE("--allow-outside lets a model name files outside its folder; messages name it") {
+    const fs::path folder = scratch_directory();
+    for (const char* const each : {"models", "textures"}) fs::create_directory(folder / each);
+    write_file(folder / "textures" / "red.ppm", red_ppm());
+    write_file(folder / "textures" / "a.mtl", "newmtl m\nmap_Kd red.ppm\n");
+    write_file(folder / "models" / "a.obj", square("../textures/a.mtl", "m"));
+    const Rendered refused = rendered(folder, "models/a.obj");
+    CHECK_FALSE(is_red(refused.picture.middle()));
+    CHECK(holds(refused.result.err, "is outside the model's folder; --allow-outside reads it"));
+    CHECK(is_red(rendered(folder, "models/a.obj", {"--allow-outside"}).picture.middle()));
+    REQUIRE(candela(folder, {"import", "models/a.obj", "--allow-outside", "-o", "scene.toml"}).exit_code ==
+            0);
+    CHECK(is_red(rendered(folder, "scene.toml").picture.middle()));
+    CHECK(candela(folder, {"check", "models/a.obj", "--allow-outside"}).exit_code == 0);
+
+    const CommandResult scene = candela(folder, {"check", "scene.toml", "--allow-outside"});
+    CHECK(scene.exit_code == 2);
+    CHECK(holds(scene.err, "give the object allow_outside = true"));
+
+    write_file(folder / "b.bin", std::string(36, '\0'));
+    write_file(folder / "models" / "b.gltf",
+               R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "../b.bin"}]})");
+    const CommandResult buffer = candela(folder, {"render", "models/b.gltf", "-o", "b.ppm"});
+    CHECK(buffer.exit_code == 1);
+    CHECK(holds(buffer.err, "--allow-outside"));
+    CHECK(candela(folder, {"render", "models/b.gltf", "--allow-outside", "-o", "b.ppm"}).exit_code == 0);
+}
+
+TEST_CASE("a model far from its origin gives the picture that it has there") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "here.obj", ball(1, {0, 0, 0}));
+    const Pixels here = rendered(folder, "here.obj").picture;
+    for (const std::array<double, 3>& at : {std::array{500000.25, 4500000.75, 120.0},
+                                            {4500000.0, 600000.0, 4400000.0},
+                                            {0.0, -1000000.0, 0.0},
+                                            {3e8, 0, 0},
+                                            {150.0, 0, 0}}) {
+        INFO(at[0]);
+        write_file(folder / "far.obj", ball(1, at));
+        const Rendered far = rendered(folder, "far.obj");
+        CHECK(holds(far.result.err, "which is the scene's origin") == (at[0] != 150));
+        REQUIRE(far.picture.bytes.size() == here.bytes.size());
+        int most = 0;
+        for (std::size_t i = 0; i < here.bytes.size(); ++i)
+            most = std::max(most, std::abs(static_cast<unsigned char>(here.bytes[i]) -
+                                           static_cast<unsigned char>(far.picture.bytes[i])));
+        CHECK(most <= 2);
+    }
+}
+
+TEST_CASE("a small model far out is drawn, and its scene says where it lies") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.obj", ball(0.05, {500000.25, 4500000.75, 120}));
+    const Rendered model = rendered(folder, "a.obj");
+    CHECK(model.picture.middle() != model.picture.at(0, 0));
+    REQUIRE(candela(folder, {"import", "a.obj", "-o", "a.toml"}).exit_code == 0);
+    CHECK(holds(read_file(folder / "a.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
+    CHECK(rendered(folder, "a.toml").picture.bytes == model.picture.bytes);
+    // Neither beyond what a scene may hold, nor turned so that z is up.
+    write_file(folder / "b.obj", ball(20000, {6.4e9, 0, -6.4e9}));
+    CHECK(rendered(folder, "b.obj").picture.middle() != model.picture.at(0, 0));
+    REQUIRE(candela(folder, {"import", "a.obj", "--up", "z", "-o", "z.toml"}).exit_code == 0);
+    CHECK(holds(read_file(folder / "z.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
+    CHECK(rendered(folder, "z.toml").picture.middle() != model.picture.at(0, 0));
+}
+
+TEST_CASE("numbers of a scene read back as they were where six digits are too few") {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "a.obj", ball(1, {90.125, 0, 0}));
+    const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
+    CHECK_FALSE(holds(result.out, "origin"));
+    CHECK(holds(result.out, "look_at  = [90.125, "));
+}
