@@ -1,4 +1,6 @@
 // candela animate: frames against those that `render` draws one by one, and what is left alone.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
@@ -230,4 +232,47 @@ TEST_CASE("new --animation writes a film that is valid in all frames") {
     CHECK(check.exit_code == 0);
     CHECK(check.err.empty());
     CHECK(holds(check.out, "96 frames"));
+}
+
+namespace {
+
+/// A scene of so many objects, and a track for each, or as many for the first.
+std::string with_tracks(int count, bool are_all_of_one) {
+    std::string text = box_scene(33, 21) + "[constraints]\noverlap = \"allow\"\n[animation]\nframes = 2\n";
+    for (int i = 0; i < count; ++i) {
+        const std::string name = "part " + std::to_string(i), moved = are_all_of_one ? "part 0" : name;
+        text += "[[object]]\ntype = \"cube\"\nsize = 0.01\nname = \"" + name +
+                "\"\n[[animation.track]]\npath = 'object.\"" + moved +
+                "\".size'\nkeys = [[0.0, 0.01], [1.0, 0.02]]\n";
+    }
+    return text;
+}
+
+CommandResult checked_within(rlim_t seconds, const std::string& scene) {
+    const fs::path directory = scratch_directory();
+    write_file(directory / "scene.toml", scene);
+    CommandSetup setup = in(directory);
+    setup.prepare = [seconds] {
+        const rlimit time{seconds, seconds};
+        ::setrlimit(RLIMIT_CPU, &time);
+    };
+    return run_candela({"check", "scene.toml"}, setup);
+}
+
+}  // namespace
+
+TEST_CASE("thousands of tracks cost as much as thousands of objects, not as their product") {
+    constexpr int k_many = 4000;
+    const CommandResult result = checked_within(30, with_tracks(k_many, false));
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("of tracks of one value each but the first is refused, once") {
+    constexpr int k_many = 500;
+    const CommandResult result = checked_within(30, with_tracks(k_many, true));
+    CHECK(result.exit_code == 3);
+    CHECK(holds(result.err, "another track changes 'object.\"part 0\".size' already"));
+    INFO(result.err);
+    CHECK(holds(result.err, "and 449 more (449 of them errors)"));  // 50 are shown
 }

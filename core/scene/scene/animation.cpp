@@ -37,13 +37,15 @@ const TableSchema& inner_schema(std::string_view name) {
     return *std::ranges::find(schema_of("animation").tables, name, &TableSchema::name);
 }
 
+bool is_element(const std::vector<std::string>& parts) {
+    return parts.size() > 1 && (parts[0] == "light" || parts[0] == "object");
+}
+
 /// Paths of the same value are equal: lights and objects are numbered.
-std::vector<std::string> canonical_parts(std::string_view path, const TableNode& root) {
+std::vector<std::string> canonical_parts(std::string_view path, const ElementIndex& elements) {
     std::vector<std::string> parts = parts_of(path);
-    const TableNode::Entry* const entry = root.find(parts[0]);
-    const ArrayNode* const all = entry != nullptr ? entry->node.array() : nullptr;
-    if (parts.size() < 2 || all == nullptr) return parts;
-    if (const auto index = index_of(*all, parts[1])) parts[1] = std::to_string(*index);
+    if (!is_element(parts)) return parts;
+    if (const auto index = elements.find(parts[0], parts[1])) parts[1] = std::to_string(*index);
     return parts;
 }
 
@@ -66,7 +68,7 @@ bool changes_in_steps_only(const Parameter& p) {
 class AnimationReader {
   public:
     AnimationReader(SceneTables& tables, const SceneRequest& request)
-        : tables_(tables), request_(request), diagnostics_(tables.diagnostics()) {}
+        : tables_(tables), request_(request), diagnostics_(tables.diagnostics()), elements_(tables.root()) {}
 
     std::optional<Animation> read() {
         const std::size_t errors = diagnostics_.error_count();
@@ -204,14 +206,26 @@ class AnimationReader {
         }
     }
 
+    /// The path of a track that changes the same value, a part of it, or what it is a part of; or null.
+    const std::string* track_of(const std::vector<std::string>& parts) const {
+        std::vector<std::string> outer;
+        for (const std::string& part : parts) {
+            outer.push_back(part);
+            if (const auto found = tracks_.find(outer); found != tracks_.end()) return &found->second;
+        }
+        // What begins with these parts follows them at once.
+        const auto next = tracks_.lower_bound(parts);
+        return next != tracks_.end() && is_within(next->first, parts) ? &next->second : nullptr;
+    }
+
     /// Whether a setting says what the track would, or another track does.
     bool is_overridden(const std::string& path, const SourcePlace& place) {
-        const std::vector<std::string> parts = canonical_parts(path, tables_.root());
-        for (const Track& other : animation_.tracks) {
-            const std::vector<std::string> its = canonical_parts(other.path, tables_.root());
-            if (!is_within(parts, its) && !is_within(its, parts)) continue;
-            diagnostics_.error(place, fmt::format("another track changes '{}' already", other.path),
+        const std::vector<std::string> parts = canonical_parts(path, elements_);
+        if (const std::string* const other = track_of(parts)) {
+            diagnostics_.error(place, fmt::format("another track changes '{}' already", *other),
                                "put all keys into one of them");
+        } else {
+            tracks_.emplace(parts, path);
         }
         const bool moves_observer = parts[0] == "observer" && parts.back() == "position";
         if (animation_.orbit && moves_observer) {
@@ -220,7 +234,7 @@ class AnimationReader {
         }
         std::string by;
         for (const Setting& setting : request_.settings) {
-            if (is_within(parts, canonical_parts(setting.path, tables_.root()))) by = setting.origin;
+            if (is_within(parts, canonical_parts(setting.path, elements_))) by = setting.origin;
         }
         for (const auto* const chosen : {&request_.shading, &request_.reflection}) {
             const char* const name = chosen == &request_.shading ? "shading" : "reflection";
@@ -236,9 +250,8 @@ class AnimationReader {
     /// The parameter that a path leads to; nothing if there is none, which is reported, or if the plugin that
     /// would know is not installed, which is reported with the table that names it.
     std::optional<Parameter> parameter_at(const std::string& path, const SourcePlace& place) {
-        TableNode scratch = tables_.root();
-        if (!set_value(scratch, path, Node{place, false}, place, diagnostics_)) return std::nullopt;
-        const std::vector<std::string> parts = canonical_parts(path, tables_.root());
+        const std::vector<std::string> parts = canonical_parts(path, elements_);
+        if (!leads_somewhere(path, parts, place)) return std::nullopt;
         const auto schema = std::ranges::find(scene_schema(), parts[0], &TableSchema::name);
         if (parts[0] == "animation" || parts[0] == "include" || parts[0] == "version") {
             diagnostics_.error(place, fmt::format("'{}' cannot be animated", path));
@@ -257,6 +270,27 @@ class AnimationReader {
             return std::nullopt;
         }
         return parameter_in(*schema, path, parts, place);
+    }
+
+    /// Reports a path that cannot be set, of which a copy of the table that it is in is asked. A copy of the
+    /// whole scene for each track would take minutes where there are thousands.
+    bool leads_somewhere(const std::string& path, const std::vector<std::string>& parts,
+                         const SourcePlace& place) {
+        TableNode scratch;
+        if (const TableNode::Entry* const entry = tables_.root().find(parts[0])) {
+            const ArrayNode* const all = entry->node.array();
+            const auto index =
+                is_element(parts) && all != nullptr ? elements_.find(parts[0], parts[1]) : std::nullopt;
+            if (index) {
+                scratch.entries.push_back(
+                    {entry->key, entry->key_place, {entry->node.place, ArrayNode{(*all)[*index]}}});
+                std::vector<std::string> inner = parts;
+                inner[1] = "0";
+                return set_value(scratch, inner, Node{place, false}, place, diagnostics_);
+            }
+            if (parts[0] != "animation" || parts.size() < 2) scratch.entries.push_back(*entry);
+        }
+        return set_value(scratch, path, Node{place, false}, place, diagnostics_);
     }
 
     std::optional<Parameter> parameter_in(const TableSchema& schema, const std::string& path,
@@ -296,7 +330,7 @@ class AnimationReader {
         const TableNode::Entry* const entry = tables_.root().find(parts[0]);
         if (entry == nullptr || !is_element) return entry != nullptr ? entry->node.table() : nullptr;
         const ArrayNode* const all = entry->node.array();
-        const auto index = all != nullptr ? index_of(*all, parts[1]) : std::nullopt;
+        const auto index = all != nullptr ? elements_.find(parts[0], parts[1]) : std::nullopt;
         return index ? (*all)[*index].table() : nullptr;
     }
 
@@ -319,7 +353,9 @@ class AnimationReader {
     SceneTables& tables_;
     const SceneRequest& request_;
     Diagnostics& diagnostics_;
+    ElementIndex elements_;
     Animation animation_;
+    std::map<std::vector<std::string>, std::string> tracks_;  // canonical parts to the path as written
 };
 
 }  // namespace

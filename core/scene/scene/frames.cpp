@@ -3,6 +3,7 @@ module;
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -103,22 +104,21 @@ void go_around(TableNode& root, const Orbit& orbit, double part) {
 }
 
 const Key& key_before(const Track& track, double time) {
-    const Key* found = &track.keys.front();
-    for (const Key& key : track.keys) {
-        if (key.time <= time) found = &key;
-    }
-    return *found;
+    const auto next = std::ranges::upper_bound(track.keys, time, {}, &Key::time);
+    return next == track.keys.begin() ? *next : *std::prev(next);
 }
 
 }  // namespace
 
 TableNode at_frame(const TableNode& root, const Animation& animation, int frame) {
     TableNode result = root;
+    const ElementIndex elements(root);
     const double time = animation.time_of(frame);
     Diagnostics ignored;  // the paths have been found to lead somewhere
     for (const Track& track : animation.tracks) {
         const SourcePlace& place = key_before(track, time).place;
-        set_value(result, track.path, node_of(value_at(track, time), track.type, place), place, ignored);
+        set_value(result, track.path, node_of(value_at(track, time), track.type, place), place, ignored,
+                  &elements);
     }
     if (animation.orbit) go_around(result, *animation.orbit, static_cast<double>(frame) / animation.frames);
     return result;

@@ -62,10 +62,11 @@ Value made_of(const Numbers& numbers, const Value& model, ParamType type) {
 }
 
 /// The slope at key `i` of number `n`, per second.
-double slope(const std::vector<Key>& keys, const std::vector<Numbers>& values, std::size_t i, std::size_t n) {
+double slope(const std::vector<Key>& keys, std::size_t i, std::size_t n) {
     const std::size_t before = i > 0 ? i - 1 : i;
     const std::size_t after = std::min(i + 1, keys.size() - 1);
-    return (values[after][n] - values[before][n]) / (keys[after].time - keys[before].time);
+    return (numbers_of(keys[after].value)[n] - numbers_of(keys[before].value)[n]) /
+           (keys[after].time - keys[before].time);
 }
 
 }  // namespace
@@ -93,19 +94,18 @@ Value value_at(const Track& track, double time) {
     if (next == keys.begin()) return keys.front().value;
     if (next == keys.end() || track.interpolation == Interpolation::step) return std::prev(next)->value;
     const auto i = static_cast<std::size_t>(next - keys.begin()) - 1;
-    std::vector<Numbers> values;
-    for (const Key& key : keys) values.push_back(numbers_of(key.value));
+    const Numbers from = numbers_of(keys[i].value), to = numbers_of(keys[i + 1].value);
     const double span = keys[i + 1].time - keys[i].time;
     const double s = (time - keys[i].time) / span;
-    Numbers between(values[i].size());
+    Numbers between(from.size());
     for (std::size_t n = 0; n < between.size(); ++n) {
-        const double a = values[i][n], b = values[i + 1][n];
+        const double a = from[n], b = to[n];
         if (track.interpolation == Interpolation::linear) {
             between[n] = std::lerp(a, b, s);
         } else {
             const double u = 1 - s;
             between[n] = a * (1 + 2 * s) * u * u + b * s * s * (3 - 2 * s) +
-                         span * s * u * (slope(keys, values, i, n) * u - slope(keys, values, i + 1, n) * s);
+                         span * s * u * (slope(keys, i, n) * u - slope(keys, i + 1, n) * s);
         }
     }
     return made_of(between, keys[i].value, track.type);

@@ -237,8 +237,9 @@ std::optional<std::size_t> number_from(const std::string& text) {
 
 class Setter {
   public:
-    Setter(std::string_view path, const SourcePlace& place, TableNode& root, Diagnostics& diagnostics)
-        : parts_(parts_of(path)), place_(place), root_(root), diagnostics_(diagnostics) {}
+    Setter(std::vector<std::string> parts, const SourcePlace& place, TableNode& root,
+           Diagnostics& diagnostics, const ElementIndex* index)
+        : parts_(std::move(parts)), place_(place), root_(root), diagnostics_(diagnostics), index_(index) {}
 
     bool apply(Node value) {
         if (std::ranges::any_of(parts_, [](const std::string& part) { return part.empty(); })) {
@@ -287,7 +288,8 @@ class Setter {
             fail(fmt::format("the scene has no {}", kind));
             return nullptr;
         }
-        if (const auto index = index_of(*all, which)) return (*all)[*index].table();
+        const auto index = index_ != nullptr ? index_->find(kind, which) : index_of(*all, which);
+        if (index) return (*all)[*index].table();
         if (const auto number = number_from(which)) {
             fail(fmt::format("there is no {} {}; they are numbered 0 to {}", kind, *number, all->size() - 1));
             return nullptr;
@@ -303,6 +305,7 @@ class Setter {
     const SourcePlace& place_;
     TableNode& root_;
     Diagnostics& diagnostics_;
+    const ElementIndex* index_;
 };
 
 }  // namespace
@@ -323,8 +326,34 @@ std::vector<std::string> parts_of(std::string_view path) {
 }
 
 bool set_value(TableNode& root, std::string_view path, Node value, const SourcePlace& place,
-               Diagnostics& diagnostics) {
-    return Setter(path, place, root, diagnostics).apply(std::move(value));
+               Diagnostics& diagnostics, const ElementIndex* index) {
+    return set_value(root, parts_of(path), std::move(value), place, diagnostics, index);
+}
+
+bool set_value(TableNode& root, std::vector<std::string> parts, Node value, const SourcePlace& place,
+               Diagnostics& diagnostics, const ElementIndex* index) {
+    return Setter(std::move(parts), place, root, diagnostics, index).apply(std::move(value));
+}
+
+ElementIndex::ElementIndex(const TableNode& root) {
+    const auto add_all = [&](std::string_view kind, Kind& to) {
+        const TableNode::Entry* const entry = root.find(kind);
+        const ArrayNode* const all = entry != nullptr ? entry->node.array() : nullptr;
+        if (all == nullptr) return;
+        to.count = all->size();
+        for (std::size_t i = 0; i < all->size(); ++i)
+            if (const std::string* const name = name_of((*all)[i])) to.first_named.try_emplace(*name, i);
+    };
+    add_all("light", lights_);
+    add_all("object", objects_);
+}
+
+std::optional<std::size_t> ElementIndex::find(std::string_view kind, const std::string& which) const {
+    const Kind& elements = kind == "light" ? lights_ : objects_;
+    if (const auto found = elements.first_named.find(which); found != elements.first_named.end())
+        return found->second;
+    const auto number = number_from(which);
+    return number && *number < elements.count ? number : std::nullopt;
 }
 
 std::optional<std::size_t> index_of(const ArrayNode& all, const std::string& which) {

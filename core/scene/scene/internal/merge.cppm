@@ -5,6 +5,7 @@ module;
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 module candela.scene:merge;
@@ -28,10 +29,30 @@ std::vector<std::string> parts_of(std::string_view path);
 /// The index of the light or object with that name, or with that index from 0; nothing if there is none.
 std::optional<std::size_t> index_of(const ArrayNode& all, const std::string& which);
 
+/// index_of() for all lights and objects of a document, at a cost that does not grow with their number.
+class ElementIndex {
+  public:
+    explicit ElementIndex(const TableNode& root);
+
+    /// `kind`: "light" or "object".
+    std::optional<std::size_t> find(std::string_view kind, const std::string& which) const;
+
+  private:
+    struct Kind {
+        std::size_t count = 0;
+        std::unordered_map<std::string, std::size_t> first_named{};
+    };
+    Kind lights_, objects_;
+};
+
 /// Sets the value at a setting's path; false if the path leads nowhere, which is reported at `place`, and
-/// that is where the key will be said to stand.
+/// that is where the key will be said to stand. `index`: that of `root`, for many calls.
 bool set_value(TableNode& root, std::string_view path, Node value, const SourcePlace& place,
-               Diagnostics& diagnostics);
+               Diagnostics& diagnostics, const ElementIndex* index = nullptr);
+
+/// The same for a path that parts_of() has split.
+bool set_value(TableNode& root, std::vector<std::string> parts, Node value, const SourcePlace& place,
+               Diagnostics& diagnostics, const ElementIndex* index = nullptr);
 
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics);
 
