@@ -7,10 +7,12 @@ import argparse
 import concurrent.futures
 import os
 import random
+import resource
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unicodedata
 from pathlib import Path
 
@@ -83,14 +85,18 @@ def unprintable(output: bytes) -> str:
     return ""
 
 
-def run(command: list, directory: Path, codes: tuple, environment: dict = None):
-    """The finished process, and what is wrong with every run that ends like this (an empty string: nothing)."""
+def run(command: list, directory: Path, codes: tuple, environment: dict = None, most_memory: int = 0):
+    """The finished process, and what is wrong with every run that ends like this (an empty string: nothing).
+    `most_memory`: bytes that may be in memory at once, unless address spaces are unlimited; 0: any number."""
+    measured = [sys.executable, "-BIS", __file__, directory / "usage", *command] if most_memory else command
     try:
-        done = subprocess.run(["prlimit", f"--cpu={LIMIT}", f"--as={address_space}", *command], cwd=directory,
+        done = subprocess.run(["prlimit", f"--cpu={LIMIT}", f"--as={address_space}", *measured], cwd=directory,
                               capture_output=True, timeout=PATIENCE, stdin=subprocess.DEVNULL, check=False,
                               env=environment)
     except subprocess.TimeoutExpired:
         return None, f"it takes more than {PATIENCE} s"
+    if most_memory and address_space != "unlimited" and (taken := int((directory / "usage").read_text())) > most_memory:
+        return done, f"it takes {taken >> 20} MiB"
     if done.returncode not in codes:
         return done, f"exit code {done.returncode}: {done.stderr[-300:]!r}"
     if wrong := unprintable(done.stdout + done.stderr):
@@ -107,6 +113,7 @@ def sweep(document: str, count: int, kinds: list, trial) -> int:
     parser = argparse.ArgumentParser(description=document, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("candela", type=lambda path: str(Path(path).resolve()))
     parser.add_argument("--count", type=int, default=count, help=f"mutants of each kind; default: {count}")
+    parser.add_argument("--seconds", type=float, help="instead: as many of each kind in turn as there is time for")
     parser.add_argument("--first", type=int, default=0, help="the number of the first mutant")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kind", action="append", choices=kinds, help="may be repeated; default: all")
@@ -117,7 +124,6 @@ def sweep(document: str, count: int, kinds: list, trial) -> int:
     options = parser.parse_args()
     address_space = options.address_space
 
-    failed = 0
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         def tried(kind: str, index: int):
             directory = Path(scratch) / f"{kind}-{index}"
@@ -128,18 +134,40 @@ def sweep(document: str, count: int, kinds: list, trial) -> int:
             shutil.rmtree(directory)
             return index, problem
 
-        for kind in options.kind or kinds:
-            numbers = range(options.first, options.first + options.count)
-            wrong = 0
-            for index, problem in pool.map(lambda i, k=kind: tried(k, i), numbers):
+        chosen = options.kind or kinds
+        tries, failures = dict.fromkeys(chosen, 0), dict.fromkeys(chosen, 0)
+
+        def sweep_once(kind: str, numbers: range) -> None:
+            for index, problem in pool.map(lambda i: tried(kind, i), numbers):
+                tries[kind] += 1
+                failures[kind] += bool(problem)
                 if problem:
-                    wrong += 1
                     print(f"{kind} {index}: {problem}", flush=True)
-            failed += wrong
-            print(f"{kind}: {len(numbers)} mutants, {wrong} failed", flush=True)
-    return 1 if failed else 0
+
+        end = time.monotonic() + (options.seconds or 0)
+        first, at_once = options.first, options.count if options.seconds is None else 4 * options.jobs
+        while True:
+            for kind in chosen:
+                sweep_once(kind, range(first, first + at_once))
+            first += at_once
+            if time.monotonic() >= end:
+                break
+        for kind in chosen:
+            print(f"{kind}: {tries[kind]} mutants, {failures[kind]} failed", flush=True)
+    return 1 if any(failures.values()) else 0
+
+
+def measure(usage: str, command: list) -> int:
+    """Runs a command, and writes to a file how many bytes it had in memory at most."""
+    code = subprocess.run(command, check=False).returncode
+    Path(usage).write_text(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss << 10))
+    return code if code >= 0 else 128 - code
 
 
 def fail_without(seeds: list, what: str) -> None:
     if not seeds:
         sys.exit(f"there are no {what} to make mutants of")
+
+
+if __name__ == "__main__":
+    sys.exit(measure(sys.argv[1], sys.argv[2:]))

@@ -5,13 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +17,7 @@
 #include <vector>
 
 #include "candela/image_plugin.h"
+#include "input.h"
 
 using namespace candela::sdk;
 
@@ -74,47 +71,6 @@ OIIO::ImageSpec spec_of(const candela::PictureView& picture) {
 const void* pixels_of(const candela::PictureView& picture) {
     return picture.pixels == candela::PixelType::real ? static_cast<const void*>(picture.reals.data())
                                                       : static_cast<const void*>(picture.bytes.data());
-}
-
-/// Whether the end-of-image marker follows the last scan of a JPEG file: within a scan neither occurs. Where
-/// it is missing, libjpeg fills up the picture with grey, and OpenImageIO does not pass its warning on.
-bool is_whole_jpeg(const char* path) {
-    std::ifstream in(path, std::ios::binary);
-    const std::string bytes(std::istreambuf_iterator<char>(in), {});
-    const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
-    return scan != std::string::npos && end != std::string::npos && end > scan;
-}
-
-/// Whether a file that begins as a PNG ends before its last chunk, IEND. Where libpng asks for bytes beyond
-/// the end, OpenImageIO's answer jumps over the destructor of the message that it makes.
-bool is_cut_off_png(const char* path) {
-    constexpr std::string_view k_signature = "\x89PNG\r\n\x1a\n";
-    constexpr std::size_t k_around = 12;  // a chunk's length, type and checksum
-    std::ifstream in(path, std::ios::binary);
-    std::array<char, 8> bytes{};
-    const auto read = [&] { return static_cast<bool>(in.read(bytes.data(), bytes.size())); };
-    const auto text = [&] { return std::string_view(bytes.data(), bytes.size()); };
-    if (!read() || text() != k_signature) return false;
-    std::uintmax_t left = std::filesystem::file_size(path) - k_signature.size();
-    while (left >= k_around && read()) {
-        std::uint32_t length = 0;
-        for (const char byte : text().substr(0, 4)) length = length << 8 | static_cast<unsigned char>(byte);
-        if (length > left - k_around) return true;
-        if (text().substr(4) == "IEND") return false;
-        left -= k_around + length;
-        in.seekg(std::streamoff{length} + 4, std::ios::cur);
-    }
-    return true;
-}
-
-/// Only of formats that bound how much they compress: a picture of one colour is a few bytes of WebP at any
-/// size.
-void require_plausible_size(const OIIO::ImageInput& input, const char* path) {
-    constexpr std::array<std::string_view, 5> k_bounded = {"png", "bmp", "targa", "hdr", "jpeg"};
-    if (std::ranges::find(k_bounded, input.format_name()) == k_bounded.end()) return;
-    // Deflate makes up to 1032 bytes of one, each of which is eight pixels of one bit; the others less.
-    constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
-    require_plausible(input.spec().image_pixels(), std::filesystem::file_size(path), k_most_pixels_per_byte);
 }
 
 /// A file that the host writes, as OpenImageIO writes it.
@@ -258,32 +214,18 @@ class OpenImageIo final : public candela::ImageFormat, public candela::RowFormat
     }
 
     void read(const char* path, candela::PictureSink& sink) const override {
-        if (is_cut_off_png(path)) throw std::runtime_error("it is cut off");
-        // The colours are as they are in the file, however transparent the pixels.
-        OIIO::ImageSpec wanted;
-        wanted.attribute("oiio:UnassociatedAlpha", 1);
-        const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &wanted);
-        if (input == nullptr) throw std::runtime_error(OIIO::geterror());
-        if (std::string_view(input->format_name()) == "jpeg" && !is_whole_jpeg(path))
-            throw std::runtime_error("it is cut off");
+        const std::unique_ptr<OIIO::ImageInput> input = openimageio::opened(path);
         const OIIO::ImageSpec& spec = input->spec();
-        if (spec.nchannels < 1) throw std::runtime_error("it has no channels");
-        require_plausible_size(*input, path);
-        const bool is_float = spec.format.is_floating_point();
-        const std::span<float> pixels = sink.allocate(spec.width, spec.height, !is_float);
-        // Grey pictures have one channel; channels after the third are alpha and the like.
-        const int channels = std::min(spec.nchannels, 3);
-        std::vector<float> row(static_cast<std::size_t>(spec.width) *
-                               static_cast<std::size_t>(spec.nchannels));
-        std::size_t next = 0;
-        for (int y = 0; y < spec.height; ++y) {
-            if (!input->read_scanline(spec.y + y, 0, OIIO::TypeFloat, row.data()))
-                throw std::runtime_error(input->geterror());
-            for (std::size_t x = 0; x < row.size(); x += static_cast<std::size_t>(spec.nchannels)) {
-                for (int c = 0; c < 3; ++c)
-                    pixels[next++] = row[x + static_cast<std::size_t>(channels < 3 ? 0 : c)];
-            }
-        }
+        const std::span<float> pixels =
+            sink.allocate(spec.width, spec.height, !spec.format.is_floating_point());
+        // Grey pictures have one channel; channels after the third are alpha and the like. All at once: row
+        // by row, a file with tiles, or with a plane for each channel, would be decoded once for each row.
+        const bool is_grey = spec.nchannels < 3;
+        constexpr OIIO::stride_t k_pixel = 3 * sizeof(float);
+        if (!input->read_image(0, 0, 0, is_grey ? 1 : 3, OIIO::TypeFloat, pixels.data(), k_pixel))
+            throw std::runtime_error(input->geterror());
+        if (!is_grey) return;
+        for (std::size_t i = 0; i < pixels.size(); i += 3) pixels[i + 1] = pixels[i + 2] = pixels[i];
     }
 };
 

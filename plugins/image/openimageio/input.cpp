@@ -1,0 +1,152 @@
+#include "input.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "candela/image_plugin.h"
+
+using candela::sdk::require_plausible;
+
+namespace openimageio {
+
+namespace {
+
+constexpr std::size_t k_head = 32;
+
+std::string head_of(const char* path) {
+    std::string head(k_head, '\0');
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw std::runtime_error("it cannot be opened");
+    in.read(head.data(), k_head);
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    return head;
+}
+
+/// OpenImageIO's name of the format that a file begins as. It tries some thirty otherwise.
+std::string_view format_of(std::string_view head, const std::filesystem::path& path) {
+    struct Beginning {
+        std::string_view bytes, format;
+    };
+    constexpr std::array<Beginning, 9> k_beginnings = {{{"\x89PNG\r\n\x1a\n", "png"},
+                                                        {"\xff\xd8\xff", "jpeg"},
+                                                        {{"II*\0", 4}, "tiff"},
+                                                        {{"MM\0*", 4}, "tiff"},
+                                                        {{"II+\0", 4}, "tiff"},
+                                                        {{"MM\0+", 4}, "tiff"},
+                                                        {"v/1\x01", "openexr"},
+                                                        {"#?", "hdr"},
+                                                        {"BM", "bmp"}}};
+    for (const Beginning& beginning : k_beginnings)
+        if (head.starts_with(beginning.bytes)) return beginning.format;
+    if (head.starts_with("RIFF") && head.substr(0, 12).ends_with("WEBP")) return "webp";
+    if (head.size() > 2 && head[0] == 'P' &&
+        std::string_view("123456Ff").find(head[1]) != std::string_view::npos)
+        return "pnm";
+    if (path.extension() == ".tga" || path.extension() == ".TGA") return "targa";  // begins as anything
+    throw std::runtime_error("its content is not a picture of a known format");
+}
+
+/// Whether the end-of-image marker follows the last scan of a JPEG file: within a scan neither occurs. Where
+/// it is missing, libjpeg fills up the picture with grey, and OpenImageIO does not pass its warning on.
+bool is_whole_jpeg(const char* path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(in), {});
+    const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
+    return scan != std::string::npos && end != std::string::npos && end > scan;
+}
+
+/// Whether a file that begins as a PNG ends before its last chunk, IEND. Where libpng asks for bytes beyond
+/// the end, OpenImageIO's answer jumps over the destructor of the message that it makes.
+bool is_cut_off_png(const char* path) {
+    constexpr std::size_t k_signature = 8, k_around = 12;  // a chunk's length, type and checksum
+    std::ifstream in(path, std::ios::binary);
+    in.seekg(k_signature);
+    std::array<char, 8> bytes{};
+    const std::string_view text(bytes.data(), bytes.size());
+    std::uintmax_t left = std::filesystem::file_size(path) - k_signature;
+    while (left >= k_around && in.read(bytes.data(), bytes.size())) {
+        std::uint32_t length = 0;
+        for (const char byte : text.substr(0, 4)) length = length << 8 | static_cast<unsigned char>(byte);
+        if (length > left - k_around) return true;
+        if (text.substr(4) == "IEND") return false;
+        left -= k_around + length;
+        in.seekg(std::streamoff{length} + 4, std::ios::cur);
+    }
+    return true;
+}
+
+/// Of a WebP file, which OpenImageIO decodes as a whole when it opens it. Zero where it has no such header.
+std::uintmax_t webp_pixels(std::string_view head) {
+    const auto at = [&](std::size_t i) { return std::uintmax_t{static_cast<unsigned char>(head[i])}; };
+    if (head.size() < 30) return 0;
+    const std::string_view chunk = head.substr(12, 4);
+    std::uintmax_t width = 0, height = 0;
+    if (chunk == "VP8X") {
+        width = 1 + (at(24) | at(25) << 8 | at(26) << 16);
+        height = 1 + (at(27) | at(28) << 8 | at(29) << 16);
+    } else if (chunk == "VP8L") {
+        const std::uintmax_t bits = at(21) | at(22) << 8 | at(23) << 16 | at(24) << 24;
+        width = 1 + (bits & 0x3fff);
+        height = 1 + (bits >> 14 & 0x3fff);
+    } else if (chunk == "VP8 ") {
+        width = (at(26) | at(27) << 8) & 0x3fff;
+        height = (at(28) | at(29) << 8) & 0x3fff;
+    }
+    return width * height;
+}
+
+/// Deflate makes up to 1032 bytes of one, each of which is eight pixels of one bit; most formats less.
+constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
+
+/// For formats that do not bound how much they compress, in which a picture of one colour is a few bytes at
+/// any size: what a small file may have takes little time.
+void require_moderate(std::uintmax_t samples, std::uintmax_t file_size) {
+    constexpr std::uintmax_t k_always = std::uintmax_t{1} << 22;
+    if (samples > 4 * k_always) require_plausible(samples, file_size, 4 * k_most_pixels_per_byte);
+}
+
+void require_plausible_size(const OIIO::ImageInput& input, std::uintmax_t file_size) {
+    constexpr std::array<std::string_view, 6> k_bounded = {"png", "bmp", "targa", "hdr", "jpeg", "pnm"};
+    const OIIO::ImageSpec& spec = input.spec();
+    if (std::ranges::find(k_bounded, input.format_name()) != k_bounded.end()) {
+        require_plausible(spec.image_pixels(), file_size, k_most_pixels_per_byte);
+        return;
+    }
+    const auto samples = [&](std::uintmax_t pixels) {
+        return pixels * static_cast<std::uintmax_t>(std::max(spec.nchannels, 1));
+    };
+    require_moderate(samples(spec.image_pixels()), file_size);
+    require_moderate(samples(spec.tile_pixels()), file_size);  // read whole, however few of its pixels count
+}
+
+}  // namespace
+
+std::unique_ptr<OIIO::ImageInput> opened(const char* path) {
+    const std::string head = head_of(path);
+    const std::string format(format_of(head, path));
+    const std::uintmax_t size = std::filesystem::file_size(path);
+    if (format == "png" && is_cut_off_png(path)) throw std::runtime_error("it is cut off");
+    if (format == "webp") require_moderate(4 * webp_pixels(head), size);
+    // The colours are as they are in the file, however transparent the pixels.
+    OIIO::ImageSpec wanted, found;
+    wanted.attribute("oiio:UnassociatedAlpha", 1);
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+    if (input == nullptr) throw std::runtime_error(OIIO::geterror());
+    if (!input->open(path, found, wanted)) throw std::runtime_error(input->geterror());
+    if (format == "jpeg" && !is_whole_jpeg(path)) throw std::runtime_error("it is cut off");
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.nchannels < 1) throw std::runtime_error("it has no channels");
+    if (spec.deep) throw std::runtime_error("it has many values at each pixel, which is not supported");
+    require_plausible_size(*input, size);
+    return input;
+}
+
+}  // namespace openimageio
