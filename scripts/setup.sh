@@ -40,7 +40,7 @@ packages=(
   ca-certificates git make
   libstdc++-12-dev ninja-build cmake cmake-data
   libeigen3-dev libtomlplusplus-dev libtbb-dev libembree-dev libfmt-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev libisal-dev libpng-dev
-  libturbojpeg0-dev libtinygltf-dev libstb-dev libopenimageio-dev esbuild libjs-codemirror
+  libturbojpeg0-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libstb-dev libopenimageio-dev esbuild libjs-codemirror
 )
 if [ "$everything" = yes ]; then
   packages+=(catch2 clang-format-19 glslang-tools python3 python3-jsonschema dpkg-dev file lintian

@@ -141,7 +141,7 @@ class Writer {
         if (setting_.allows_outside) add("allow_outside", "true");
         if (model_.is_z_up) add("rotation", "[-90.0, 0.0, 0.0]");
         // Seen from both sides, and on purpose.
-        if (model_.parts.size() > 1 || !setting_.is_closed) add("encloses", "true");
+        if (model_.parts.size() > 1 || !setting_.is_closed || !model_.lights.empty()) add("encloses", "true");
         if (material != nullptr) {
             add("color", color(material->color));
         } else {

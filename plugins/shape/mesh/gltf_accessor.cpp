@@ -41,16 +41,12 @@ double scaled(const unsigned char* from, bool is_normalized) {
 
 }  // namespace
 
-Accessor::Accessor(const Document& document, int index, int components)
-    : model_(document.model), index_(index) {
-    if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size())
+Accessor::Accessor(const Document& document, int index, int components) : document_(document), index_(index) {
+    const auto& accessors = document.model.accessors;
+    if (index < 0 || static_cast<std::size_t>(index) >= accessors.size())
         throw BadFile(fmt::format("has no accessor {}", index));
-    const tinygltf::Accessor& a = model_.accessors[static_cast<std::size_t>(index)];
-    const int type = components == 1   ? TINYGLTF_TYPE_SCALAR
-                     : components == 2 ? TINYGLTF_TYPE_VEC2
-                     : components == 3 ? TINYGLTF_TYPE_VEC3
-                                       : TINYGLTF_TYPE_VEC4;
-    if (a.type != type)
+    const tinygltf::Accessor& a = accessors[static_cast<std::size_t>(index)];
+    if (components_of(document, index) != components)
         throw BadFile(fmt::format("has an accessor {} whose type does not fit its use", index));
     if (size_of(a.componentType) == 0)
         throw BadFile(fmt::format("has an accessor {} of component type {}", index, a.componentType));
@@ -85,24 +81,17 @@ Accessor::Accessor(const Document& document, int index, int components)
 Accessor::Bytes Accessor::bytes(int view_index, std::size_t offset, int component_type, int components,
                                 std::size_t count) const {
     if (view_index < 0) return {};
-    const auto refuse = [&] {
-        throw BadFile(fmt::format("has an accessor {} that reaches beyond its buffer", index_));
-    };
-    if (static_cast<std::size_t>(view_index) >= model_.bufferViews.size())
-        throw BadFile(fmt::format("has no buffer view {}", view_index));
-    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(view_index)];
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model_.buffers.size())
-        throw BadFile(fmt::format("has no buffer {}", view.buffer));
-    const std::vector<unsigned char>& data = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
+    const std::string_view data = document_.view(static_cast<std::size_t>(view_index));
+    const tinygltf::BufferView& view = document_.model.bufferViews[static_cast<std::size_t>(view_index)];
     const std::size_t element = size_of(component_type) * static_cast<std::size_t>(components);
     const std::size_t stride = view.byteStride == 0 ? element : view.byteStride;
     if (stride < element)
         throw BadFile(fmt::format("has a buffer view {} whose stride is too short", view_index));
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) refuse();
     if (count == 0) return {};
-    if (offset > view.byteLength || element > view.byteLength - offset) refuse();
-    if ((count - 1) > (view.byteLength - offset - element) / stride) refuse();
-    return {data.data() + view.byteOffset + offset, stride, component_type};
+    const bool is_there = offset <= data.size() && element <= data.size() - offset &&
+                          count - 1 <= (data.size() - offset - element) / stride;
+    if (!is_there) throw BadFile(fmt::format("has an accessor {} that reaches beyond its buffer", index_));
+    return {reinterpret_cast<const unsigned char*>(data.data()) + offset, stride, component_type};
 }
 
 double Accessor::value(const Bytes& bytes, std::size_t i, int c) const {
@@ -136,6 +125,8 @@ int Accessor::components_of(const Document& document, int index) {
             return 3;
         case TINYGLTF_TYPE_VEC4:
             return 4;
+        case TINYGLTF_TYPE_MAT4:
+            return 16;
         default:
             return 0;
     }

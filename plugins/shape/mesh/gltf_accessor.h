@@ -11,13 +11,13 @@ namespace mesh::gltf {
 /// An accessor whose bytes have been found to be there: read() cannot go wrong.
 class Accessor {
   public:
-    /// Throws BadFile unless accessor `index` has `components` numbers per element (1, 2 or 3), in views that
+    /// Throws BadFile unless accessor `index` has `components` numbers per element, in views that
     /// lie within their buffers.
     Accessor(const Document& document, int index, int components);
 
     std::size_t count() const { return count_; }
 
-    /// Of the elements of an accessor that exists: 1 to 4; 0 for matrices.
+    /// Of the elements of an accessor that exists: 1 to 4, or 16; 0 for others.
     static int components_of(const Document& document, int index);
     /// Component `c` of all elements.
     Array<double> read(int c) const;
@@ -31,7 +31,7 @@ class Accessor {
     Bytes bytes(int view, std::size_t offset, int component_type, int components, std::size_t count) const;
     double value(const Bytes& bytes, std::size_t i, int c) const;
 
-    const tinygltf::Model& model_;
+    const Document& document_;
     int index_;
     std::size_t count_ = 0;
     bool normalized_ = false;

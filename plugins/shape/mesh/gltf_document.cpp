@@ -4,10 +4,14 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
+#include <algorithm>
+#include <stdexcept>
 
+#include "candela/target/literals.h"
 #include "file_bytes.h"
+#include "gltf_draco.h"
 #include "gltf_json.h"
+#include "gltf_meshopt.h"
 #include "surface.h"
 #include "text_scanner.h"
 
@@ -15,7 +19,6 @@ namespace mesh::gltf {
 
 namespace {
 
-constexpr std::uint32_t k_magic = 0x46546c67;  // "glTF"
 constexpr std::uint32_t k_json = 0x4e4f534a;
 constexpr std::uint32_t k_binary = 0x004e4942;
 
@@ -43,7 +46,10 @@ std::string_view chunk_at(std::string_view bytes, std::size_t at) {
 Chunks chunks_of(std::string_view bytes) {
     const std::uint32_t version = word_at(bytes, 4);
     if (version != 2)
-        throw BadFile(fmt::format("is binary glTF of version {}; Candela reads version 2", version));
+        throw BadFile(
+            fmt::format("is binary glTF of version {}; Candela reads version 2, into which "
+                        "gltf-pipeline converts it: npx gltf-pipeline -i OLD.glb -o NEW.glb",
+                        version));
     const std::size_t length = word_at(bytes, 8);
     if (length > bytes.size())
         throw BadFile(fmt::format("is cut off: it should have {} bytes, but has {}", length, bytes.size()));
@@ -63,73 +69,66 @@ Chunks chunks_of(std::string_view bytes) {
     return chunks;
 }
 
-/// A container for tinygltf, padded as the standard demands.
-std::string container_of(const std::string& json, std::string_view binary) {
-    const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
-    const std::size_t json_size = padded(json.size()), binary_size = padded(binary.size());
-    const std::size_t size = 20 + json_size + 8 + binary_size;
-    constexpr std::size_t k_most = 0xffff'ffffu;
-    if (size > k_most) throw BadFile("has more than 4 GB");
-    std::string container;
-    container.reserve(size);
-    const auto word = [&](std::size_t value) {
-        for (int shift = 0; shift < 32; shift += 8) container += static_cast<char>(value >> shift & 0xff);
-    };
-    for (const std::size_t value :
-         {std::size_t{k_magic}, std::size_t{2}, size, json_size, std::size_t{k_json}})
-        word(value);
-    container += json;
-    container.append(json_size - json.size(), ' ');
-    word(binary_size);
-    word(k_binary);
-    container += binary;
-    container.append(binary_size - binary.size(), '\0');
-    return container;
-}
-
-/// The files that tinygltf may look at.
-struct Files {
-    std::filesystem::path folder;
-    Reach reach;
-    std::string problem{};  // the first
-};
-
-bool read_buffer(std::vector<unsigned char>* out, std::string*, const std::string& name, void* of) {
-    auto& files = *static_cast<Files*>(of);
-    try {
-        const std::filesystem::path path = part_named(name, files.folder, files.reach);
-        try {
-            const Array<char> bytes = read_file(path);
-            out->assign(bytes.begin(), bytes.end());
-        } catch (const BadFile& problem) {
-            throw BadFile(fmt::format("names {}, which {}", in_quotes(name), problem.what()));
-        }
-    } catch (const std::exception& problem) {
-        if (files.problem.empty()) files.problem = problem.what();
-        return false;
-    }
-    return true;
-}
-
-/// tinygltf 2.9 leaves its own in place, which read any file, where one is missing; 2.8 does not ask for
-/// sizes.
-template <class Callbacks>
-Callbacks callbacks_for(Files& files) {
-    Callbacks callbacks{};
-    callbacks.FileExists = [](const std::string&, void*) { return true; };
-    callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-    callbacks.ReadWholeFile = read_buffer;
-    callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
-                                  void*) { return false; };
-    // read_file() has limits of its own.
-    if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
-        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
-            *size = 0;
-            return true;
+std::string decoded_percents(std::string_view uri) {
+    std::string result;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const auto digit = [&](std::size_t at) {
+            constexpr std::string_view k_digits = "0123456789abcdef";
+            return at < uri.size() ? k_digits.find(static_cast<char>(uri[at] | 0x20))
+                                   : std::string_view::npos;
         };
+        if (uri[i] == '%' && digit(i + 1) < 16 && digit(i + 2) < 16) {
+            result += static_cast<char>(digit(i + 1) * 16 + digit(i + 2));
+            i += 2;
+        } else {
+            result += uri[i];
+        }
     }
-    callbacks.user_data = &files;
-    return callbacks;
+    return result;
+}
+
+Buffer data_of(std::string_view uri, std::size_t number) {
+    const std::size_t comma = uri.find(',');
+    try {
+        if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64"))
+            throw std::invalid_argument("");
+        const std::string bytes = candela::target::base64_decoded(uri.substr(comma + 1));
+        return Buffer(Array<char>(bytes.begin(), bytes.end()));
+    } catch (const std::invalid_argument&) {
+        throw BadFile(fmt::format("has a data: URI for buffer {} that is not base64", number));
+    }
+}
+
+Buffer buffer_from(const BufferSource& source, std::size_t number, std::string_view binary,
+                   Document& document, const std::filesystem::path& folder, Reach reach) {
+    if (!source.is_needed) return {};
+    const auto require_whole = [&](const Buffer& buffer, const std::string& what) {
+        if (buffer.bytes.size() < source.length)
+            throw BadFile(fmt::format("{} {} bytes, but buffer {} declares {}", what, buffer.bytes.size(),
+                                      number, source.length));
+    };
+    if (!source.uri) {
+        Buffer buffer(binary);
+        require_whole(buffer, "is cut off: its binary chunk has");
+        return buffer;
+    }
+    if (source.uri->starts_with("data:")) {
+        Buffer buffer = data_of(*source.uri, number);
+        require_whole(buffer, "is cut off: its data: URI has");
+        document.bytes += buffer.bytes.size();
+        return buffer;
+    }
+    const std::string name = decoded_percents(*source.uri);
+    const std::filesystem::path path = part_named(name, folder, reach);
+    document.files.push_back(path);
+    try {
+        Buffer buffer(read_file(path));
+        require_whole(buffer, "has only");
+        document.bytes += buffer.bytes.size();
+        return buffer;
+    } catch (const BadFile& problem) {
+        throw BadFile(fmt::format("names {}, which {}", in_quotes(name), problem.what()));
+    }
 }
 
 std::string first_line(std::string_view text) {
@@ -140,39 +139,66 @@ std::string first_line(std::string_view text) {
 
 }  // namespace
 
+std::string_view Document::view(std::size_t index) const {
+    if (index >= model.bufferViews.size()) throw BadFile(fmt::format("has no buffer view {}", index));
+    const tinygltf::BufferView& view = model.bufferViews[index];
+    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= buffers.size())
+        throw BadFile(fmt::format("has no buffer {}", view.buffer));
+    const std::string_view all = buffers[static_cast<std::size_t>(view.buffer)].bytes;
+    if (view.byteOffset > all.size() || view.byteLength > all.size() - view.byteOffset)
+        throw BadFile(fmt::format("has a buffer view {} that reaches beyond its buffer", index));
+    return all.substr(view.byteOffset, view.byteLength);
+}
+
+std::size_t Document::add_view(Array<char> content) {
+    tinygltf::BufferView view;
+    view.buffer = static_cast<int>(buffers.size());
+    view.byteLength = content.size();
+    buffers.emplace_back(std::move(content));
+    model.bufferViews.push_back(std::move(view));
+    return model.bufferViews.size() - 1;
+}
+
+int Document::add_accessor(Array<char> content, int component_type, int type, std::size_t count) {
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(add_view(std::move(content)));
+    accessor.componentType = component_type;
+    accessor.type = type;
+    accessor.count = count;
+    model.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model.accessors.size() - 1);
+}
+
 Document read_document(std::string_view bytes, const std::filesystem::path& folder, Reach reach) {
     Chunks chunks{.json = bytes, .binary = {}};
-    const bool is_binary = bytes.starts_with("glTF");
-    if (is_binary) chunks = chunks_of(bytes);
+    if (bytes.starts_with("glTF")) chunks = chunks_of(bytes);
     Geometry geometry = geometry_of(chunks.json, chunks.has_binary);
 
-    Files files{folder, reach};
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(files));
     Document document;
     std::string problems, warnings;
     bool is_read = false;
     try {
-        if (chunks.has_binary) {
-            const std::string container = container_of(geometry.json, chunks.binary);
-            is_read = loader.LoadBinaryFromMemory(&document.model, &problems, &warnings,
-                                                  reinterpret_cast<const unsigned char*>(container.data()),
-                                                  static_cast<unsigned>(container.size()), "", 0);
-        } else {
-            is_read = loader.LoadASCIIFromString(&document.model, &problems, &warnings, geometry.json.data(),
-                                                 static_cast<unsigned>(geometry.json.size()), "", 0);
-        }
+        is_read = loader.LoadASCIIFromString(&document.model, &problems, &warnings, geometry.json.data(),
+                                             static_cast<unsigned>(geometry.json.size()), "", 0);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& problem) {
         problems = problem.what();
     }
-    if (!files.problem.empty()) throw BadFile(files.problem);
     if (!is_read) throw BadFile("is no valid glTF: " + first_line(problems));
+    document.skins = std::move(geometry.skins);
+    document.is_hidden = std::move(geometry.is_hidden);
+    document.instances = std::move(geometry.instances);
     document.losses = std::move(geometry.losses);
     document.materials = std::move(geometry.materials);
     document.bytes = bytes.size();
-    for (const tinygltf::Buffer& buffer : document.model.buffers) document.bytes += buffer.data.size();
+    for (const BufferSource& source : geometry.buffers) {
+        document.buffers.push_back(
+            buffer_from(source, document.buffers.size(), chunks.binary, document, folder, reach));
+    }
+    decompress(document, geometry.compressed_views);
+    decompress(document, geometry.draco_primitives);
     return document;
 }
 

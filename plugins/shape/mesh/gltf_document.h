@@ -14,22 +14,53 @@
 // clang-format on
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "file_bytes.h"
+#include "gltf_json.h"
 
 namespace mesh::gltf {
 
-struct Document {
-    tinygltf::Model model;     // asset, scene, scenes, nodes, meshes, accessors, views and buffers
-    std::vector<Loss> losses;  // what else the file has
-    std::vector<std::string> materials;
-    std::size_t bytes = 0;  // of the file and of its buffers
+/// The bytes of a buffer: its own, or some of the file's.
+struct Buffer {
+    Buffer() = default;
+    explicit Buffer(Array<char> own) : owned(std::move(own)), bytes(owned.data(), owned.size()) {}
+    explicit Buffer(std::string_view of_file) : bytes(of_file) {}
+    Buffer(Buffer&&) noexcept = default;  // moved arrays stay where they are
+    Buffer& operator=(Buffer&&) noexcept = default;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+    ~Buffer() = default;
+
+    Array<char> owned{};
+    std::string_view bytes{};
 };
 
-/// Buffers outside the file are read from `folder`, and as far from it as `reach` allows. Throws BadFile.
+struct Document {
+    tinygltf::Model model;  // asset, scene, scenes, nodes, meshes, accessors and views; no buffers
+    std::vector<Buffer> buffers;
+    std::vector<Skin> skins;
+    std::vector<bool> is_hidden;                 // per node
+    std::map<std::size_t, Instances> instances;  // by node
+    std::vector<Loss> losses;                    // what else the file has
+    std::vector<std::string> materials;
+    std::vector<std::filesystem::path> files;  // of buffers
+    std::size_t bytes = 0;                     // of the file and of its buffers
+
+    /// The bytes of a view. Throws BadFile if they are not there.
+    std::string_view view(std::size_t index) const;
+    /// A new view of a new buffer.
+    std::size_t add_view(Array<char> content);
+    /// A new accessor of `count` elements without gaps: TINYGLTF_COMPONENT_TYPE_..., TINYGLTF_TYPE_...
+    int add_accessor(Array<char> content, int component_type, int type, std::size_t count);
+};
+
+/// Buffers outside the file are read from `folder`, and as far from it as `reach` allows; what is compressed
+/// is decompressed. The document refers to `bytes`. Throws BadFile.
 Document read_document(std::string_view bytes, const std::filesystem::path& folder, Reach reach);
 
 }  // namespace mesh::gltf

@@ -4,81 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
-#include <optional>
+#include <limits>
 #include <set>
 
+#include "gltf_losses.h"
+#include "gltf_values.h"
 #include "surface.h"
 #include "text_scanner.h"
 
 namespace mesh::gltf {
 
 namespace {
-
-using Json = nlohmann::json;
-
-/// Parsers may recurse; what is nested more deeply is no glTF file.
-void require_shallow(std::string_view json) {
-    constexpr int k_deepest = 64;
-    int depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            if (c == '"') in_string = false;
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
-            if (++depth > k_deepest)
-                throw BadFile(fmt::format("has JSON nested more than {} deep", k_deepest));
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    }
-}
-
-Json parsed(std::string_view text) {
-    require_shallow(text);
-    try {
-        Json json = Json::parse(text);
-        if (!json.is_object()) throw BadFile("is no glTF file: its JSON is no object");
-        return json;
-    } catch (const Json::parse_error& problem) {
-        throw BadFile(fmt::format("is no JSON from byte {} on", problem.byte));
-    }
-}
-
-const Json& none() {
-    static const Json array = Json::array();
-    return array;
-}
-
-/// The array of that name, or an empty one.
-const Json& array_of(const Json& object, const char* name) {
-    if (!object.is_object()) return none();
-    const auto found = object.find(name);
-    return found != object.end() && found->is_array() ? *found : none();
-}
-
-std::optional<std::size_t> index_of(const Json& object, const char* name) {
-    if (!object.is_object()) return std::nullopt;
-    const auto found = object.find(name);
-    if (found == object.end() || !found->is_number_unsigned()) return std::nullopt;
-    return found->get<std::size_t>();
-}
-
-const Json* element(const Json& array, std::optional<std::size_t> index) {
-    return index && *index < array.size() ? &array[*index] : nullptr;
-}
-
-bool has_extension(const Json& object, const char* name) {
-    if (!object.is_object()) return false;
-    const auto extensions = object.find("extensions");
-    return extensions != object.end() && extensions->is_object() && extensions->contains(name);
-}
 
 /// A copy with only those members that are named.
 Json only(const Json& object, std::initializer_list<const char*> members) {
@@ -89,198 +26,234 @@ Json only(const Json& object, std::initializer_list<const char*> members) {
     return result;
 }
 
-/// Extensions that change nothing about triangles.
-bool is_about_appearance(std::string_view extension) {
-    constexpr std::array<std::string_view, 7> k_prefixes = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
-                                                            "MSFT_texture_",  "KHR_lights_",  "EXT_lights_",
-                                                            "KHR_xmp"};
-    return std::ranges::any_of(k_prefixes, [&](std::string_view p) { return extension.starts_with(p); });
-}
-
-void require_known_extensions(const Json& json) {
-    for (const Json& extension : array_of(json, "extensionsRequired")) {
-        if (!extension.is_string()) continue;
-        const auto& name = extension.get_ref<const std::string&>();
-        if (is_about_appearance(name) || name == "KHR_mesh_quantization" || name.starts_with("KHR_animation"))
-            continue;
-        const bool is_compression = name == "KHR_draco_mesh_compression" ||
-                                    name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression";
-        throw BadFile(fmt::format("needs the glTF extension {}, which Candela does not read{}",
-                                  in_quotes(name), is_compression ? "; save it without compression" : ""));
-    }
-}
-
-// ---- losses
-
-void note(std::vector<Loss>& losses, std::size_t count, std::string_view singular,
-          bool is_appearance = false) {
-    if (count > 0) losses.emplace_back(counted(count, singular), is_appearance);
-}
-
-std::vector<Loss> losses_of(const Json& json) {
-    std::vector<Loss> losses;
-    for (const char* const what : {"material", "texture", "image", "camera"})
-        note(losses, array_of(json, (std::string(what) + "s").c_str()).size(), what, true);
-    for (const char* const what : {"animation", "skin"})
-        note(losses, array_of(json, (std::string(what) + "s").c_str()).size(), what);
-    if (const auto extensions = json.find("extensions");
-        extensions != json.end() && extensions->is_object()) {
-        if (const auto lights = extensions->find("KHR_lights_punctual"); lights != extensions->end())
-            note(losses, array_of(*lights, "lights").size(), "light", true);
-    }
-    std::size_t targets = 0, points = 0, lines = 0;
-    bool has_more_colors = false, has_second_uv = false, has_other_attributes = false;
-    for (const Json& mesh : array_of(json, "meshes")) {
-        for (const Json& primitive : array_of(mesh, "primitives")) {
-            targets += array_of(primitive, "targets").size();
-            const std::size_t mode = index_of(primitive, "mode").value_or(4);
-            if (mode == 0) ++points;
-            if (mode >= 1 && mode <= 3) ++lines;
-            const auto attributes = primitive.is_object() ? primitive.find("attributes") : primitive.end();
-            if (attributes == primitive.end() || !attributes->is_object()) continue;
-            for (const auto& [name, unused] : attributes->items()) {
-                if (name.starts_with("COLOR_")) {
-                    has_more_colors = has_more_colors || name != "COLOR_0";
-                } else if (name.starts_with("TEXCOORD_")) {
-                    has_second_uv = has_second_uv || name != "TEXCOORD_0";
-                } else if (name != "POSITION" && name != "NORMAL" && name != "TANGENT" &&
-                           !name.starts_with("JOINTS_") && !name.starts_with("WEIGHTS_")) {
-                    has_other_attributes = true;
-                }
-            }
-        }
-    }
-    note(losses, targets, "morph target");
-    const auto note_sets = [&](std::size_t count, std::string_view of) {
-        if (count > 0) losses.emplace_back(fmt::format("{} set{} of {}", count, count == 1 ? "" : "s", of));
-    };
-    note_sets(points, "points");
-    note_sets(lines, "lines");
-    if (has_more_colors) losses.emplace_back("further vertex colours");
-    if (has_second_uv) losses.emplace_back("further texture coordinates");
-    if (has_other_attributes) losses.emplace_back("attributes of vertices of its own");
-    const std::size_t scenes = array_of(json, "scenes").size();
-    if (scenes > 1) note(losses, scenes - 1, "other scene");
-    std::set<std::string> extensions;
-    for (const Json& extension : array_of(json, "extensionsUsed"))
-        if (extension.is_string()) extensions.insert(extension.get<std::string>());
-    std::vector<std::string> unknown;
-    for (const std::string& name : extensions)
-        if (!is_about_appearance(name) && name != "KHR_mesh_quantization") unknown.push_back(in_quotes(name));
-    constexpr std::size_t k_most_named = 5;
-    if (unknown.size() > k_most_named) {
-        const std::size_t more = unknown.size() - k_most_named;
-        unknown.resize(k_most_named);
-        unknown.push_back(fmt::format("{} more", more));
-    }
-    if (!unknown.empty())
-        losses.emplace_back(
-            fmt::format("the extension{} {}", unknown.size() == 1 ? "" : "s", listed(unknown)));
-    return losses;
-}
-
-// ---- what is left
-
-/// Which buffers hold vertices and indices; the others need not even exist.
-class NeededBuffers {
-  public:
-    explicit NeededBuffers(const Json& json)
-        : accessors_(array_of(json, "accessors")), views_(array_of(json, "bufferViews")) {
-        for (const Json& mesh : array_of(json, "meshes")) {
-            for (const Json& primitive : array_of(mesh, "primitives")) {
-                const bool is_draco = has_extension(primitive, "KHR_draco_mesh_compression");
-                add_accessor(index_of(primitive, "indices"), is_draco);
-                if (!primitive.is_object()) continue;
-                const auto attributes = primitive.find("attributes");
-                if (attributes == primitive.end()) continue;
-                for (const char* const name : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"})
-                    add_accessor(index_of(*attributes, name), is_draco);
-            }
-        }
-    }
-    bool contain(std::size_t buffer) const { return needed_.contains(buffer); }
-
-  private:
-    void add_accessor(std::optional<std::size_t> index, bool is_draco) {
-        const Json* const accessor = element(accessors_, index);
-        if (accessor == nullptr || !accessor->is_object()) return;
-        // Such an accessor would be read as zeros.
-        if (is_draco && !accessor->contains("bufferView")) {
-            throw BadFile(
-                "is compressed by the glTF extension 'KHR_draco_mesh_compression', which Candela does "
-                "not read; save it without compression");
-        }
-        add_view(*accessor);
-        if (const auto sparse = accessor->find("sparse"); sparse != accessor->end() && sparse->is_object()) {
-            for (const char* const part : {"indices", "values"})
-                if (const auto found = sparse->find(part); found != sparse->end()) add_view(*found);
-        }
-    }
-    void add_view(const Json& of) {
-        const Json* const view = element(views_, index_of(of, "bufferView"));
-        if (view == nullptr) return;
-        if (const auto buffer = index_of(*view, "buffer")) needed_.insert(*buffer);
-    }
-
-    const Json& accessors_;
-    const Json& views_;
-    std::set<std::size_t> needed_;
-};
-
-Json buffers_of(const Json& json, bool has_binary) {
-    const NeededBuffers needed(json);
-    Json buffers = Json::array();
-    for (const Json& buffer : array_of(json, "buffers")) {
-        const std::size_t index = buffers.size();
-        if (!needed.contain(index)) {
-            buffers.push_back({{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}});
-            continue;
-        }
-        const bool has_uri = buffer.is_object() && buffer.contains("uri");
-        if (!has_uri && (index > 0 || !has_binary)) {
-            const bool is_meshopt = has_extension(buffer, "EXT_meshopt_compression") ||
-                                    has_extension(buffer, "KHR_meshopt_compression");
-            throw BadFile(
-                is_meshopt
-                    ? "is compressed by the glTF extension 'EXT_meshopt_compression', which Candela does "
-                      "not read; save it without compression"
-                    : fmt::format("has no data for buffer {}", index));
-        }
-        buffers.push_back(only(buffer, {"byteLength", "uri"}));
-    }
-    return buffers;
-}
-
-Json meshes_of(const Json& json) {
-    Json meshes = Json::array();
-    for (const Json& mesh : array_of(json, "meshes")) {
-        Json primitives = Json::array();
-        for (const Json& primitive : array_of(mesh, "primitives")) {
-            Json copy = only(primitive, {"attributes", "indices", "mode", "material"});
-            if (copy.is_object() && copy.contains("attributes"))
-                copy["attributes"] =
-                    only(copy["attributes"], {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"});
-            primitives.push_back(std::move(copy));
-        }
-        meshes.push_back({{"primitives", std::move(primitives)}});
-    }
-    return meshes;
-}
-
 Json copies(const Json& json, const char* array, std::initializer_list<const char*> members) {
     Json result = Json::array();
     for (const Json& one : array_of(json, array)) result.push_back(only(one, members));
     return result;
 }
 
+constexpr std::array k_attributes = {"POSITION", "NORMAL",    "TEXCOORD_0", "COLOR_0",
+                                     "JOINTS_0", "WEIGHTS_0", "JOINTS_1",   "WEIGHTS_1"};
+
+const Json* meshopt_of(const Json& view) {
+    return extension_of(view, "EXT_meshopt_compression", "KHR_meshopt_compression");
+}
+
+/// The file, from its parts to what of them says something about triangles.
+class Geometries {
+  public:
+    Geometries(const Json& json, bool has_binary)
+        : json_(json), has_binary_(has_binary), accessors_(array_of(json, "accessors")) {
+        // Without skins and weights, joints and targets change nothing.
+        is_skinned_ = !array_of(json, "skins").empty();
+        for (const char* const array : {"meshes", "nodes"})
+            for (const Json& one : array_of(json, array))
+                for (const Json& weight : array_of(one, "weights"))
+                    is_morphed_ = is_morphed_ || !weight.is_number() || weight.get<double>() != 0;
+    }
+
+    Geometry read() {
+        Json result = {{"asset", {{"version", "2.0"}}}};
+        if (const auto scene = json_.find("scene"); scene != json_.end()) result["scene"] = *scene;
+        const auto set = [&](const char* name, Json&& array) {
+            if (!array.empty()) result[name] = std::move(array);
+        };
+        set("scenes", copies(json_, "scenes", {"nodes"}));
+        set("nodes", nodes());
+        set("meshes", meshes());
+        add_skins();
+        set("accessors",
+            copies(json_, "accessors",
+                   {"bufferView", "byteOffset", "componentType", "normalized", "count", "type", "sparse"}));
+        set("bufferViews", views());
+        geometry_.json = result.dump();
+        std::erase_if(geometry_.compressed_views,
+                      [&](const CompressedView& view) { return !needed_views_.contains(view.view); });
+        add_buffers();
+        for (const Json& material : array_of(json_, "materials"))
+            geometry_.materials.push_back(text_of(material, "name"));
+        geometry_.losses = losses_of(json_);
+        return std::move(geometry_);
+    }
+
+  private:
+    Json nodes() {
+        for (const Json& node : array_of(json_, "nodes")) {
+            const std::size_t number = geometry_.is_hidden.size();
+            const Json* const visibility = extension_of(node, "KHR_node_visibility");
+            geometry_.is_hidden.push_back(visibility != nullptr && visibility->contains("visible") &&
+                                          visibility->at("visible") == false);
+            const Json* const instancing = extension_of(node, "EXT_mesh_gpu_instancing");
+            if (instancing == nullptr) continue;
+            const Json& attributes = object_of(*instancing, "attributes");
+            const auto accessor = [&](const char* name) {
+                const auto index = index_of(attributes, name);
+                if (!index) return -1;
+                if (*index >= accessors_.size()) throw BadFile(fmt::format("has no accessor {}", *index));
+                need_accessor(index);
+                return static_cast<int>(*index);
+            };
+            geometry_.instances[number] = {accessor("TRANSLATION"), accessor("ROTATION"), accessor("SCALE")};
+        }
+        return copies(json_, "nodes",
+                      {"children", "mesh", "skin", "weights", "matrix", "translation", "rotation", "scale"});
+    }
+
+    Json meshes() {
+        Json meshes = Json::array();
+        for (const Json& mesh : array_of(json_, "meshes")) {
+            Json primitives = Json::array();
+            for (const Json& one : array_of(mesh, "primitives"))
+                primitives.push_back(primitive(one, meshes.size(), primitives.size()));
+            meshes.push_back(only(mesh, {"weights"}));
+            meshes.back()["primitives"] = std::move(primitives);
+        }
+        return meshes;
+    }
+
+    void add_skins() {
+        const auto number = [](std::optional<std::size_t> index) {
+            constexpr std::size_t k_most = std::numeric_limits<int>::max();
+            return index && *index <= k_most ? static_cast<int>(*index) : -1;
+        };
+        for (const Json& skin : array_of(json_, "skins")) {
+            const auto matrices = index_of(skin, "inverseBindMatrices");
+            need_accessor(matrices);
+            Skin& result = geometry_.skins.emplace_back();
+            result.inverse_matrices = number(matrices);
+            for (const Json& joint : array_of(skin, "joints"))
+                result.joints.push_back(number(
+                    joint.is_number_unsigned() ? std::optional(joint.get<std::size_t>()) : std::nullopt));
+        }
+    }
+
+    Json primitive(const Json& from, std::size_t mesh, std::size_t number) {
+        Json result = only(from, {"attributes", "indices", "mode", "material"});
+        if (!result.is_object() || !result.contains("attributes")) return result;
+        Json attributes = Json::object();
+        for (const char* const name : k_attributes) {
+            const bool is_of_skin =
+                std::string_view(name).starts_with("J") || std::string_view(name).starts_with("W");
+            const Json& all = object_of(from, "attributes");
+            if (const auto found = all.find(name); found != all.end() && (is_skinned_ || !is_of_skin))
+                attributes[name] = *found;
+        }
+        if (const Json* const draco = extension_of(from, "KHR_draco_mesh_compression"))
+            take_draco(*draco, mesh, number, attributes, result);
+        for (const auto& [name, index] : attributes.items())
+            need_accessor(index_of(attributes, name.c_str()));
+        need_accessor(index_of(result, "indices"));
+        result["attributes"] = std::move(attributes);
+        if (is_morphed_) {
+            Json targets = Json::array();
+            for (const Json& target : array_of(from, "targets")) {
+                targets.push_back(only(target, {"POSITION", "NORMAL"}));
+                for (const char* const name : {"POSITION", "NORMAL"})
+                    need_accessor(index_of(targets.back(), name));
+            }
+            if (!targets.empty()) result["targets"] = std::move(targets);
+        }
+        return result;
+    }
+
+    /// Takes what is compressed out of `attributes` and `primitive`, unless it is there uncompressed, too.
+    void take_draco(const Json& draco, std::size_t mesh, std::size_t number, Json& attributes,
+                    Json& primitive) {
+        const Json* const position = element(accessors_, index_of(attributes, "POSITION"));
+        if (position == nullptr || !position->is_object() || position->contains("bufferView")) return;
+        const auto view = index_of(draco, "bufferView");
+        if (!view) throw BadFile("has a primitive compressed by Draco, but no buffer view with its bytes");
+        DracoPrimitive result{.mesh = mesh, .primitive = number, .view = *view};
+        const Json& ids = object_of(draco, "attributes");
+        for (const auto& [name, unused] : ids.items()) {
+            const auto accessor = index_of(attributes, name.c_str());
+            const auto id = index_of(ids, name.c_str());
+            if (!accessor || element(accessors_, accessor) == nullptr || !id || *id > 0xffff'ffffu) continue;
+            result.attributes[name] = {*accessor, static_cast<std::uint32_t>(*id)};
+            attributes.erase(name);
+        }
+        primitive.erase("indices");
+        need_view(view);
+        geometry_.draco_primitives.push_back(std::move(result));
+    }
+
+    Json views() {
+        Json views = Json::array();
+        for (const Json& view : array_of(json_, "bufferViews")) {
+            Json copy = only(view, {"buffer", "byteOffset", "byteLength", "byteStride"});
+            if (const Json* const meshopt = meshopt_of(view)) {
+                const auto member = [&](const char* name) {
+                    const auto value = index_of(*meshopt, name);
+                    if (!value)
+                        throw BadFile(
+                            fmt::format("has a buffer view {} compressed by meshoptimizer without {}",
+                                        views.size(), name));
+                    return *value;
+                };
+                geometry_.compressed_views.push_back({.view = views.size(),
+                                                      .count = member("count"),
+                                                      .stride = member("byteStride"),
+                                                      .mode = text_of(*meshopt, "mode"),
+                                                      .filter = text_of(*meshopt, "filter")});
+                copy["buffer"] = member("buffer");
+                copy["byteOffset"] = index_of(*meshopt, "byteOffset").value_or(0);
+                copy["byteLength"] = member("byteLength");
+            }
+            views.push_back(std::move(copy));
+        }
+        return views;
+    }
+
+    void need_accessor(std::optional<std::size_t> index) {
+        const Json* const accessor = element(accessors_, index);
+        if (accessor == nullptr || !accessor->is_object()) return;
+        need_view(index_of(*accessor, "bufferView"));
+        const Json& sparse = object_of(*accessor, "sparse");
+        for (const char* const part : {"indices", "values"})
+            need_view(index_of(object_of(sparse, part), "bufferView"));
+    }
+    void need_view(std::optional<std::size_t> index) {
+        const Json* const view = element(array_of(json_, "bufferViews"), index);
+        if (view == nullptr) return;
+        needed_views_.insert(*index);
+        const Json* const meshopt = meshopt_of(*view);
+        if (const auto buffer = index_of(meshopt != nullptr ? *meshopt : *view, "buffer"))
+            needed_.insert(*buffer);
+    }
+
+    void add_buffers() {
+        for (const Json& buffer : array_of(json_, "buffers")) {
+            const std::size_t number = geometry_.buffers.size();
+            BufferSource source{.is_needed = needed_.contains(number)};
+            if (buffer.is_object() && buffer.contains("uri")) source.uri = text_of(buffer, "uri");
+            if (source.is_needed && !source.uri && (number > 0 || !has_binary_))
+                throw BadFile(fmt::format("has no data for buffer {}", number));
+            const auto length = index_of(buffer, "byteLength");
+            if (source.is_needed && !length)
+                throw BadFile(fmt::format("is no valid glTF: buffer {} has no byteLength", number));
+            source.length = length.value_or(0);
+            geometry_.buffers.push_back(std::move(source));
+        }
+    }
+
+    const Json& json_;
+    bool has_binary_;
+    const Json& accessors_;
+    bool is_skinned_ = false, is_morphed_ = false;
+    std::set<std::size_t> needed_, needed_views_;  // buffers, views of them
+    Geometry geometry_;
+};
+
 void require_version_2(const Json& json) {
-    const auto asset = json.find("asset");
-    const bool has_version = asset != json.end() && asset->is_object() && asset->contains("version") &&
-                             (*asset)["version"].is_string();
-    if (!has_version) throw BadFile("is no glTF file: it has no asset with a version");
-    const auto& version = (*asset)["version"].get_ref<const std::string&>();
-    if (!version.starts_with("2."))
-        throw BadFile(fmt::format("is glTF {}; Candela reads glTF 2", in_quotes(version)));
+    std::string version = text_of(object_of(json, "asset"), "version");
+    // Not every file of version 1 says so, but its arrays were objects.
+    if (version.empty() && !object_of(json, "meshes").empty()) version = "1.0";
+    if (version.empty()) throw BadFile("is no glTF file: it has no asset with a version");
+    if (version.starts_with("2.")) return;
+    const bool is_old = version.starts_with("1.") || version.starts_with("0.");
+    throw BadFile(fmt::format(
+        "is glTF {}; Candela reads glTF 2{}", in_quotes(version),
+        is_old ? ", into which gltf-pipeline converts it: npx gltf-pipeline -i OLD.gltf -o NEW.gltf" : ""));
 }
 
 }  // namespace
@@ -289,26 +262,7 @@ Geometry geometry_of(std::string_view text, bool has_binary) {
     const Json json = parsed(text);
     require_version_2(json);
     require_known_extensions(json);
-    Json result = {{"asset", {{"version", "2.0"}}}};
-    if (const auto scene = json.find("scene"); scene != json.end()) result["scene"] = *scene;
-    const auto set = [&](const char* name, Json&& array) {
-        if (!array.empty()) result[name] = std::move(array);
-    };
-    set("scenes", copies(json, "scenes", {"nodes"}));
-    set("nodes", copies(json, "nodes", {"children", "mesh", "matrix", "translation", "rotation", "scale"}));
-    set("meshes", meshes_of(json));
-    set("accessors",
-        copies(json, "accessors",
-               {"bufferView", "byteOffset", "componentType", "normalized", "count", "type", "sparse"}));
-    set("bufferViews", copies(json, "bufferViews", {"buffer", "byteOffset", "byteLength", "byteStride"}));
-    set("buffers", buffers_of(json, has_binary));
-    std::vector<std::string> materials;
-    for (const Json& material : array_of(json, "materials")) {
-        const auto name = material.is_object() ? material.find("name") : material.end();
-        const bool has_name = material.is_object() && name != material.end() && name->is_string();
-        materials.push_back(has_name ? name->get<std::string>() : "");
-    }
-    return {result.dump(), losses_of(json), std::move(materials)};
+    return Geometries(json, has_binary).read();
 }
 
 }  // namespace mesh::gltf

@@ -1,0 +1,16 @@
+// What a glTF file has and a mesh leaves out.
+#pragma once
+
+#include <vector>
+
+#include "gltf_values.h"
+#include "surface.h"
+
+namespace mesh::gltf {
+
+/// Throws BadFile if the file needs an extension that we do not read.
+void require_known_extensions(const Json& json);
+
+std::vector<Loss> losses_of(const Json& json);
+
+}  // namespace mesh::gltf

@@ -1,0 +1,15 @@
+// Buffer views compressed by EXT_meshopt_compression.
+#pragma once
+
+#include <vector>
+
+#include "gltf_document.h"
+#include "gltf_json.h"
+
+namespace mesh::gltf {
+
+/// Puts the bytes that were compressed in place of `views`. Throws BadFile if they are damaged, or declare
+/// more than so many bytes can hold.
+void decompress(Document& document, const std::vector<CompressedView>& views);
+
+}  // namespace mesh::gltf

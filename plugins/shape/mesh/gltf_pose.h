@@ -1,0 +1,37 @@
+// Vertices as morph targets and skins place them, at rest.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gltf_accessor.h"
+#include "gltf_affine.h"
+#include "gltf_document.h"
+#include "gltf_walk.h"
+
+namespace mesh::gltf {
+
+/// What moves a primitive's vertices, `count` of them. Refers to the document.
+class Pose {
+  public:
+    /// `nodes`: of node_transformations(). Throws BadFile.
+    Pose(const Document& document, const Placed& placed, std::size_t count, const std::vector<Affine>& nodes);
+
+    /// Adds the morph targets of `attribute`, "POSITION" or "NORMAL", to its components.
+    void morph(const char* attribute, std::array<Array<double>, 3>& values) const;
+    /// The transformation to the world of a vertex.
+    Affine of(std::size_t vertex) const;
+    /// Whether all vertices have the same.
+    bool is_rigid() const { return joints_.empty(); }
+
+  private:
+    const Document& document_;
+    const Placed& placed_;
+    std::size_t count_;
+    std::vector<Affine> matrices_;                 // of the skin's joints
+    std::vector<Array<double>> joints_, weights_;  // per influence
+};
+
+}  // namespace mesh::gltf
