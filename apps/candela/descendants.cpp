@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 #include "directory_entries.h"
 
@@ -84,6 +85,24 @@ void kill_tree(pid_t process, int levels) noexcept {
 }  // namespace
 
 void inherit_orphans() noexcept { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
+
+void let_descendants_end() noexcept {
+    constexpr int k_rounds = 500, k_empty_rounds = 3;
+    constexpr timespec k_pause{.tv_sec = 0, .tv_nsec = 10'000'000};
+    const pid_t self = ::getpid();
+    are_ending = true;
+    // Another thread may be about to start one, which is then seen in the next round.
+    for (int i = 0, empty = 0; i < k_rounds && empty < k_empty_rounds; ++i) {
+        ++empty;
+        for_each_child(self, [&](pid_t child) {
+            empty = 0;
+            ::kill(child, SIGTERM);
+            ::kill(child, SIGCONT);
+            ::waitpid(child, nullptr, WNOHANG);
+        });
+        ::nanosleep(&k_pause, nullptr);
+    }
+}
 
 void end_descendants() noexcept {
     constexpr int k_levels = 12, k_generations = 20;

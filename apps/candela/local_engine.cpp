@@ -41,9 +41,13 @@ std::optional<std::string> failure_of(const Words& command) {
 
 /// Runs one task; says and writes down why it failed, if it has.
 bool run_task(const std::string& name, const Words& command, const JobFolder& folder) {
+    const auto wait_for_the_end = [] {
+        while (are_descendants_ending()) ::pause();
+    };
+    wait_for_the_end();  // before it starts one more
     const auto failure = failure_of(command);
     // The handler of a signal has ended it, and perhaps waited for it, and is about to end this process.
-    while (are_descendants_ending()) ::pause();
+    wait_for_the_end();
     if (!failure) return true;
     std::string why = *failure;
     why.erase(why.find_last_not_of('\n') + 1);

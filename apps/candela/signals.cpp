@@ -24,6 +24,7 @@ void leave_nothing_behind(int signal) {
         ::tgkill(process, process, signal);
         return;
     }
+    if (are_descendants_ended_on_signals()) let_descendants_end();
     // Programs write to folders.
     if (has_temporary_folders() || are_descendants_ended_on_signals()) end_descendants();
     remove_temporary_folders();
