@@ -24,6 +24,7 @@
 #include "verbs.h"
 
 import candela.diagnostics;
+import candela.files;
 import candela.film;
 import candela.render;
 import candela.scene;
@@ -54,7 +55,7 @@ class FrameRenderer {
         require_no_input(file.string(), candela::input_files(draft), "the files that the scene is made from",
                          "give the frames another name");
         const std::string inputs = fingerprints_.of(draft);
-        if (!is_forced && is_up_to_date(file, inputs)) return false;
+        if (!is_forced && is_up_to_date(file, inputs, candela::Links::not_followed)) return false;
         const candela::CompiledScene* const scene = compiler_.compile(draft, known, threads_);
         if (scene == nullptr) {
             report(known);

@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "verbs.h"
 
 import candela.diagnostics;
+import candela.files;
 import candela.film;
 import candela.image;
 import candela.parallel;
@@ -31,6 +33,7 @@ namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
+using candela::Links;
 
 namespace {
 
@@ -64,8 +67,7 @@ class PartRows final : public candela::PictureRows {
         while (!to.empty()) {
             if (left_ == 0) open_next();
             const std::size_t some = std::min(to.size(), left_);
-            file_.read(to.data(), static_cast<std::streamsize>(some));
-            if (!file_) fail();
+            if (file_->read(to.first(some)) != some) fail();
             left_ -= some;
             to = to.subspan(some);
         }
@@ -74,15 +76,13 @@ class PartRows final : public candela::PictureRows {
     void open_next() {
         const PartNumber part{++number_, parted_.parts};
         const fs::path file = file_of_part(picture_, part);
-        if (!is_up_to_date(file, parted_.inputs)) {
+        if (!is_up_to_date(file, parted_.inputs, Links::not_followed)) {
             throw Error(ErrorCategory::failure,
                         fmt::format("'{}' is not as it was rendered; render --part {}/{} makes it again",
                                     file.string(), part.number, part.of));
         }
-        file_.close();
-        file_.clear();
-        file_.open(file, std::ios::binary);
-        if (!file_) fail();
+        file_.emplace(file, Links::not_followed);
+        if (!file_->is_open()) fail();
         const candela::RowRange rows = rows_of(part, parted_.whole.height);
         left_ = parted_.row_size() * static_cast<std::size_t>(rows.end - rows.first);
     }
@@ -96,7 +96,7 @@ class PartRows final : public candela::PictureRows {
     const fs::path& picture_;
     const PartedPicture& parted_;
     ProgressBar& bar_;
-    std::ifstream file_;
+    std::optional<candela::RegularFile> file_;
     int number_ = 0, done_ = 0;
     std::size_t left_ = 0;  // of the open part, in bytes
     std::vector<std::uint8_t> bytes_;
@@ -119,7 +119,8 @@ std::string ranges_of(const std::vector<int>& numbers) {
 void require_all_parts(const fs::path& picture, const PartedPicture& parted) {
     std::vector<int> missing, other;
     for (int i = 1; i <= parted.parts; ++i) {
-        const Recorded is = recorded(file_of_part(picture, {i, parted.parts}), parted.inputs);
+        const Recorded is =
+            recorded(file_of_part(picture, {i, parted.parts}), parted.inputs, Links::not_followed);
         if (is == Recorded::missing) missing.push_back(i);
         if (is == Recorded::other) other.push_back(i);
     }
@@ -157,10 +158,10 @@ int assemble(const CommandLine& line) {
         PartRows rows(picture, parted, bar);
         candela::with_threads(threads_from(line),
                               [&] { candela::write_rows(parted.whole, rows, format, picture, registry); });
-        record(picture, parted.inputs);
+        record(picture, parted.inputs, Links::followed);
     } catch (const Error&) {
         // Somebody else has assembled it meanwhile, and removed the parts.
-        if (recorded(picture, parted.inputs) != Recorded::made) throw;
+        if (recorded(picture, parted.inputs, Links::followed) != Recorded::made) throw;
     }
     if (!line.has("keep-parts")) fs::remove_all(folder_of_parts(picture), problem);
     say_afterwards([&] {

@@ -8,12 +8,13 @@
 #include <boost/uuid/uuid_io.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <system_error>
+
+#include "output_folder.h"
+#include "owned_files.h"
 
 import candela.diagnostics;
 import candela.files;
@@ -22,6 +23,7 @@ import candela.parameters;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
+using candela::Links;
 using candela::PluginKind;
 
 namespace {
@@ -49,32 +51,36 @@ fs::path record_of(const fs::path& picture) {
 }
 
 /// The fingerprints of a file's pieces, so that it need not fit into memory.
-std::string fingerprint_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file.string()));
-    constexpr std::size_t k_piece = std::size_t{1} << 24;
-    std::error_code problem;
-    std::string piece(std::min<std::uintmax_t>(fs::file_size(file, problem), k_piece), '\0'), all;
-    do {
-        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-        all += fingerprint({piece.data(), static_cast<std::size_t>(in.gcount())});
-    } while (in && in.peek() != std::ifstream::traits_type::eof());
-    if (in.bad()) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file.string()));
+std::string fingerprint_of(candela::RegularFile& file, const fs::path& name) {
+    constexpr std::uint64_t k_piece = std::uint64_t{1} << 24;
+    std::string piece(static_cast<std::size_t>(std::min(file.size(), k_piece)), '\0'), all;
+    for (std::uint64_t done = 0; done < file.size() || all.empty();) {
+        const auto count = file.read(piece);
+        if (!count) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", name.string()));
+        if (*count == 0 && !all.empty()) break;
+        all += fingerprint({piece.data(), *count});
+        done += *count;
+    }
     return all.size() == k_fingerprint ? all : fingerprint(all);
 }
 
-/// The size that its record says that the picture has; nothing if it has another one.
-std::optional<std::uintmax_t> recorded_size(const fs::path& picture, const std::string& record) {
-    std::error_code problem;
-    const auto size = fs::file_size(picture, problem);
-    if (problem || record.find(fmt::format("\nbytes {}\n", size)) == std::string::npos) return std::nullopt;
-    return size;
+std::optional<std::string> record_text_of(const fs::path& picture) {
+    constexpr std::size_t k_most = 4096;
+    return read_owned_file(record_of(picture), k_most);
 }
 
-/// What a record of the picture says.
-std::string record_text(const fs::path& picture, const std::string& inputs) {
-    return fmt::format("inputs {}\nbytes {}\npicture {}\n", inputs, fs::file_size(picture),
-                       fingerprint_of(picture));
+/// Whether the picture has the size that its record says.
+bool has_recorded_size(const fs::path& picture, const std::string& record, Links links) {
+    const candela::RegularFile file(picture, links);
+    return file.is_open() && record.find(fmt::format("\nbytes {}\n", file.size())) != std::string::npos;
+}
+
+/// What a record of the picture says; nothing where there is no picture.
+std::optional<std::string> record_text(const fs::path& picture, const std::string& inputs, Links links) {
+    candela::RegularFile file(picture, links);
+    if (!file.is_open()) return std::nullopt;
+    return fmt::format("inputs {}\nbytes {}\npicture {}\n", inputs, file.size(),
+                       fingerprint_of(file, picture));
 }
 
 }  // namespace
@@ -126,30 +132,29 @@ std::string InputFingerprints::of(const candela::SceneDraft& draft) {
     return fingerprint(all);
 }
 
-Recorded recorded(const fs::path& picture, const std::string& inputs) {
-    const auto record = candela::read_text_file(record_of(picture));
-    if (!record || !recorded_size(picture, *record)) return Recorded::missing;
+Recorded recorded(const fs::path& picture, const std::string& inputs, Links links) {
+    const auto record = record_text_of(picture);
+    if (!record || !has_recorded_size(picture, *record, links)) return Recorded::missing;
     return record->starts_with(fmt::format("inputs {}\n", inputs)) ? Recorded::made : Recorded::other;
 }
 
 bool is_recorded(const fs::path& picture) {
-    const auto record = candela::read_text_file(record_of(picture));
-    return record && recorded_size(picture, *record);
+    const auto record = record_text_of(picture);
+    return record && has_recorded_size(picture, *record, Links::followed);
 }
 
-bool is_up_to_date(const fs::path& picture, const std::string& inputs) {
+bool is_up_to_date(const fs::path& picture, const std::string& inputs, Links links) {
     // Another input, another size, or none recorded: the picture need not even be read.
-    if (recorded(picture, inputs) != Recorded::made) return false;
-    return candela::read_text_file(record_of(picture)) == record_text(picture, inputs);
+    if (recorded(picture, inputs, links) != Recorded::made) return false;
+    const auto is = record_text(picture, inputs, links);
+    return is && record_text_of(picture) == is;
 }
 
-void record(const fs::path& picture, const std::string& inputs) {
+void record(const fs::path& picture, const std::string& inputs, Links links) {
+    const auto text = record_text(picture, inputs, links);
+    if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", picture.string()));
     const fs::path file = record_of(picture);
-    std::error_code problem;
-    fs::create_directories(file.parent_path(), problem);
-    // Not synced: what a crash of the machine leaves of it does not fit the picture, which is then made
-    // again.
-    std::ofstream out(file, std::ios::trunc);
-    out << record_text(picture, inputs) << std::flush;
-    if (!out) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be written", file.string()));
+    candela::make_owned_folder(folder_of(picture), file.parent_path().filename());
+    // What a crash of the machine leaves of it does not fit the picture, which is then made again.
+    write_owned_file(file, *text, candela::Durability::fast);
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+import candela.files;
 import candela.film;
 import candela.registry;
 import candela.scene;
@@ -33,14 +34,15 @@ enum class Recorded {
     made,     // from these inputs
     other     // made from others
 };
-Recorded recorded(const std::filesystem::path& picture, const std::string& inputs);
+/// `links`: whether the picture may be one, because a person chose its name.
+Recorded recorded(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
 
-/// The same, whatever it was made from.
+/// The same of a picture whose name a person chose, whatever it was made from.
 bool is_recorded(const std::filesystem::path& picture);
 
 /// Whether the picture is whole, and was made from these inputs.
-bool is_up_to_date(const std::filesystem::path& picture, const std::string& inputs);
+bool is_up_to_date(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
 
 /// Writes down what the picture was made from, in the folder .candela beside it. Throws candela::Error
 /// (failure).
-void record(const std::filesystem::path& picture, const std::string& inputs);
+void record(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);

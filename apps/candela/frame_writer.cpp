@@ -5,6 +5,7 @@
 
 #include "frame_record.h"
 
+import candela.files;
 import candela.image;
 import candela.parallel;
 
@@ -33,9 +34,13 @@ void FrameWriter::write(const candela::Film& film, const fs::path& file, const s
     on_their_way_.push_back(std::async(std::launch::async, [this, copy = film, file, inputs] {
         constexpr double k_milliseconds = 3e-6;  // that a pixel takes its encoder
         candela::with_threads(
-            threads_, [&] { candela::write_picture(copy, format_, file, registry_); },
+            threads_,
+            [&] {
+                candela::write_picture(copy, format_, file, registry_, candela::Existing::replaced,
+                                       candela::Links::not_followed);
+            },
             k_milliseconds * copy.width() * copy.height());
-        record(file, inputs);
+        record(file, inputs, candela::Links::not_followed);
     }));
 }
 

@@ -104,7 +104,7 @@ int run_import(const std::vector<std::string>& arguments) {
         return 0;
     }
     if (!pictures.empty()) {
-        OutputFolder beside(folder / pictures_folder);
+        OutputFolder beside(folder / pictures_folder, candela::Links::not_followed);
         for (const auto& [name, content] : pictures) beside.write(name, content);
         beside.finish();
     }

@@ -11,6 +11,9 @@
 /// and the rest is done all the same. Returns the exit code.
 int run_locally(const Submission& job, std::size_t processes);
 
+/// Throws candela::Error (bad_request) where a log in the job's folder cannot be named in a script for Slurm.
+void require_folder_for_slurm(const Submission& job);
+
 /// The scripts for Slurm: an array job of the open tasks, and the last one.
 std::string slurm_script_of_tasks(const Submission& job);
 std::string slurm_script_of_last(const Submission& job);

@@ -6,6 +6,7 @@
 
 #include "json/json.h"
 #include "output_folder.h"
+#include "owned_files.h"
 
 import candela.diagnostics;
 import candela.files;
@@ -15,6 +16,9 @@ using candela::Error;
 using candela::ErrorCategory;
 
 namespace {
+
+// Some 400,000 frames, and what a machine can parse.
+constexpr std::size_t k_largest_plan = std::size_t{64} << 20;
 
 Json as_json(const JobFile& file) { return {{"path", file.path.string()}, {"inputs", file.inputs}}; }
 
@@ -53,6 +57,9 @@ JobPlan plan_from(const Json& json) {
     if (const Json& whole = json.at("whole"); !whole.is_null()) plan.whole = file_from(whole);
     for (const Json& task : json.at("tasks")) {
         JobTask& made = plan.tasks.emplace_back(task.at("name").get<std::string>());
+        // It is the name of a file in the job's folder.
+        if (made.name.empty() || made.name.find('/') != std::string::npos)
+            throw Error(ErrorCategory::failure, fmt::format("a task is called '{}'", made.name));
         for (const Json& file : task.at("files")) made.files.push_back(file_from(file));
     }
     for (const Json& result : json.at("results")) plan.results.emplace_back(result.get<std::string>());
@@ -79,19 +86,44 @@ std::vector<JobFolder> JobFolder::all_in(const fs::path& directory) {
     return folders;
 }
 
+void JobFolder::make() const {
+    const fs::path jobs = path_.parent_path();
+    candela::make_owned_folder(folder_of(jobs.parent_path()),
+                               jobs.parent_path().filename() / jobs.filename() / path_.filename());
+}
+
 void write_plan(const JobPlan& plan, const JobFolder& folder) {
-    make_folder(folder.path());
-    candela::write_text_file(folder.plan(), json_text(as_json(plan), 1) + '\n');
+    const std::string text = json_text(as_json(plan), 1) + '\n';
+    if (text.size() > k_largest_plan) {
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format("the plan of {} tasks has {} MB; {} MB are the most: submit fewer frames at a "
+                        "time, by --frames",
+                        plan.tasks.size(), text.size() >> 20, k_largest_plan >> 20));
+    }
+    folder.make();
+    write_owned_file(folder.plan(), text);
 }
 
 JobPlan read_plan(const JobFolder& folder) {
-    const auto text = candela::read_text_file(folder.plan());
-    if (!text)
-        throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", folder.plan().string()));
+    const auto text = read_owned_file(folder.plan(), k_largest_plan);
+    if (!text) {
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format("'{}' cannot be read: expected a regular file of at most {} MB; submit the job "
+                        "again",
+                        folder.plan().string(), k_largest_plan >> 20));
+    }
+    const auto fail = [&](const std::exception& problem) {
+        throw Error(ErrorCategory::failure, fmt::format("'{}' is not a job's plan: {}; submit the job again",
+                                                        folder.plan().string(), problem.what()));
+    };
     try {
         return plan_from(parse_json(*text));
     } catch (const Json::exception& problem) {
-        throw Error(ErrorCategory::failure, fmt::format("'{}' is not a job's plan: {}; submit the job again",
-                                                        folder.plan().string(), problem.what()));
+        fail(problem);
+    } catch (const Error& problem) {
+        fail(problem);
     }
+    return {};
 }

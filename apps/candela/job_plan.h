@@ -40,6 +40,9 @@ class JobFolder {
     static std::vector<JobFolder> all_in(const std::filesystem::path& directory);
 
     const std::filesystem::path& path() const { return path_; }
+    /// Makes the folder; no part of it but the output's own folder may be a link. Throws candela::Error
+    /// (failure).
+    void make() const;
     std::filesystem::path plan() const { return path_ / "plan.json"; }
     std::filesystem::path journal_of(const std::string& task) const { return path_ / (task + ".json"); }
     /// What a queue has caught of what a task printed. `task`: its number, from 1, or k_last_task.

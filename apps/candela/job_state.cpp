@@ -4,10 +4,12 @@
 #include <system_error>
 
 #include "frame_record.h"
+#include "owned_files.h"
 
 import candela.files;
 
 namespace fs = std::filesystem;
+using candela::Links;
 using State = JournalEntry::State;
 using Kind = TaskState::Kind;
 
@@ -15,13 +17,13 @@ namespace {
 
 /// The last line that is not empty; a queue writes there why it ended a task.
 std::string last_line_of(const fs::path& log) {
-    const auto text = candela::read_text_file(log);
-    if (!text) return "";
-    const std::size_t end = text->find_last_not_of(" \t\r\n");
+    constexpr std::size_t k_most = 4096;
+    const std::string text = end_of_owned_file(log, k_most);
+    const std::size_t end = text.find_last_not_of(" \t\r\n");
     if (end == std::string::npos) return "";
-    const std::size_t before = text->find_last_of('\n', end);
+    const std::size_t before = text.find_last_of('\n', end);
     const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-    return text->substr(begin, end + 1 - begin);
+    return text.substr(begin, end + 1 - begin);
 }
 
 /// What the journal and the log say of a task whose files are not all there.
@@ -69,12 +71,12 @@ const char* name_of(Kind kind) {
 TaskState state_of(const JobPlan& plan, const JobTask& task, std::size_t number, const JobFolder& folder) {
     TaskState state{.name = task.name, .files = task.files.size(), .journal = {}, .why = {}};
     const JobFile& whole = plan.whole;
-    const bool is_whole =
-        !whole.path.empty() && recorded(plan.directory / whole.path, whole.inputs) == Recorded::made;
+    const bool is_whole = !whole.path.empty() && recorded(plan.directory / whole.path, whole.inputs,
+                                                          Links::followed) == Recorded::made;
     if (is_whole) state.files_done = state.files;
     for (const JobFile& file : task.files) {
         if (is_whole) break;
-        const Recorded is = recorded(plan.directory / file.path, file.inputs);
+        const Recorded is = recorded(plan.directory / file.path, file.inputs, Links::not_followed);
         if (is == Recorded::made) ++state.files_done;
         if (is == Recorded::other) ++state.files_other;
     }

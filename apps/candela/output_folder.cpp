@@ -30,26 +30,55 @@ fs::path existing_part_of(const fs::path& target) {
     }
 }
 
-/// Moves every file below `from` to the same place below `to`.
+/// Throws where something else is in the way of what is below `from`, before any of it is moved.
+void require_no_obstacle(const fs::path& from, const fs::path& to) {
+    for (const std::string& name : candela::names_in(from).value_or(std::vector<std::string>())) {
+        const fs::file_status there = fs::symlink_status(to / name);
+        if (!fs::exists(there)) continue;
+        const bool is_folder = fs::is_directory(fs::symlink_status(from / name));
+        if (is_folder != fs::is_directory(there))
+            fail(to / name, is_folder ? "something else is there, a link or a file; remove it"
+                                      : "expected a file there, or nothing; remove it");
+        if (is_folder) require_no_obstacle(from / name, to / name);
+    }
+}
+
+/// Moves every file below `from` to the same place below `to`, a folder that is there.
 void move_files(const fs::path& from, const fs::path& to) {
     const auto names = candela::names_in(from);
     if (!names) throw fs::filesystem_error("", from, std::make_error_code(std::errc::io_error));
-    fs::create_directories(to);
     for (const std::string& name : *names) {
-        if (fs::is_directory(fs::symlink_status(from / name)))
+        if (fs::is_directory(fs::symlink_status(from / name))) {
+            candela::make_owned_folder(to, name);
             move_files(from / name, to / name);
-        else
+        } else {
             fs::rename(from / name, to / name);
+        }
     }
+}
+
+/// Removes a file below a folder, unless a link leads to it.
+void remove_below(const fs::path& folder, const fs::path& name) {
+    fs::path part = folder;
+    for (const fs::path& each : name.parent_path()) {
+        part /= each;
+        if (!fs::is_directory(fs::symlink_status(part))) return;
+    }
+    fs::remove(folder / name);
 }
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& target)
-    : target_(target), beside_(existing_part_of(target), ".candela-") {}
+OutputFolder::OutputFolder(const fs::path& target, candela::Links links)
+    : target_(target), beside_(existing_part_of(target), ".candela-"), draft_(beside_.path() / "draft") {
+    std::error_code none;
+    if (links == candela::Links::not_followed && fs::is_symlink(target, none))
+        fail(target, "a link is there; remove it");
+    make_folder(draft_);
+}
 
 void OutputFolder::write(const fs::path& name, std::string_view content) {
-    const fs::path file = beside_.path() / name;
+    const fs::path file = draft_ / name;
     std::error_code problem;
     fs::create_directories(file.parent_path(), problem);
     if (problem) fail(target_, problem.message());
@@ -69,11 +98,12 @@ void OutputFolder::finish(const std::vector<fs::path>& outdated) try {
     if (!fs::exists(target_)) {
         const fs::path target = fs::absolute(target_ / "").lexically_normal().parent_path();
         fs::create_directories(target.parent_path());
-        fs::rename(beside_.path(), target);
-        return beside_.release();
+        fs::rename(draft_, target);
+        return;
     }
-    for (const fs::path& name : outdated) fs::remove(target_ / name);
-    move_files(beside_.path(), target_);
+    require_no_obstacle(draft_, target_);
+    for (const fs::path& name : outdated) remove_below(target_, name);
+    move_files(draft_, target_);
 } catch (const fs::filesystem_error& problem) {
     fail(target_, problem.code().message());
 }

@@ -23,6 +23,7 @@ import candela.parallel;
 namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
+using candela::Links;
 
 namespace {
 
@@ -32,7 +33,7 @@ void warn_if_dark(const candela::RenderedRows& rows) {
 }
 
 void write_pixels(candela::RenderedRows& rows, int count, const fs::path& path) {
-    candela::OutputFile file(path);
+    candela::OutputFile file(path, candela::Existing::replaced, Links::not_followed);
     constexpr int k_at_once = 64;
     for (int y = 0; y < count; y += k_at_once) {
         const candela::PictureView some = rows.next(k_at_once);
@@ -114,18 +115,18 @@ int render_part(const CommandLine& line) {
                                .inputs = InputFingerprints(registry, format).of(*draft)};
     const fs::path file = file_of_part(output, part);
     const char* is_done = nullptr;
-    if (recorded(output, parted.inputs) == Recorded::made) {
+    if (recorded(output, parted.inputs, Links::followed) == Recorded::made) {
         is_done = "the picture is complete";
     } else {
         write_description(parted, output);
-        if (is_up_to_date(file, parted.inputs)) is_done = "left as it was";
+        if (is_up_to_date(file, parted.inputs, Links::not_followed)) is_done = "left as it was";
     }
     if (is_done == nullptr) {
         ProgressBar bar("rendering", !is_quiet());
         candela::RenderedRows rows(*scene, format.pixels, range,
                                    {.threads = threads, .progress = bar.updater()});
         write_pixels(rows, range.end - range.first, file);
-        record(file, parted.inputs);
+        record(file, parted.inputs, Links::not_followed);
     }
     say_afterwards([&] {
         return fmt::format("{}: part {} of {}, rows {} to {}, {}\n", output, part.number, part.of,

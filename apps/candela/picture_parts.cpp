@@ -9,6 +9,7 @@
 
 #include "json/json.h"
 #include "output_folder.h"
+#include "owned_files.h"
 #include "shell_words.h"
 
 import candela.diagnostics;
@@ -21,6 +22,8 @@ using candela::ErrorCategory;
 using candela::PixelType;
 
 namespace {
+
+constexpr std::size_t k_largest_description = 1 << 16;
 
 std::optional<int> number_of(std::string_view text) {
     int number = 0;
@@ -86,15 +89,15 @@ void write_description(const PartedPicture& parted, const fs::path& picture) {
                               {"parts", parted.parts},
                               {"inputs", parted.inputs}};
     const std::string text = json_text(description, 1) + '\n';
-    make_folder(folder_of_parts(picture));
+    candela::make_owned_folder(folder_of(picture), folder_of_parts(picture).filename());
     // Every part says the same.
-    if (candela::read_text_file(description_of(picture)) != text)
-        candela::write_text_file(description_of(picture), text);
+    if (read_owned_file(description_of(picture), k_largest_description) != text)
+        write_owned_file(description_of(picture), text);
 }
 
 PartedPicture read_description(const fs::path& picture) {
     const fs::path file = description_of(picture);
-    const auto text = candela::read_text_file(file);
+    const auto text = read_owned_file(file, k_largest_description);
     if (!text) {
         throw Error(
             ErrorCategory::failure,
@@ -111,7 +114,9 @@ PartedPicture read_description(const fs::path& picture) {
         parted.whole.pixels = is_byte ? PixelType::byte : PixelType::real;
         parted.whole.encoding =
             description.at("srgb").get<bool>() ? ColorEncoding::srgb : ColorEncoding::none;
-        if (parted.whole.width < 1 || parted.parts < 1 || parted.parts > parted.whole.height)
+        constexpr int k_most = 65536;  // as in a scene
+        if (parted.whole.width < 1 || parted.whole.width > k_most || parted.whole.height > k_most ||
+            parted.parts < 1 || parted.parts > parted.whole.height)
             throw Error(ErrorCategory::failure, fmt::format("'{}' describes no picture", file.string()));
         return parted;
     } catch (const Json::exception& problem) {

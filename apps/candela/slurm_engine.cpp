@@ -48,7 +48,7 @@ std::string head(const Submission& job, const std::string& log, const std::strin
 std::string submit(const fs::path& script, const Words& more) {
     Words words = {"sbatch", "--parsable"};
     words.insert(words.end(), more.begin(), more.end());
-    words.push_back(script.string());
+    words.push_back(script.string());  // absolute, so that it does not look like an option
     const candela::ProgramOutput done = candela::run_program(words);
     if (done.exit_code != 0)
         throw Error(ErrorCategory::failure,
@@ -58,6 +58,17 @@ std::string submit(const fs::path& script, const Words& more) {
 }
 
 }  // namespace
+
+void require_folder_for_slurm(const Submission& job) {
+    const std::string folder = absolute(job, job.folder.path()).string();
+    // A backslash in a log's name also switches off its patterns.
+    if (folder.find_first_of("\"\\") == std::string::npos) return;
+    throw Error(
+        ErrorCategory::bad_request,
+        fmt::format("'{}' has a quotation mark or a backslash, and sbatch cannot be given a log in such a "
+                    "folder; use another one",
+                    folder));
+}
 
 std::string slurm_script_of_tasks(const Submission& job) {
     const std::string logs = escaped_for_pattern(absolute(job, job.folder.path()).string());
@@ -84,10 +95,10 @@ std::vector<std::string> submit_to_slurm(const Submission& job) {
             "slurm-client); --dry-run shows what it would be given");
     }
     std::vector<std::string> numbers;
-    if (!job.open.empty()) numbers.push_back(submit(job.folder.script_of_tasks(), {}));
+    if (!job.open.empty()) numbers.push_back(submit(absolute(job, job.folder.script_of_tasks()), {}));
     if (!job.last.empty()) {
-        numbers.push_back(
-            submit(job.folder.script_of_last(), numbers.empty() ? Words() : after_tasks(numbers.front())));
+        numbers.push_back(submit(absolute(job, job.folder.script_of_last()),
+                                 numbers.empty() ? Words() : after_tasks(numbers.front())));
     }
     return numbers;
 }

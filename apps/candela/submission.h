@@ -29,6 +29,10 @@ struct Submission {
 /// A task's command for a shell in any folder.
 std::string shell_line(const Submission& job, const Words& command);
 
+/// Throws candela::Error (bad_request) where a word of the job cannot be in its files: scripts have a command
+/// on each line, and a plan is JSON.
+void require_plain_words(const Submission& job);
+
 /// What all commands of a job begin with. `has_asked`: a person was asked for a model, and nobody asks a
 /// task.
 Words common_words(const CommandLine& line, const char* verb, bool has_asked);

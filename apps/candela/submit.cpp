@@ -19,6 +19,7 @@
 #include "job_plan.h"
 #include "job_state.h"
 #include "output_folder.h"
+#include "owned_files.h"
 #include "reporting.h"
 #include "shell_words.h"
 #include "verbs.h"
@@ -57,6 +58,7 @@ Engine engine_from(const CommandLine& line) {
 
 /// What `status` reads, and what engines run. Journals of an earlier job of the same tasks are removed.
 void write_job(Submission& job, Engine engine) {
+    job.folder.make();
     for (const std::size_t task : job.open) {
         std::error_code problem;
         fs::remove(job.folder.journal_of(job.plan.tasks[task].name), problem);
@@ -67,10 +69,24 @@ void write_job(Submission& job, Engine engine) {
     write_plan(job.plan, job.folder);
     std::string commands;
     for (const Words& command : job.commands) commands += shell_line(job, command) + '\n';
-    candela::write_text_file(job.folder.commands(), commands);
+    write_owned_file(job.folder.commands(), commands);
     if (engine != Engine::slurm) return;
-    if (!job.open.empty()) candela::write_text_file(job.folder.script_of_tasks(), slurm_script_of_tasks(job));
-    if (!job.last.empty()) candela::write_text_file(job.folder.script_of_last(), slurm_script_of_last(job));
+    if (!job.open.empty()) write_owned_file(job.folder.script_of_tasks(), slurm_script_of_tasks(job));
+    if (!job.last.empty()) write_owned_file(job.folder.script_of_last(), slurm_script_of_last(job));
+}
+
+/// Standard output is made printable, and would hold other names.
+void require_printable_words(const Submission& job) {
+    for (const Words& command : job.commands) {
+        for (const std::string& word : command) {
+            if (candela::printable(word) == word) continue;
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("'{}' has characters that are not printed as they are, and --engine print "
+                            "prints it; use another name or value",
+                            candela::printable(word)));
+        }
+    }
 }
 
 void print_command_lines(const Submission& job) {
@@ -189,6 +205,9 @@ int run_submit(const std::vector<std::string>& arguments) {
     job->plan.directory = fs::current_path();
     job->plan.engine = line.get<std::string>("engine");
     job->plan.submitted = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+    require_plain_words(*job);
+    if (engine == Engine::slurm) require_folder_for_slurm(*job);
+    if (engine == Engine::print) require_printable_words(*job);
     for (std::size_t i = 0; i < job->plan.tasks.size(); ++i) {
         if (state_of(job->plan, job->plan.tasks[i], i + 1, job->folder).kind != TaskState::Kind::done)
             job->open.push_back(i);

@@ -6,18 +6,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <ctime>
 #include <mutex>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
+#include "job_plan.h"
 #include "json/json.h"
 #include "output_folder.h"
+#include "owned_files.h"
 #include "reporting.h"
 
 import candela.diagnostics;
@@ -30,6 +35,7 @@ using std::chrono::seconds;
 namespace {
 
 constexpr seconds k_between_signs_of_life{5}, k_longest_silence{60};
+constexpr std::size_t k_largest_journal = std::size_t{1} << 20, k_longest_failure = std::size_t{1} << 16;
 
 std::string host_name() {
     std::array<char, 256> name{};
@@ -58,29 +64,74 @@ double now() {
 /// When the file was last touched.
 std::optional<double> last_sign_of_life(const fs::path& file) {
     struct stat status{};
-    if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+    if (::lstat(file.c_str(), &status) != 0) return std::nullopt;
     return seconds_since_1970(status.st_mtim);
 }
 
 std::string as_date(double time) {
-    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(time)));
+    constexpr double k_end_of_9999 = 253402300799.0;  // files may be dated later
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                       fmt::gmtime(static_cast<std::time_t>(std::clamp(time, 0.0, k_end_of_9999))));
 }
 
-bool is_there(const Json& entry) {
-    if (entry.value("machine", "") != where_processes_are()) return true;  // cannot be known from here
-    return ::kill(entry.value("pid", 0), 0) == 0 || errno == EPERM;
+/// When a process was started, in the kernel's clock ticks; nothing if it is not there, or a zombie.
+std::optional<std::int64_t> start_of(std::int64_t process) {
+    const auto text = candela::read_text_file(fmt::format("/proc/{}/stat", process));
+    // "7 (a name) S 1 ...": the name may contain anything.
+    const std::size_t name_end = text ? text->rfind(')') : std::string::npos;
+    if (name_end == std::string::npos) return std::nullopt;
+    std::string_view rest = std::string_view(*text).substr(name_end + 1);
+    constexpr int k_state = 1, k_start = 20;
+    for (int field = 1; field <= k_start; ++field) {
+        rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+        if (field == k_state && (rest.starts_with('Z') || rest.starts_with('X'))) return std::nullopt;
+        if (field < k_start) rest.remove_prefix(std::min(rest.find(' '), rest.size()));
+    }
+    std::int64_t ticks = 0;
+    const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), ticks);
+    return problem == std::errc() ? std::optional(ticks) : std::nullopt;
+}
+
+/// Whether the process of a journal may still be there: the same process, not another one that has its number
+/// by now. Of another machine's, nothing can be known from here.
+bool may_be_there(const Json& entry) {
+    if (entry.value("machine", "") != where_processes_are()) return true;
+    const auto number = entry.find("pid");
+    constexpr std::int64_t k_largest_number = 1 << 22;
+    if (number == entry.end() || !number->is_number_integer()) return false;
+    const auto process = number->get<std::int64_t>();
+    if (process < 1 || process > k_largest_number) return false;
+    const auto start = start_of(process);
+    const auto known = entry.find("process_start");
+    // Where /proc hides other people's processes, this still tells that there is one.
+    if (!start) return ::kill(static_cast<pid_t>(process), 0) != 0 && errno == EPERM;
+    return known == entry.end() || *known == *start;
 }
 
 void write(const fs::path& file, const Json& entry) {
     // What a plugin says may be in any encoding.
-    candela::write_text_file(file, json_text(entry, 2) + '\n');
+    write_owned_file(file, json_text(entry, 2) + '\n');
+}
+
+/// As much of what went wrong as a journal has room for.
+std::string bounded(const std::string& why) {
+    return why.size() <= k_longest_failure ? why : why.substr(0, k_longest_failure) + " ...";
+}
+
+/// The folder that a journal is in: a job's, whose parts may not be links, or one that a person has named.
+void make_folder_of_journal(const fs::path& file) {
+    const fs::path folder = folder_of(file), jobs = folder.parent_path();
+    if (jobs.filename() == "jobs" && jobs.parent_path().filename() == ".candela")
+        JobFolder(folder).make();
+    else
+        make_folder(folder);
 }
 
 /// A process says that it works on a task.
 class Journal {
   public:
     explicit Journal(const fs::path& file) : file_(file) {
-        make_folder(folder_of(file_));
+        make_folder_of_journal(file_);
         write(file_, entry("running"));
         alive_ = std::thread([this] { show_life(); });
     }
@@ -99,15 +150,19 @@ class Journal {
     void failed(int exit_code, const std::string& why) const {
         Json failure = entry("failed");
         failure["exit_code"] = exit_code;
-        failure["why"] = why;
+        failure["why"] = bounded(why);
         write(file_, failure);
     }
 
   private:
     Json entry(const char* state) const {
-        return {{"state", state},           {"host", host_name()},
-                {"pid", ::getpid()},        {"machine", where_processes_are()},
-                {"began", as_date(began_)}, {"began_seconds", began_},
+        return {{"state", state},
+                {"host", host_name()},
+                {"pid", ::getpid()},
+                {"process_start", start_of(::getpid()).value_or(0)},
+                {"machine", where_processes_are()},
+                {"began", as_date(began_)},
+                {"began_seconds", began_},
                 {"seconds", now() - began_}};
     }
 
@@ -115,7 +170,7 @@ class Journal {
         std::unique_lock lock(mutex_);
         while (!end_.wait_for(lock, k_between_signs_of_life, [&] { return has_ended_; })) {
             // Both times now, by the clock of the file's server.
-            static_cast<void>(::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0));
+            static_cast<void>(::utimensat(AT_FDCWD, file_.c_str(), nullptr, AT_SYMLINK_NOFOLLOW));
         }
     }
 
@@ -130,7 +185,7 @@ class Journal {
 }  // namespace
 
 std::optional<JournalEntry> read_journal(const fs::path& file) {
-    const auto text = candela::read_text_file(file);
+    const auto text = read_owned_file(file, k_largest_journal);
     if (!text) return std::nullopt;
     const Json entry = json_or_discarded(*text);
     if (!entry.is_object()) return std::nullopt;
@@ -145,10 +200,20 @@ std::optional<JournalEntry> read_journal(const fs::path& file) {
             result.state = state == "done" ? JournalEntry::State::done : JournalEntry::State::failed;
             return result;
         }
+        if (state != "running") return std::nullopt;
         const double last = last_sign_of_life(file).value_or(0.0);
-        result.seconds = last - entry.value("began_seconds", last);
+        const double began = entry.value("began_seconds", last);
+        result.seconds = last - began;
+        // Clocks of machines differ by seconds; nothing that runs has begun, or been alive, after now.
+        const auto patience = static_cast<double>(k_longest_silence.count());
         const double silence = now() - last;
-        if (!is_there(entry) || silence > static_cast<double>(k_longest_silence.count())) {
+        if (silence < -patience || began > last + patience) {
+            result.state = JournalEntry::State::lost;
+            result.why = fmt::format(
+                "its journal is of the future: it began at {}, and its last sign of life "
+                "was at {}; is the clock of {} right?",
+                as_date(began), as_date(last), result.host);
+        } else if (silence > patience || !may_be_there(entry)) {
             result.state = JournalEntry::State::lost;
             result.why =
                 fmt::format("its process on {} ended without a word; its last sign of life was at {}",
@@ -161,11 +226,11 @@ std::optional<JournalEntry> read_journal(const fs::path& file) {
 }
 
 void write_failure(const fs::path& file, const std::string& why) {
-    const auto known = candela::read_text_file(file);
+    const auto known = read_owned_file(file, k_largest_journal);
     Json entry = known ? json_or_discarded(*known) : Json::object();
     if (!entry.is_object()) entry = Json::object();
     entry["state"] = "failed";
-    entry["why"] = why;
+    entry["why"] = bounded(why);
     write(file, entry);
 }
 

@@ -55,6 +55,24 @@ void remove_folder(const char* path) noexcept {
     }
 }
 
+/// A new folder for nobody else, whatever the umask: what is compiled in it is run, or loaded. False, with
+/// errno, if that fails.
+bool make_private_folder(const char* path) noexcept {
+    constexpr mode_t k_private = 0700;
+    if (::mkdir(path, k_private) != 0) return false;
+    struct stat status{};
+    if (::lstat(path, &status) == 0 && (status.st_mode & k_private) == k_private) return true;
+    // By its descriptor, lest it be something else by now.
+    const int folder = ::open(path, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0) return false;
+    const std::string self = fmt::format("/proc/self/fd/{}", folder);
+    const bool is_private = ::chmod(self.c_str(), k_private) == 0;
+    const int problem = errno;
+    ::close(folder);
+    errno = problem;
+    return is_private;
+}
+
 std::string random_name() {
     std::random_device random;
     // Short: browsers make sockets in such folders, whose paths may have 107 characters.
@@ -75,15 +93,13 @@ WithoutInterruption::~WithoutInterruption() { ::pthread_sigmask(SIG_SETMASK, &be
 TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& prefix)
     : path_(fs::absolute(parent) / (prefix + random_name())) {
     const WithoutInterruption during_this;
-    if (::mkdir(path_.c_str(), 0777) != 0) {
+    if (!make_private_folder(path_.c_str())) {
         throw candela::Error(
             candela::ErrorCategory::failure,
             fmt::format("no folder can be made in '{}': {}", parent.string(), std::strerror(errno)));
     }
     enter();
 }
-
-TemporaryFolder::TemporaryFolder(const fs::path& existing) : path_(fs::absolute(existing)) { enter(); }
 
 void TemporaryFolder::enter() {
     const std::string path = path_.string();
@@ -96,19 +112,13 @@ void TemporaryFolder::enter() {
     }
 }
 
-void TemporaryFolder::release() noexcept {
+TemporaryFolder::~TemporaryFolder() {
+    remove_folder(path_.c_str());
     for (Entry& folder : folders) {
         if (!folder.is_there || std::strcmp(path_.c_str(), folder.path.data()) != 0) continue;
         folder.is_there = false;
         folder.is_taken = false;
     }
-    is_released_ = true;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    if (is_released_) return;
-    remove_folder(path_.c_str());
-    release();
 }
 
 bool has_temporary_folders() noexcept {

@@ -7,26 +7,22 @@
 
 import candela.diagnostics;
 
-/// A new folder, removed with all it contains when this is, or when a signal ends the process.
+/// A new folder, which only its owner may enter, removed with all it contains when this is, or when a signal
+/// ends the process.
 class TemporaryFolder {
   public:
     /// In `parent`, with a name of `prefix` and random digits. Throws candela::Error (failure).
     TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
-    /// Takes over a folder that exists; release() lets it live.
-    explicit TemporaryFolder(const std::filesystem::path& existing);
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     ~TemporaryFolder();
 
     const std::filesystem::path& path() const { return path_; }
-    /// From now on, it is a folder like any other, or no longer there.
-    void release() noexcept;
 
   private:
     void enter();
 
     std::filesystem::path path_;
-    bool is_released_ = false;
 };
 
 /// While there is one, the thread is not interrupted by SIGINT, SIGTERM and SIGHUP; they come after it.

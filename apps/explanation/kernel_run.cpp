@@ -1,6 +1,8 @@
 #include "explanation/kernel_run.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -52,6 +54,13 @@ std::size_t hash_of_headers(const fs::path& include) {
     return std::hash<std::string>()(all);
 }
 
+/// Whether a folder is one that nobody else could have filled: what is in it is run.
+bool is_own_folder(const fs::path& folder) {
+    struct stat status{};
+    return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid() &&
+           (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
 }  // namespace
 
 KernelRunner::KernelRunner(std::vector<const PluginDescriptor*> plugins, fs::path kept)
@@ -74,11 +83,13 @@ void KernelRunner::prepare() {
         fmt::format("// with headers {:016x}\n", hash_of_headers(include)) + program_.source();
     const fs::path kept_program =
         kept_.empty() ? fs::path() : kept_ / fmt::format("{:016x}", std::hash<std::string>()(prelude + text));
-    const bool is_there = !kept_.empty() && text_of_file(kept_program / "kernels.cpp") == text &&
+    const bool is_there = !kept_.empty() && is_own_folder(kept_program) &&
+                          text_of_file(kept_program / "kernels.cpp") == text &&
                           text_of_file(kept_program / "candela/prelude.kernel") == prelude;
     const fs::path made = folder_.path() / "program";
     if (!is_there) {
         fs::create_directories(made / "candela");
+        fs::permissions(made, fs::perms::owner_all);  // see is_own_folder()
         write_text(made / "candela/prelude.kernel", prelude);
         write_text(made / "kernels.cpp", text);
         if (!compile(made)) return;

@@ -239,9 +239,19 @@ TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, 
     CHECK(explained_at("256,300", true, true) == alone);
     CHECK(explained_at("256,300", true, false) == alone);
     CHECK(explained_at("250,290", true, false) == explained_at("250,290", false, true));
+    // A folder that others may write to, or a link to one, may hold anybody's program.
+    const fs::path program = fs::directory_iterator(kept)->path();
+    fs::permissions(program, fs::perms::group_write, fs::perm_options::add);
+    CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
+    fs::permissions(program, fs::perms::group_write, fs::perm_options::remove);
+    fs::rename(program, kept.parent_path() / (kept.filename().string() + "-elsewhere"));
+    fs::create_symlink(kept.parent_path() / (kept.filename().string() + "-elsewhere"), program);
+    CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
     // A program whose source is another's is not used.
-    for (const fs::directory_entry& program : fs::directory_iterator(kept))
-        write_file(program.path() / "kernels.cpp", "another");
+    fs::remove(program);
+    CHECK(explained_at("256,300", true, true) == alone);
+    for (const fs::directory_entry& each : fs::directory_iterator(kept))
+        write_file(each.path() / "kernels.cpp", "another");
     CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
     const CommandResult nowhere =
         run_candela({"explain", "--pixel=1,1", "--keep", (kept / "nowhere").string()});

@@ -1,9 +1,14 @@
 module;
 
 #include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -15,7 +20,60 @@ module;
 
 module candela.files;
 
+import candela.diagnostics;
+
 namespace candela {
+
+namespace {
+
+/// A folder that is open, for what is in it.
+class OpenFolder {
+  public:
+    explicit OpenFolder(int descriptor) : descriptor_(descriptor) {}
+    OpenFolder(const OpenFolder&) = delete;
+    OpenFolder& operator=(const OpenFolder&) = delete;
+    ~OpenFolder() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+
+    int number() const { return descriptor_; }
+    /// Enters a folder in it, which need not be there; false, with errno, if that fails.
+    bool enter(const std::filesystem::path& name) {
+        if (::mkdirat(descriptor_, name.c_str(), 0777) != 0 && errno != EEXIST) return false;
+        const int inner = ::openat(descriptor_, name.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        if (inner < 0) return false;
+        ::close(descriptor_);
+        descriptor_ = inner;
+        return true;
+    }
+
+  private:
+    int descriptor_;
+};
+
+[[noreturn]] void fail_to_make(const std::filesystem::path& folder, const char* reason) {
+    throw Error(ErrorCategory::failure,
+                fmt::format("the folder '{}' cannot be made: {}", folder.string(), reason));
+}
+
+}  // namespace
+
+void make_owned_folder(const std::filesystem::path& parent, const std::filesystem::path& owned) {
+    std::error_code problem;
+    std::filesystem::create_directories(parent, problem);
+    if (problem) fail_to_make(parent, problem.message().c_str());
+    OpenFolder folder(::open(parent.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    if (folder.number() < 0) fail_to_make(parent, std::strerror(errno));
+    std::filesystem::path shown = parent == "." ? "" : parent;
+    for (const std::filesystem::path& name : owned) {
+        shown /= name;
+        if (folder.enter(name)) continue;
+        // How the kernel refuses a link depends on what it leads to.
+        const bool is_other = errno == ENOTDIR || errno == ELOOP;
+        fail_to_make(
+            shown, is_other ? "something else is there, a link or a file; remove it" : std::strerror(errno));
+    }
+}
 
 std::filesystem::path canonical_path(const std::filesystem::path& path) {
     std::error_code problem;

@@ -48,6 +48,14 @@ fs::path directory_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+/// What is at a path; false, with errno ENOENT, if there is nothing, or a link that is to be replaced.
+bool found(const fs::path& path, Links links, struct stat& status) {
+    if (links == Links::followed) return ::stat(path.c_str(), &status) == 0;
+    if (::lstat(path.c_str(), &status) != 0) return false;
+    if (S_ISLNK(status.st_mode)) errno = ENOENT;
+    return !S_ISLNK(status.st_mode);
+}
+
 /// A file without a name, or -1 if the file system does not support that (or /proc, through which it gets its
 /// name, is not mounted).
 int open_unnamed(const fs::path& directory, mode_t mode) {
@@ -85,25 +93,33 @@ class OutputFile::NameBeside : public UnfinishedName {
     using UnfinishedName::UnfinishedName;
 };
 
-OutputFile::OutputFile(const fs::path& path, Existing existing) : shown_(path.string()), existing_(existing) {
+OutputFile::OutputFile(const fs::path& path, Existing existing, Links links)
+    : shown_(path.string()), existing_(existing), links_(links) {
     if (path == "-") {
         descriptor_ = STDOUT_FILENO;
         return;
     }
     struct stat before{};
-    const bool is_there = ::stat(path.c_str(), &before) == 0;
+    const bool is_there = found(path, links_, before);
     if (!is_there && errno != ENOENT) fail(shown_, "cannot be written");
     if (is_there && S_ISDIR(before.st_mode)) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' is a directory; a file is to be written", shown_));
     }
     if (is_there && !S_ISREG(before.st_mode)) {
+        if (links_ == Links::not_followed) {
+            throw Error(
+                ErrorCategory::failure,
+                fmt::format("'{}' is a pipe, a socket or a device; expected a regular file or nothing: "
+                            "remove it",
+                            shown_));
+        }
         descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
         if (descriptor_ < 0) fail(shown_, "cannot be opened");
         return;
     }
     if (is_there && existing_ == Existing::kept) fail_as_existing();
-    target_ = behind_links(path);
+    target_ = links_ == Links::followed ? behind_links(path) : path;
     // Nobody may read the new version of a private file while it is being written; see put_in_place().
     const mode_t mode = is_there ? 0600 : 0666;
     descriptor_ = open_unnamed(directory_of(target_), mode);
@@ -138,8 +154,8 @@ void OutputFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes
 
 void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
-void OutputFile::finish() {
-    if (!target_.empty()) return put_in_place();
+void OutputFile::finish(Durability durability) {
+    if (!target_.empty()) return put_in_place(durability);
     if (descriptor_ != STDOUT_FILENO) close();
 }
 
@@ -157,14 +173,14 @@ void OutputFile::fail_as_existing() const {
     throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and is not to be replaced", shown_));
 }
 
-void OutputFile::put_in_place() {
+void OutputFile::put_in_place(Durability durability) {
     struct stat before{};
-    const bool is_there = ::stat(target_.c_str(), &before) == 0;
+    const bool is_there = found(target_, links_, before);
     if (is_there && existing_ == Existing::kept) fail_as_existing();
     if (is_there && ::fchmod(descriptor_, before.st_mode & 07777) != 0) {
         fail(shown_, "cannot be given its rights");
     }
-    sync();
+    if (durability == Durability::durable) sync();
     replace(is_there);
 }
 

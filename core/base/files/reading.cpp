@@ -7,56 +7,56 @@ module;
 #include <array>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 module candela.files;
 
 namespace candela {
 
-namespace {
+RegularFile::RegularFile(const std::filesystem::path& path, Links links)
+    // Whatever is not a regular file must not block.
+    : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY |
+                                           (links == Links::not_followed ? O_NOFOLLOW : 0))) {
+    struct stat status{};
+    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return;
+    is_regular_ = true;
+    size_ = static_cast<std::uint64_t>(status.st_size);
+}
 
-/// A regular file, open for reading; not through a stream, which takes a lack of memory for the end of the
-/// file.
-class RegularFile {
-  public:
-    explicit RegularFile(const std::filesystem::path& path)
-        // What is no regular file must not block.
-        : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {}
-    RegularFile(const RegularFile&) = delete;
-    RegularFile& operator=(const RegularFile&) = delete;
-    ~RegularFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
+RegularFile::~RegularFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool RegularFile::seek(std::uint64_t offset) noexcept {
+    return ::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) >= 0;
+}
+
+std::optional<std::size_t> RegularFile::read(std::span<char> bytes) noexcept {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t count = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return std::nullopt;
+        if (count == 0) break;
+        done += static_cast<std::size_t>(count);
     }
+    return done;
+}
 
-    bool is_open() const {
-        struct stat status{};
-        return descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
-    }
-    ssize_t read(std::array<char, 4096>& part) const {
-        for (;;) {
-            const ssize_t count = ::read(descriptor_, part.data(), part.size());
-            if (count >= 0 || errno != EINTR) return count;
-        }
-    }
-
-  private:
-    int descriptor_;
-};
-
-}  // namespace
-
-std::optional<std::string> read_text_file(const std::filesystem::path& path, std::size_t most) {
-    const RegularFile file(path);
+std::optional<std::string> read_text_file(const std::filesystem::path& path, std::size_t most, Links links) {
+    RegularFile file(path, links);
     if (!file.is_open()) return std::nullopt;
     std::string text;
     std::array<char, 4096> part{};
     while (text.size() <= most) {
-        const ssize_t count = file.read(part);
-        if (count < 0) return std::nullopt;
-        if (count == 0) break;
-        text.append(part.data(), static_cast<std::size_t>(count));
+        const auto count = file.read(part);
+        if (!count) return std::nullopt;
+        text.append(part.data(), *count);
+        if (*count < part.size()) break;
     }
     return text;
 }

@@ -85,11 +85,12 @@ struct PictureFormat {
 /// PNG. Throws Error for an extension that no plugin writes.
 CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
-/// Writes the picture atomically, through an OutputFile; `existing`: what becomes of a file of that name.
+/// Writes the picture atomically, through an OutputFile; `existing`: what becomes of a file of that name, and
+/// `links` of a link.
 /// Plugins that encode on several threads use those of with_threads(). Throws Error.
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
                                const std::filesystem::path& path, Registry& registry,
-                               Existing existing = Existing::replaced);
+                               Existing existing = Existing::replaced, Links links = Links::followed);
 
 /// Whether write_rows() has no need of the whole picture in memory.
 CANDELA_API bool can_write_rows(const PictureFormat& format, Registry& registry);

@@ -96,9 +96,9 @@ std::unique_ptr<ImageFormat> writer_of(const PictureFormat& format, Registry& re
 /// A file of what `call` makes the format's plugin write.
 template <class Call>
 void write(const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing,
-           ColorEncoding encoding, const Call& call) {
+           ColorEncoding encoding, const Call& call, Links links = Links::followed) {
     const auto writer = writer_of(format, registry, encoding);
-    OutputFile file(path, existing);
+    OutputFile file(path, existing, links);
     FileSink stream(file);
     RegularFileSink regular(file);
     ByteSink& sink = file.is_random_access() ? static_cast<ByteSink&>(regular) : stream;
@@ -146,11 +146,11 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
 }
 
 void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry,
-                   Existing existing) {
-    write(format, path, registry, existing, film.view().encoding,
-          [&](const ImageFormat& writer, ByteSink& sink) {
-              writer.write(film.view(), format.extension.c_str(), sink);
-          });
+                   Existing existing, Links links) {
+    const auto call = [&](const ImageFormat& writer, ByteSink& sink) {
+        writer.write(film.view(), format.extension.c_str(), sink);
+    };
+    write(format, path, registry, existing, film.view().encoding, call, links);
 }
 
 bool can_write_rows(const PictureFormat& format, Registry& registry) {

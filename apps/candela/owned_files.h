@@ -1,0 +1,22 @@
+// Files whose names Candela chooses: plans, journals, records, descriptions, parts. The folder that they are
+// in may come from an archive, or be shared, so a link there is never followed, and nothing there is trusted
+// to be small, or to be a file at all.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+import candela.files;
+
+/// The text of a regular file; nothing if it cannot be read, is a link, or has more than `most` bytes.
+std::optional<std::string> read_owned_file(const std::filesystem::path& file, std::size_t most);
+
+/// The last bytes of such a file, `most` or fewer; empty if it cannot be read.
+std::string end_of_owned_file(const std::filesystem::path& file, std::size_t most);
+
+/// Writes it atomically; a link in its place is replaced. Throws candela::Error (failure).
+void write_owned_file(const std::filesystem::path& file, std::string_view text,
+                      candela::Durability durability = candela::Durability::durable);
