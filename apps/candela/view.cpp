@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -59,9 +60,10 @@ std::vector<std::string> without(const std::vector<std::string>& switches,
 }
 
 /// Not as a child that would end together with this: the browser may have been there before.
-void open_browser(const std::string& address) {
+void open_browser(const fs::path& page) {
     if (!candela::program_called("xdg-open")) return;
-    static_cast<void>(candela::run_program({"sh", "-c", "xdg-open \"$1\" >/dev/null 2>&1 &", "sh", address}));
+    static_cast<void>(
+        candela::run_program({"sh", "-c", "xdg-open \"$1\" >/dev/null 2>&1 &", "sh", page.string()}));
 }
 
 }  // namespace
@@ -108,8 +110,9 @@ int run_view(const std::vector<std::string>& arguments) {
         view::Server::Handlers{
             .log = [](const std::string& text) { warn(text); },
             .render =
-                [&](const std::vector<view::Change>& changes) {
-                    return rendered(for_render, changes, pictures.path() / "reference.png");
+                [&](const std::vector<view::Change>& changes, std::stop_token unwanted) {
+                    return rendered(for_render, changes, pictures.path() / "reference.png",
+                                    std::move(unwanted));
                 },
             .explain = [&](const std::vector<view::Change>& changes) { return explainer->explain(changes); },
             .save =
@@ -139,7 +142,7 @@ int run_view(const std::vector<std::string>& arguments) {
                                           });
     const std::string address = server->address();
     std::cout << address << '\n' << std::flush;  // somebody may be waiting for it
-    if (!line.has("no-open")) open_browser(address);
+    if (!line.has("no-open")) open_browser(page_leading_to(address, pictures.path()));
     server->run();
     while_serving.reset();  // a second one ends this at once
     // All wait for programs that they have started.

@@ -1,13 +1,18 @@
 #include "viewing.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -51,13 +56,15 @@ std::vector<std::string> options_of(const std::vector<view::Change>& changes) {
 /// This program, in a process of its own.
 candela::ProgramOutput run_verb(const std::vector<std::string>& verb,
                                 const std::vector<std::string>& arguments,
-                                const std::vector<std::string>& options) {
+                                const std::vector<std::string>& options,
+                                const candela::Patience& patience = {}) {
     std::vector<std::string> words{"/proc/self/exe"};
     for (const auto& some : {verb, arguments, options}) words.insert(words.end(), some.begin(), some.end());
-    return candela::run_program(words);
+    return candela::run_program(words, patience);
 }
 
 constexpr const char* k_inputs = "inputs.json";
+constexpr std::chrono::minutes k_longest_rendering{5};
 // Browsers have both the scene and the processors to themselves until they have drawn it.
 constexpr std::chrono::milliseconds k_until_shown{300};
 
@@ -95,9 +102,16 @@ WithoutDescendants::~WithoutDescendants() {
 }
 
 view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
-                       const fs::path& file) try {
+                       const fs::path& file, std::stop_token unwanted) try {
     const candela::ProgramOutput result =
-        run_verb({"render", "--quiet", "--output", file.string()}, arguments, options_of(changes));
+        run_verb({"render", "--quiet", "--output", file.string()}, arguments, options_of(changes),
+                 {.longest = k_longest_rendering, .unwanted = std::move(unwanted)});
+    if (result.end == candela::ProgramEnd::late) {
+        return {.is_success = false,
+                .content = fmt::format("Rendering took more than {} minutes and was ended; make the picture "
+                                       "smaller, or render it with candela render.\n",
+                                       k_longest_rendering.count())};
+    }
     if (result.exit_code != 0) return {.is_success = false, .content = result.err};
     const auto term = std::ranges::find(changes, "--terms", &view::Change::option);
     return {.is_success = true,
@@ -142,6 +156,27 @@ view::Outcome kept(const std::vector<std::string>& arguments, const std::vector<
                             fs::absolute(name).string(), result.err)};
 } catch (const std::exception& problem) {
     return {.is_success = false, .content = fmt::format("It is not kept: {}", problem.what())};
+}
+
+fs::path page_leading_to(const std::string& address, const fs::path& folder) {
+    fs::path file = folder / "open.html";
+    const std::string page = fmt::format(
+        "<!doctype html>\n<meta charset=\"utf-8\">\n<meta name=\"referrer\" content=\"no-referrer\">\n"
+        "<meta http-equiv=\"refresh\" content=\"0; url={0}\">\n<title>candela view</title>\n"
+        "<a href=\"{0}\">candela view</a>\n",
+        address);
+    constexpr mode_t k_for_its_owner = 0600;
+    const int descriptor =
+        ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, k_for_its_owner);
+    const bool is_written =
+        descriptor >= 0 && ::write(descriptor, page.data(), page.size()) == static_cast<ssize_t>(page.size());
+    const int problem = errno;
+    if (descriptor >= 0) ::close(descriptor);
+    if (!is_written) {
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' cannot be written: {}", file.string(), std::strerror(problem)));
+    }
+    return file;
 }
 
 SceneFollower::SceneFollower(Job job, std::function<void(view::Publication)> publish)

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -40,9 +41,14 @@ class WithoutDescendants {
 };
 
 /// What `candela render` with these arguments makes of a scene, with somebody's changes, or a term of it that
-/// is among them; `file` is where.
+/// is among them; `file` is where. It is ended when nobody wants the picture any more, and after some
+/// minutes.
 view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
-                       const std::filesystem::path& file);
+                       const std::filesystem::path& file, std::stop_token unwanted);
+
+/// Writes a page that leads to `address` into `folder`, for this user alone: the arguments of programs can be
+/// read by every user of the machine. Returns its path; throws candela::Error (failure).
+std::filesystem::path page_leading_to(const std::string& address, const std::filesystem::path& folder);
 
 /// Has `candela edit` with these arguments write somebody's changes into the scene's files.
 view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes);

@@ -1,7 +1,9 @@
 #include "view/server.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/signalfd.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +26,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -81,6 +84,10 @@ std::string events_of(const Publication& state) {
            event_text("problems", json_text(problems));
 }
 
+/// Programs that are started while a socket is open would keep it, and its port, after this one has closed
+/// it.
+void keep_to_this_process(int socket) { ::fcntl(socket, F_SETFD, FD_CLOEXEC); }
+
 /// Those that end a program, to be read; but what the caller ignores (nohup) stays ignored.
 int ending_signals() {
     sigset_t signals;
@@ -120,7 +127,7 @@ class Server::Implementation {
     void leave(Connection& connection) { std::erase(connections_, &connection); }
     void refused(unsigned status);
     /// False if too many wait for one.
-    bool work(Resource resource, std::vector<Change> changes, std::string body,
+    bool work(Resource resource, std::vector<Change> changes, std::string body, std::stop_token unwanted,
               std::function<void(Outcome)> answer);
 
   private:
@@ -261,15 +268,30 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
                                  : route.resource == Resource::explanation ? "application/json"
                                                                            : "text/plain; charset=utf-8";
         const bool is_accepted =
-            server_.work(route.resource, *std::move(changes), parser_.get().body(),
+            server_.work(route.resource, *std::move(changes), parser_.get().body(), unwanted_.get_token(),
                          [self = shared_from_this(), type](Outcome outcome) {
                              Response answer = self->response(
                                  outcome.is_success ? http::status::ok : http::status::unprocessable_entity);
                              if (outcome.is_success) answer.set(http::field::content_type, type);
                              answer.body() = std::move(outcome.content);
+                             error_code ignored;
+                             static_cast<void>(self->stream_.socket().cancel(ignored));
                              self->send(std::move(answer));
                          });
-        if (!is_accepted) send(refusal(503));
+        if (!is_accepted) return send(refusal(503));
+        notice_leaving();
+    }
+
+    /// Nobody reads the answer to a browser that has left.
+    void notice_leaving() {
+        stream_.socket().async_wait(tcp::socket::wait_read, [self = shared_from_this()](error_code problem) {
+            char next = 0;
+            if (problem ||
+                ::recv(self->stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT) > 0)
+                return;
+            self->unwanted_.request_stop();
+            self->close();
+        });
     }
 
     void send(Response response) {
@@ -322,6 +344,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     http::request_parser<http::string_body> parser_;
     Response response_;
     std::string text_;  // being written
+    std::stop_source unwanted_;
     bool has_asked_ = false;
     bool has_events_ = false;
     bool is_writing_ = false;
@@ -333,6 +356,7 @@ Server::Implementation::Implementation(std::uint16_t port, Handlers handlers)
     try {
         const tcp::endpoint here(asio::ip::address_v4::loopback(), port);
         acceptor_.open(here.protocol());
+        keep_to_this_process(acceptor_.native_handle());
         acceptor_.set_option(asio::socket_base::reuse_address(true));
         acceptor_.bind(here);
         acceptor_.listen();
@@ -352,6 +376,7 @@ Server::Implementation::Implementation(std::uint16_t port, Handlers handlers)
 void Server::Implementation::accept() {
     acceptor_.async_accept([this](error_code problem, tcp::socket socket) {
         if (!problem) {
+            keep_to_this_process(socket.native_handle());
             make_room();
             std::make_shared<Connection>(std::move(socket), *this)->start();
             return accept();
@@ -365,15 +390,17 @@ void Server::Implementation::accept() {
 }
 
 bool Server::Implementation::work(Resource resource, std::vector<Change> changes, std::string body,
-                                  std::function<void(Outcome)> answer) {
+                                  std::stop_token unwanted, std::function<void(Outcome)> answer) {
     if (waiting_ == k_most_waiting) return false;
     ++waiting_;
     asio::post(worker_, [this, resource, changes = std::move(changes), body = std::move(body),
-                         answer = std::move(answer)]() mutable {
-        Outcome outcome = resource == Resource::keep          ? handlers_.keep(changes, body)
+                         unwanted = std::move(unwanted), answer = std::move(answer)]() mutable {
+        const bool is_for_nobody = !changes_something(resource) && unwanted.stop_requested();
+        Outcome outcome = is_for_nobody                       ? Outcome{}
+                          : resource == Resource::keep        ? handlers_.keep(changes, body)
                           : resource == Resource::save        ? handlers_.save(changes)
                           : resource == Resource::explanation ? handlers_.explain(changes)
-                                                              : handlers_.render(changes);
+                                                              : handlers_.render(changes, unwanted);
         asio::post(context_, [this, outcome = std::move(outcome), answer = std::move(answer)]() mutable {
             --waiting_;
             answer(std::move(outcome));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ class Server {
     struct Handlers {
         std::function<void(const std::string&)> log;  // what is refused; on the thread that calls run()
         // On a thread of their own, one call at a time.
-        std::function<Outcome(const std::vector<Change>&)> render;
+        // `unwanted` is told when whoever has asked for the picture has left.
+        std::function<Outcome(const std::vector<Change>&, std::stop_token unwanted)> render;
         std::function<Outcome(const std::vector<Change>&)> explain;
         std::function<Outcome(const std::vector<Change>&)> save;
         std::function<Outcome(const std::vector<Change>&, const std::string& kernel)> keep;

@@ -1,7 +1,12 @@
-// Programs that answer line by line, and how they end.
+// Programs that this one starts: what they inherit, how they answer line by line, and how they end.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
+#include <csignal>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +22,53 @@ namespace {
 constexpr milliseconds k_patience{60000};
 
 }  // namespace
+
+TEST_CASE("a program has its three streams, and no file or socket that is open here, however it is started") {
+    // Everybody may forget O_CLOEXEC.
+    const int file = ::open("/dev/null", O_RDONLY);
+    const int another = ::fcntl(file, F_DUPFD, 700);
+    REQUIRE(another >= 700);
+    // Of `ls` itself, the last one is the folder that it reads.
+    const std::string list = "echo $(ls /proc/self/fd)";
+    CHECK(candela::run_program({"/bin/sh", "-c", list}).out == "0 1 2 3\n");
+    AnsweringProgram answering({"/bin/sh", "-c", "read line; " + list});
+    CHECK(answering.answer("go on", k_patience) == "0 1 2 3");
+    candela::WaitingProgram waiting({"/bin/sh", "-c", "read line; " + list});
+    const auto waited = waiting.go_on();
+    REQUIRE(waited.has_value());
+    CHECK(waited->out == "0 1 2 3\n");
+    CHECK(candela::show_program({"/bin/sh", "-c", "[ \"$(" + list + ")\" = '0 1 2 3' ]"}) == 0);
+    ::close(file);
+    ::close(another);
+}
+
+TEST_CASE("a program that takes too long, or that nobody wants any more, is ended") {
+    const std::vector<std::string> long_work{"/bin/sleep", "100000"};
+    const candela::ProgramOutput late = candela::run_program(long_work, {.longest = milliseconds(20)});
+    CHECK(late.end == candela::ProgramEnd::late);
+    CHECK(late.exit_code == 128 + SIGTERM);
+
+    std::stop_source source;
+    std::thread leaving([&] {
+        std::this_thread::sleep_for(milliseconds(20));
+        source.request_stop();
+    });
+    const candela::ProgramOutput unwanted = candela::run_program(long_work, {.unwanted = source.get_token()});
+    leaving.join();
+    CHECK(unwanted.end == candela::ProgramEnd::unwanted);
+    CHECK(unwanted.exit_code == 128 + SIGTERM);
+
+    const candela::ProgramOutput deaf =
+        candela::run_program({"/bin/sh", "-c", "trap '' TERM; while :; do read line < /dev/null; done"},
+                             {.longest = milliseconds(20)});
+    CHECK(deaf.end == candela::ProgramEnd::late);
+    CHECK(deaf.exit_code == 128 + SIGKILL);
+
+    const candela::ProgramOutput quick = candela::run_program(
+        {"/bin/echo", "said"}, {.longest = k_patience, .unwanted = std::stop_source().get_token()});
+    CHECK(quick.end == candela::ProgramEnd::own);
+    CHECK(quick.out == "said\n");
+}
 
 TEST_CASE("a program answers line by line, however long the lines are") {
     AnsweringProgram cat({"/bin/cat"});

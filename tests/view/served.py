@@ -44,8 +44,27 @@ def children_of(process):
     return found
 
 
+def tcp_sockets_of(process):
+    """The inodes of a process's TCP sockets, and what /proc knows of each: its local address, and "0A" where it listens."""
+    known = {}
+    for table in ("tcp", "tcp6"):
+        for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
+            fields = line.split()
+            known[fields[9]] = (fields[1], fields[3])
+    found = {}
+    for descriptor in pathlib.Path("/proc").glob(f"{process}/fd/*"):
+        try:
+            match = re.fullmatch(r"socket:\[(\d+)\]", os.readlink(descriptor))
+        except OSError:
+            continue  # it has been closed since
+        if match and match[1] in known:
+            found[match[1]] = known[match[1]]
+    return found
+
+
 class View:
-    def __init__(self, name):
+    def __init__(self, name, browser=None):
+        """`browser`: the text of a program that stands in for xdg-open; without, none is opened."""
         self.folder = SCRATCH / name
         shutil.rmtree(self.folder, ignore_errors=True)
         self.temporary = self.folder / "tmp"
@@ -53,7 +72,14 @@ class View:
         self.file = self.folder / "scene.toml"
         self.save(100)
         self.log = open(self.folder / "log.txt", "w+")
-        self.process = subprocess.Popen([COMMAND, "view", "--no-open", str(self.file)], env=dict(ENVIRONMENT, TMPDIR=str(self.temporary)),
+        environment = dict(ENVIRONMENT, TMPDIR=str(self.temporary))
+        if browser is not None:
+            programs = self.folder / "programs"
+            programs.mkdir()
+            (programs / "xdg-open").write_text(browser)
+            (programs / "xdg-open").chmod(0o755)
+            environment["PATH"] = f"{programs}:{environment['PATH']}"
+        self.process = subprocess.Popen([COMMAND, "view", *(["--no-open"] if browser is None else []), str(self.file)], env=environment,
                                         cwd=self.folder,
                                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=self.log, text=True)
         self.address = self.process.stdout.readline().strip()

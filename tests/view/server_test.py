@@ -13,11 +13,31 @@ import subprocess
 import time
 import unittest
 
-from served import COMMAND, ENVIRONMENT, LONGEST, View, children_of, status_of
+from served import COMMAND, ENVIRONMENT, LONGEST, View, children_of, status_of, tcp_sockets_of
 
 JUNK = int(os.environ.get("CANDELA_TEST_REQUESTS", "2000"))
 # Sanitizers keep what is freed, and note where each thread has been.
 MAY_GROW = 4096 if os.environ.get("CANDELA_TEST_SANITIZED", "") == "" else 256 * 1024  # kB
+
+
+# Says what a browser is given, and stays.
+BROWSER = """#!/bin/sh
+printf '%s\\n' "$@" > arguments.new
+ls -l /proc/self/fd > descriptors
+echo $$ > browser
+mv arguments.new arguments
+exec sleep 1000
+"""
+
+
+def commands_of(processes):
+    found = []
+    for process in processes:
+        try:
+            found.append(pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0"))
+        except OSError:
+            pass  # it has ended since
+    return found
 
 
 def until(connection, text):
@@ -352,6 +372,73 @@ class ServerTest(unittest.TestCase):
         self.view.wait_for_color(200)
         with self.view.events() as connection:
             self.assertIn(b'data: ""', until(connection, b"event: problems\ndata: \"\"\n"))
+
+
+    def test_programs_that_it_starts_have_none_of_its_sockets(self):
+        # Open while they are started.
+        idle = [self.view.connect() for _ in range(20)]
+        self.view.wait_for_color(100)
+        self.explained("pixel=1%2C2")
+        self.view.save(50)
+        self.view.wait_for_color(50)
+        self.explained("pixel=1%2C2")
+        children = children_of(self.view.process.pid)
+        self.assertTrue(children)
+        self.assertGreaterEqual(len(tcp_sockets_of(self.view.process.pid)), 1)
+        for child in children:
+            self.assertEqual(tcp_sockets_of(child), {}, child)
+        # So that their end is seen by who has opened them.
+        for connection in idle:
+            self.assertEqual(connection.recv(1), b"")
+            connection.close()
+
+    def test_the_renderers_picture_is_given_up_when_nobody_waits_for_it(self):
+        # It would take many minutes.
+        huge = "set=image.width%3D60000&set=image.height%3D60000&set=image.samples%3D16"
+        is_rendering = lambda: any(b"render" in command for command in commands_of(children_of(self.view.process.pid)))
+        waiting = [self.view.connect() for _ in range(2)]
+        for connection in waiting:  # the second one is not even begun
+            connection.sendall(f"GET /{self.view.token}/reference.png?{huge} HTTP/1.1\r\nHost: 127.0.0.1:{self.view.port}\r\n\r\n".encode())
+        end = time.monotonic() + LONGEST
+        while not is_rendering():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+        for connection in waiting:
+            connection.close()
+        # This one is not held up by them.
+        self.assertIn(b"Content-Type: image/png", self.view.get(f"/{self.view.token}/reference.png"))
+        self.assertFalse(is_rendering())
+
+
+class Opening(unittest.TestCase):
+    def setUp(self):
+        self.view = View(self._testMethodName, BROWSER)
+        self.addCleanup(lambda: self.view.process.poll() is None and self.view.end())
+        end = time.monotonic() + LONGEST
+        while not (self.view.folder / "arguments").exists():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+        browser = int((self.view.folder / "browser").read_text())
+        self.addCleanup(os.kill, browser, signal.SIGKILL)
+
+    def test_the_browser_is_led_to_the_address_by_a_file_that_only_its_user_reads(self):
+        arguments = (self.view.folder / "arguments").read_text()
+        self.assertNotIn(self.view.token, arguments)
+        page = pathlib.Path(arguments.strip())
+        self.assertEqual(page.stat().st_mode & 0o777, 0o600)
+        self.assertIn(f'http-equiv="refresh" content="0; url={self.view.address}"', page.read_text())
+        for command in commands_of([self.view.process.pid, *children_of(self.view.process.pid)]):
+            self.assertNotIn(self.view.token.encode(), b" ".join(command))
+        self.assertEqual(self.view.end(), 0)
+        self.assertEqual(self.view.left_behind(), [])
+
+    def test_the_browser_has_nothing_open_but_its_streams_and_the_port_is_free_again_while_it_runs(self):
+        descriptors = re.findall(r"(\d+) -> (\S+)", (self.view.folder / "descriptors").read_text())
+        # Of `ls` itself: the folder that it reads.
+        self.assertEqual([target for number, target in descriptors if int(number) > 2 and not target.startswith("/proc/")], [], descriptors)
+        self.assertEqual(self.view.end(), 0)
+        with self.assertRaises(ConnectionRefusedError):
+            self.view.connect()
 
 
 class Ending(unittest.TestCase):

@@ -105,7 +105,7 @@ class Beside {
         try {
             process::child child(
                 std::filesystem::path(words.front()), process::args(arguments),
-                process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
+                process::extend::on_exec_setup = [](auto&) { shed_inheritance(); },
                 process::posix::fd.bind(STDIN_FILENO, ends[1].number()),
                 process::posix::fd.bind(STDOUT_FILENO, output < 0 ? ends[1].number() : output),
                 process::posix::fd.bind(STDERR_FILENO, errors_.number()));

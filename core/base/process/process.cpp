@@ -1,10 +1,14 @@
 module;
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/close_range.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #define BOOST_PROCESS_USE_STD_FS
+#include <algorithm>
 #include <boost/process/args.hpp>
 #include <boost/process/child.hpp>
 #include <boost/process/extend.hpp>
@@ -12,10 +16,13 @@ module;
 #include <boost/process/pipe.hpp>
 #include <boost/process/search_path.hpp>
 #include <cerrno>
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -47,7 +54,7 @@ process::child started(const std::vector<std::string>& words, Streams&&... strea
         const std::vector<std::string> arguments(words.begin() + 1, words.end());
         return process::child(
             program, process::args(arguments),
-            process::extend::on_exec_setup = [](auto&) { unblock_signals(); },
+            process::extend::on_exec_setup = [](auto&) { shed_inheritance(); },
             std::forward<Streams>(streams)...);
     } catch (const std::system_error& problem) {
         throw Error(ErrorCategory::failure,
@@ -59,6 +66,55 @@ int exit_code_of(process::child& child) {
     child.wait();
     const int status = child.native_exit_code();
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Ends a program that takes too long, or that nobody wants any more.
+class Overseer {
+  public:
+    Overseer(pid_t process, const Patience& patience) {
+        if (patience.longest || patience.unwanted.stop_possible())
+            thread_ = std::thread([this, process, patience] { oversee(process, patience); });
+    }
+    Overseer(const Overseer&) = delete;
+    Overseer& operator=(const Overseer&) = delete;
+    ~Overseer() { dismiss(); }
+
+    /// To be called when the program has ended, and before it is waited for: its number may be another's
+    /// then.
+    ProgramEnd dismiss() {
+        {
+            const std::lock_guard lock(mutex_);
+            has_ended_ = true;
+        }
+        news_.notify_all();
+        if (thread_.joinable()) thread_.join();
+        return end_;
+    }
+
+  private:
+    void oversee(pid_t process, const Patience& patience) {
+        constexpr std::chrono::hours k_ever{24 * 365};
+        constexpr std::chrono::seconds k_longest_end{2};
+        std::unique_lock lock(mutex_);
+        const auto has_ended = [this] { return has_ended_; };
+        if (news_.wait_for(lock, patience.unwanted, patience.longest.value_or(k_ever), has_ended)) return;
+        end_ = patience.unwanted.stop_requested() ? ProgramEnd::unwanted : ProgramEnd::late;
+        ::kill(process, SIGTERM);
+        if (!news_.wait_for(lock, k_longest_end, has_ended)) ::kill(process, SIGKILL);
+    }
+
+    std::mutex mutex_;
+    std::condition_variable_any news_;
+    bool has_ended_ = false;
+    ProgramEnd end_ = ProgramEnd::own;
+    std::thread thread_;
+};
+
+/// Waits for its end, and leaves it to be waited for.
+void await_end(pid_t process) {
+    siginfo_t state{};
+    while (::waitid(P_PID, static_cast<id_t>(process), &state, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
 }
 
 /// In large pieces: a stream would read a kilobyte at a time.
@@ -80,10 +136,18 @@ std::mutex& starting() {
     return mutex;
 }
 
-void unblock_signals() noexcept {
+void shed_inheritance() noexcept {
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    constexpr unsigned k_first = STDERR_FILENO + 1;
+    if (::close_range(k_first, ~0U, CLOSE_RANGE_CLOEXEC) == 0) return;
+    // Linux before 5.11.
+    constexpr rlim_t k_most = 65536;
+    rlimit files{};
+    if (::getrlimit(RLIMIT_NOFILE, &files) != 0) files.rlim_cur = k_most;
+    const int end = static_cast<int>(std::min(files.rlim_cur, k_most));
+    for (int file = k_first; file < end; ++file) ::fcntl(file, F_SETFD, FD_CLOEXEC);
 }
 
 std::optional<std::filesystem::path> program_called(const std::string& name) {
@@ -91,17 +155,20 @@ std::optional<std::filesystem::path> program_called(const std::string& name) {
     return path.empty() ? std::nullopt : std::optional(path);
 }
 
-ProgramOutput run_program(const std::vector<std::string>& words) {
+ProgramOutput run_program(const std::vector<std::string>& words, const Patience& patience) {
     std::unique_lock lock(starting());
     process::ipstream out, err;
     process::child child =
         started(words, process::std_in<process::null, process::std_out> out, process::std_err > err);
     lock.unlock();
     ProgramOutput output;
+    Overseer overseer(child.id(), patience);
     // A program that fills one pipe waits for its reader, so both are read at once.
     std::thread reader([&] { output.err = all_of(err); });
     output.out = all_of(out);
     reader.join();
+    await_end(child.id());
+    output.end = overseer.dismiss();
     output.exit_code = exit_code_of(child);
     return output;
 }

@@ -8,6 +8,7 @@ module;
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,18 +20,30 @@ namespace candela {
 /// would keep them open, and who reads from them would wait for its end.
 std::mutex& starting();
 
-/// To be called in the new process, before it is another program: what the thread that starts it has blocked
-/// would stay blocked in it. Async-signal-safe.
-void unblock_signals() noexcept;
+/// To be called in the new process, before it is another program: it would keep the signals that the thread
+/// that starts it has blocked, and the files and sockets that are open here. It has its three standard
+/// streams, and nothing else. Async-signal-safe.
+void shed_inheritance() noexcept;
 
 }  // namespace candela
 
 export namespace candela {
 
+/// Who has ended a program: itself, or run_program() because its time was over or nobody wanted it any more.
+enum class ProgramEnd { own, late, unwanted };
+
 /// What became of a program: its exit code (128 + signal where a signal ended it), and what it printed.
 struct ProgramOutput {
     int exit_code = 0;
     std::string out, err;
+    ProgramEnd end = ProgramEnd::own;
+};
+
+/// How long a program may take, and who may end it earlier. It is ended by SIGTERM and, if it is still there
+/// after two seconds, by SIGKILL.
+struct Patience {
+    std::optional<std::chrono::milliseconds> longest{};
+    std::stop_token unwanted{};
 };
 
 /// Where PATH has an executable of that name.
@@ -42,7 +55,7 @@ CANDELA_API std::optional<std::filesystem::path> cxx_compiler();
 
 /// Runs a program, found on PATH where its name has no '/', without input, and waits for it. Throws Error
 /// (failure) where it cannot be started. Any thread.
-CANDELA_API ProgramOutput run_program(const std::vector<std::string>& words);
+CANDELA_API ProgramOutput run_program(const std::vector<std::string>& words, const Patience& patience = {});
 
 /// The same with this process's own streams. Returns the exit code.
 CANDELA_API int show_program(const std::vector<std::string>& words);
