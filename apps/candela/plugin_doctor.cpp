@@ -1,59 +1,67 @@
 // candela plugin doctor: what is found where, and what is refused.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstring>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command_line.h"
 #include "diagnostics_text.h"
 #include "exit_code.h"
+#include "guarded_child.h"
 #include "plugin.h"
 
 import candela.library;
 import candela.text;
 
+namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
 namespace {
 
-/// Why a library cannot be loaded; empty if it can. In a child: what a library does when it is loaded may end
-/// the process.
-std::string loading_problem(const candela::PluginFile& file) {
-    int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) return std::strerror(errno);
-    const pid_t child = ::fork();
-    if (child < 0) return std::strerror(errno);
-    if (child == 0) {
-        std::string problem;
+/// How loading a library ends.
+struct Loading {
+    std::string problem;  // why it cannot be loaded; empty if it can
+    bool leaves_processes = false;
+};
+
+/// In a child: what a library does when it is loaded may end the process, or keep it for ever.
+Loading loading_of(const candela::PluginFile& file, double longest) {
+    constexpr std::string_view k_loaded = "loaded", k_refused = "refused: ";
+    const GuardedEnd end = run_guarded(longest, [&](int report) {
+        std::string found(k_loaded);
         try {
             candela::load_plugin(file.library, &file.manifest);
-        } catch (const std::exception& refusal) {
-            problem = refusal.what();
+        } catch (const candela::Error& refusal) {
+            found = std::string(k_refused) + refusal.what();
+        } catch (const std::exception& thrown) {
+            found = fmt::format("{}loading it throws '{}'", k_refused, thrown.what());
+        } catch (...) {
+            found = std::string(k_refused) + "loading it throws an object that is not a std::exception";
         }
-        const bool told =
-            ::write(ends[1], problem.data(), problem.size()) == static_cast<ssize_t>(problem.size());
-        ::_exit(told ? 0 : 1);
+        // A report that does not come is found by the parent.
+        static_cast<void>(::write(report, found.data(), found.size()));
+    });
+    Loading loading{.problem = {}, .leaves_processes = end.leaves_processes};
+    if (end.report.starts_with(k_refused)) {
+        loading.problem = end.report.substr(k_refused.size());
+    } else if (end.report != k_loaded) {
+        loading.problem = "loading it " + unexpected_end_of(end, longest);
     }
-    ::close(ends[1]);
-    std::string problem;
-    std::array<char, 4096> buffer{};
-    for (ssize_t count = 0; (count = ::read(ends[0], buffer.data(), buffer.size())) > 0;)
-        problem.append(buffer.data(), static_cast<std::size_t>(count));
-    ::close(ends[0]);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    if (WIFSIGNALED(status))
-        return fmt::format("loading it ends the process with signal {}", ::strsignal(WTERMSIG(status)));
-    if (WEXITSTATUS(status) != 0)
-        return fmt::format("loading it ends the process with exit code {}", WEXITSTATUS(status));
-    return problem;
+    return loading;
+}
+
+double longest_from(const CommandLine& line) {
+    constexpr double k_usual = 20, k_most = 86'400;  // seconds
+    const double longest = line.has("time-limit") ? line.get<double>("time-limit") : k_usual;
+    if (longest > 0 && longest <= k_most) return longest;
+    throw candela::Error(
+        candela::ErrorCategory::bad_request,
+        fmt::format("--time-limit is {}; it can be more than 0, to {} seconds", longest, k_most));
 }
 
 /// "refused: …" without the path, which is said already: absolute if the library was to be loaded, or as the
@@ -74,7 +82,10 @@ int run_plugin_doctor(const std::vector<std::string>& arguments) {
                      "used, which are\n"
                      "hidden by another of the same name, and which are refused and why.");
     add_plugin_options(line);
+    line.options()("time-limit", po::value<double>()->value_name("SECONDS"),
+                   "how long loading a plugin may take; default: 20");
     if (!line.parse(arguments)) return 0;
+    const double longest = longest_from(line);
     bool all_well = true;
     candela::Registry registry = registry_from(line);
     for (const fs::path& folder : registry.search_path()) {
@@ -89,8 +100,9 @@ int run_plugin_doctor(const std::vector<std::string>& arguments) {
             const candela::Manifest& manifest = file->manifest;
             // What a render would use.
             const candela::PluginFile* const used = registry.find(manifest.kind, manifest.name);
-            if (const std::string problem = loading_problem(*file); !problem.empty()) {
-                say(file->library, "refused: " + short_reason(problem, file->library));
+            const Loading loading = loading_of(*file, longest);
+            if (!loading.problem.empty()) {
+                say(file->library, "refused: " + short_reason(loading.problem, file->library));
                 all_well = false;
             } else if (used == nullptr) {
                 say(file->library, "not used: the one that --plugin-dir names is refused");
@@ -98,6 +110,10 @@ int run_plugin_doctor(const std::vector<std::string>& arguments) {
                 say(file->library, "hidden by " + used->library.string());
             } else {
                 say(file->library, fmt::format("in use: {} {}", manifest.id(), manifest.version));
+            }
+            if (loading.leaves_processes) {
+                say(file->library, "starts a process that goes on, every time it is loaded");
+                all_well = false;
             }
         }
         for (const candela::Refusal& refusal : here.refusals()) {

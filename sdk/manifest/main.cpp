@@ -3,6 +3,10 @@
 //
 // Writes a plugin's manifest from its own descriptor. Run by candela_add_plugin(). Beside the object files
 // lies what clang has noted of their loops; those that are scalar are said first, as warnings or errors.
+#include <fmt/format.h>
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -15,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "guarded_child.h"
 #include "loops.h"
 
 import candela.diagnostics;
@@ -73,6 +78,7 @@ bool judge_loops(const Options& options) {
     return is_error;
 }
 
+/// On the main thread of a process that nothing else runs in.
 void write_manifest(const Options& options) {
     const candela::PluginDescriptor& descriptor = candela::load_plugin(options.plugin, nullptr);
     candela::Manifest manifest = candela::manifest_of(descriptor, candela::host_abi());
@@ -89,6 +95,31 @@ void write_manifest(const Options& options) {
     std::filesystem::rename(beside, options.output);
 }
 
+constexpr std::string_view k_done = "done";
+
+void say_in(int report, std::string_view text) {
+    if (::write(report, text.data(), text.size()) != static_cast<ssize_t>(text.size())) ::_exit(1);
+}
+
+/// What keeps the manifest from being written; empty if it is. What the plugin does when it is loaded may end
+/// the process, or keep it for ever.
+std::string problem_with(const Options& options) {
+    constexpr double k_longest = 120;  // seconds, on a machine that builds much else
+    const GuardedEnd end = run_guarded(k_longest, [&](int report) {
+        try {
+            write_manifest(options);
+            say_in(report, k_done);
+        } catch (const std::exception& problem) {
+            say_in(report, problem.what());
+        } catch (...) {
+            say_in(report, "the plugin threw an object that is not a std::exception");
+        }
+    });
+    if (end.report == k_done) return {};
+    if (!end.report.empty()) return end.report;
+    return fmt::format("loading '{}' {}", options.plugin, unexpected_end_of(end, k_longest));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -102,7 +133,8 @@ int main(int argc, char** argv) {
             return 2;
         }
         if (!options.scalar_loops.empty() && judge_loops(options)) return 1;
-        write_manifest(options);
+        if (const std::string problem = problem_with(options); !problem.empty())
+            throw std::runtime_error(problem);
         return 0;
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "candela-manifest: %s\n", problem.what());

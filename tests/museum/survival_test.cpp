@@ -119,6 +119,51 @@ TEST_CASE("the doctor survives a plugin that traps, and names what is wrong with
     }
 }
 
+TEST_CASE("however loading a library ends, the doctor says so and ends, and so does what writes manifests") {
+    const fs::path directory = scratch_directory();
+    const fs::path library = directory / "reflection-misbehaves-on-load.so";
+    for (const char* const extension : {".so", ".json"}) {
+        const std::string file = std::string("reflection-misbehaves-on-load") + extension;
+        fs::copy_file(fs::path(CANDELA_TEST_MUSEUM) / file, directory / file);
+    }
+    struct Ending {
+        const char* what;
+        const char* message;
+    };
+    for (const auto& [what, message] : {
+             Ending{"exit", "refused: loading it ends the process with exit code 0"},
+             Ending{"sleep", "refused: loading it has not finished after 2 s"},
+             Ending{"stop", "refused: loading it has not finished after 2 s"},
+             Ending{"throw", "refused: loading it "},
+             Ending{"abort", "refused: loading it ends the process with signal Aborted"},
+             Ending{"crash", "refused: loading it ends the process with signal Segmentation fault"},
+             Ending{"close", "refused: loading it ends the process with exit code 0"},
+             Ending{"fork", "starts a process that goes on, every time it is loaded"},
+         }) {
+        INFO(what);
+        CommandSetup setup;
+        setup.environment = {{"MUSEUM_ON_LOAD", what}};
+        const CommandResult doctor =
+            run_candela({"plugin", "doctor", "--time-limit", "2", "--plugin-dir", directory.string()}, setup);
+        INFO(doctor.out << doctor.err);
+        CHECK(doctor.exit_code == 1);
+        CHECK(doctor.out.find(message) != std::string::npos);
+        CHECK(doctor.out.find("in use: light/point") != std::string::npos);
+    }
+    for (const auto& [what, message] : {Ending{"exit", "ends the process with exit code 0"},
+                                        Ending{"abort", "ends the process with signal"}}) {
+        CommandSetup setup;
+        setup.environment = {{"MUSEUM_ON_LOAD", what}};
+        const fs::path manifest = directory / "written.json";
+        const CommandResult writer =
+            run_program({CANDELA_TEST_MANIFEST_WRITER, library.string(), manifest.string()}, setup);
+        INFO(what << writer.out << writer.err);
+        CHECK(writer.exit_code == 1);
+        CHECK(writer.err.find(message) != std::string::npos);
+        CHECK(!fs::exists(manifest));
+    }
+}
+
 TEST_CASE("the doctor says once that a plugin is refused, whether its folder's path is relative or not") {
     const fs::path directory = scratch_directory();
     fs::create_directory(directory / "plugins");
