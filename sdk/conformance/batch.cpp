@@ -7,6 +7,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <random>
 #include <span>
@@ -32,12 +33,13 @@ void Arrays::fill_with_guard() {
     for (std::size_t a = 0; a < arrays(); ++a) candela::fill_with_guard({(*this)[a], count_});
 }
 
-void Arrays::surround_with(float value) {
-    for (std::vector<float>& array : data_) {
-        const auto begin = array.begin() + static_cast<std::ptrdiff_t>(k_guard + shift_);
-        std::fill(array.begin(), begin, value);
-        std::fill(begin + static_cast<std::ptrdiff_t>(count_), array.end(), value);
+Arrays Arrays::fenced(Fence fence, const std::function<std::string(std::size_t)>& name) const {
+    Arrays result(0, count_);
+    for (std::size_t a = 0; a < arrays(); ++a) {
+        result.fenced_.push_back(std::make_shared<Fenced>(name(a), count_ * sizeof(float), fence));
+        std::copy_n((*this)[a], count_, result.fenced_.back()->as<float>());
     }
+    return result;
 }
 
 Arrays Arrays::part(std::size_t first, std::size_t count, std::size_t shift) const {
@@ -214,7 +216,7 @@ BatchSubject shading_subject(const Values& values) {
 }  // namespace
 
 const candela::PunctualLighting& punctual_lighting() {
-    static const std::vector<candela::PunctualLight> lights = [] {
+    static const auto lights = [] {
         candela::PunctualLight lamp{.position = {2.5f, 3, 1}, .diffuse = {9, 8, 7}, .specular = {7, 8, 9}};
         lamp.constant = 0;
         lamp.quadratic = 1;
@@ -228,10 +230,14 @@ const candela::PunctualLighting& punctual_lighting() {
         spot.axis = candela::normalized({3, -1, -2});
         spot.cos_outer = 0.7f;
         spot.cone_scale = 5;
-        return std::vector<candela::PunctualLight>{lamp, sun, spot};
+        return std::array<candela::PunctualLight, 3>{lamp, sun, spot};
     }();
+    static const Fenced fenced("lights", sizeof lights, Fence::after);
+    std::ranges::copy(lights, fenced.as<candela::PunctualLight>());
     static const candela::PunctualLighting lighting{
-        .observer = {0.5f, 1, 6}, .ambient = {0.1f, 0.2f, 0.3f}, .lights = lights};
+        .observer = {0.5f, 1, 6},
+        .ambient = {0.1f, 0.2f, 0.3f},
+        .lights = {fenced.as<candela::PunctualLight>(), lights.size()}};
     return lighting;
 }
 
@@ -358,6 +364,37 @@ Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift) {
     if (!call.adds) out.fill_with_guard();
     call.run(in.count(), in, out);
     return out;
+}
+
+std::string name_of_input(const Call& call, std::size_t array) {
+    struct Input {
+        std::size_t first;
+        const char* name;
+    };
+    static constexpr std::array<Input, 19> k_names{{{k_normal, "normal"},
+                                                    {k_observer, "to_observer"},
+                                                    {k_tangent, "tangent"},
+                                                    {k_light, "to_light"},
+                                                    {k_diffuse, "diffuse"},
+                                                    {k_specular, "specular"},
+                                                    {k_position, "position"},
+                                                    {k_barycentric, "barycentric"},
+                                                    {k_vertex_normal, "vertex_normal"},
+                                                    {k_dpdu, "dpdu"},
+                                                    {k_dpdv, "dpdv"},
+                                                    {k_uv, "uv"},
+                                                    {k_corner_positions, "triangle->position[0]"},
+                                                    {k_corner_positions + 3, "triangle->position[1]"},
+                                                    {k_corner_positions + 6, "triangle->position[2]"},
+                                                    {k_corner_normals, "triangle->normal[0]"},
+                                                    {k_corner_normals + 3, "triangle->normal[1]"},
+                                                    {k_corner_normals + 6, "triangle->normal[2]"},
+                                                    {k_color, "point_color"}}};
+    const auto input = std::prev(std::ranges::upper_bound(k_names, array, {}, &Input::first));
+    std::string name = input->name;
+    if (input->first == k_normal && call.name == "normals") name = "face_normal";
+    if (input->first == k_diffuse && call.name == "reflect_ambient") name = "ambient";
+    return fmt::format("{}.{}", name, "xyz"[array - input->first]);
 }
 
 std::string text_of_input(const Arrays& in, std::size_t i) {

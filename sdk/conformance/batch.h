@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fence.h"
 #include "subject.h"
 
 import candela.guard;
@@ -21,9 +22,13 @@ class Arrays {
     /// `shift`: floats by which each array starts off its alignment.
     Arrays(std::size_t arrays, std::size_t count, std::size_t shift = 0);
 
-    float* operator[](std::size_t array) { return data_[array].data() + k_guard + shift_; }
-    const float* operator[](std::size_t array) const { return data_[array].data() + k_guard + shift_; }
-    std::size_t arrays() const { return data_.size(); }
+    float* operator[](std::size_t array) {
+        return fenced_.empty() ? data_[array].data() + k_guard + shift_ : fenced_[array]->as<float>();
+    }
+    const float* operator[](std::size_t array) const {
+        return fenced_.empty() ? data_[array].data() + k_guard + shift_ : fenced_[array]->as<float>();
+    }
+    std::size_t arrays() const { return fenced_.empty() ? data_.size() : fenced_.size(); }
     std::size_t count() const { return count_; }
 
     candela::Vec3Span vec3(std::size_t first) {
@@ -35,14 +40,15 @@ class Arrays {
     candela::Vec3 at(std::size_t first, std::size_t i) const { return vec3(first)[i]; }
 
     void fill(float value);
-    /// Fills what lies before and after the arrays, instead of with NaN: for what reads it and hides that.
-    void surround_with(float value);
+    /// A copy whose arrays end, or begin, at memory without access; its own copies share that. `name` says
+    /// what an array is called where a call trespasses (fence.h).
+    Arrays fenced(Fence fence, const std::function<std::string(std::size_t array)>& name) const;
     /// Fills the arrays with what only writing removes; is_written() finds it again.
     void fill_with_guard();
     bool is_written(std::size_t array, std::size_t i) const { return !candela::is_guard((*this)[array][i]); }
     /// Elements [first, first + count) of all arrays.
     Arrays part(std::size_t first, std::size_t count, std::size_t shift = 0) const;
-    /// "before" or "after" where the room there was written to, or empty.
+    /// "before" or "after" where the room there was written to, or empty. Of arrays without a fence.
     std::string trespass() const;
     friend bool operator==(const Arrays& a, const Arrays& b);
 
@@ -51,6 +57,7 @@ class Arrays {
     std::size_t count_;
     std::size_t shift_;
     std::vector<std::vector<float>> data_;
+    std::vector<std::shared_ptr<Fenced>> fenced_;  // instead, if there are any
 };
 
 /// One way of calling an instance.
@@ -107,6 +114,9 @@ Arrays aligned_inputs();
 /// The same inputs in a world that is turned: all vectors and triangles are, positions are not.
 Arrays turned(const Arrays& in);
 candela::Vec3 turned(candela::Vec3 v);
+
+/// What the interfaces call an input in this call, "to_observer.x".
+std::string name_of_input(const Call& call, std::size_t array);
 
 /// What a call gives.
 Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift = 0);

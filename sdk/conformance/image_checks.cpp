@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "at_once.h"
+#include "fence.h"
 #include "kernel_program.h"
 #include "subject.h"
 
@@ -185,6 +186,35 @@ std::optional<std::size_t> first_difference(const std::vector<float>& sent, cons
     return std::nullopt;
 }
 
+/// What is read outside a picture, and outside its layers, while a file of it is written; empty if nothing.
+std::string trespass_of_writing(const ImageFormat& writer, const FileFormat& format, const Picture& picture,
+                                Fence fence) {
+    const Fenced bytes("bytes", picture.bytes.size(), fence),
+        reals("reals", picture.reals.size() * sizeof(float), fence);
+    std::ranges::copy(picture.bytes, bytes.as<std::uint8_t>());
+    std::ranges::copy(picture.reals, reals.as<float>());
+    candela::PictureView view = picture.view(format.pixels);
+    if (format.pixels == PixelType::byte) {
+        view.bytes = {bytes.as<std::uint8_t>(), picture.bytes.size()};
+    } else {
+        view.reals = {reals.as<float>(), picture.reals.size()};
+    }
+    Memory memory;
+    std::string trespass = trespass_of([&] { writer.write(view, format.extension, memory); });
+    if (!trespass.empty() || !format.layers) return trespass;
+    const LayeredPicture layers(picture);
+    std::vector<std::unique_ptr<Fenced>> values;
+    std::vector<candela::PictureChannel> channels = layers.channels;
+    for (candela::PictureChannel& channel : channels) {
+        const Fenced& fenced = *values.emplace_back(std::make_unique<Fenced>(
+            fmt::format("channel {}", channel.name), channel.values.size_bytes(), fence));
+        std::ranges::copy(channel.values, fenced.as<float>());
+        channel.values = {fenced.as<float>(), channel.values.size()};
+    }
+    return trespass_of(
+        [&] { writer.write_layers(picture.width, picture.height, channels, format.extension, memory); });
+}
+
 void write_file(const fs::path& file, std::span<const std::byte> bytes) {
     std::ofstream(file, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -235,6 +265,20 @@ TEST_CASE("round trip: what it writes is read as the same picture, of any size",
         }
     }
     if (compared == 0) SKIP("no installed plugin reads its formats");
+}
+
+TEST_CASE("bounds: nothing outside the picture is read", "[image]") {
+    const auto writer = make<ImageFormat>(default_values());
+    for (const FileFormat& format : subject().formats) {
+        for (const Picture& picture : {Picture(1, 1), Picture(7, 5), Picture(64, 48)}) {
+            for (const Fence fence : {Fence::after, Fence::before}) {
+                const std::string trespass = trespass_of_writing(*writer, format, picture, fence);
+                if (!trespass.empty())
+                    FAIL("writing a ." << format.extension << " of " << picture.size() << ", it "
+                                       << trespass);
+            }
+        }
+    }
 }
 
 TEST_CASE("layers: the picture in a file of layers is its first three channels", "[image]") {

@@ -31,6 +31,9 @@ namespace {
 /// As of the command, which runs this program.
 enum class ExitCode : int { ok = 0, failure = 1, usage = 2, verification_failed = 4 };
 
+// A plugin that never returns would take its time in every check.
+constexpr int k_most_timed_out = 2;
+
 struct Options {
     std::vector<std::string> files;
     std::string only;
@@ -54,23 +57,37 @@ std::string kind_of(const fs::path& library) {
     return candela::plugin_kind_named(kind) ? kind : "all";
 }
 
+/// Says at once what came of a check: the next one may take long.
+void print(const Outcome& outcome) {
+    std::cout << fmt::format("  {:<9} {}\n", name_of(outcome.verdict), outcome.group);
+    for (const std::string& message : outcome.messages) std::cout << fmt::format("            {}\n", message);
+    std::cout.flush();
+}
+
 Report test(const fs::path& library, const Options& options) {
     Report report{.library = library, .id = library.stem().string(), .outcomes = {}};
     std::string blocked;
+    int timed_out = 0;
+    const auto add = [&](Outcome outcome) {
+        if (!options.json) print(outcome);
+        report.outcomes.push_back(std::move(outcome));
+    };
     for (const std::string& group : groups_for(kind_of(library))) {
         const bool is_handshake = group.starts_with("handshake");
         if (!options.only.empty() && !is_handshake && group.find(options.only) == std::string::npos) continue;
         if (!blocked.empty()) {
-            report.outcomes.push_back({group, Verdict::skipped, {blocked}, 0});
+            add({group, Verdict::skipped, {blocked}, 0});
             continue;
         }
         const auto run = [&](Findings& findings) {
             set_subject(library, options.given);
             run_group(group, findings);
         };
-        report.outcomes.push_back(options.in_process ? run_here(group, run)
-                                                     : run_in_child(group, options.time_limit, run));
-        if (is_handshake && !is_acceptable(report.outcomes.back().verdict)) blocked = "it cannot be loaded";
+        add(options.in_process ? run_here(group, run) : run_in_child(group, options.time_limit, run));
+        const Verdict verdict = report.outcomes.back().verdict;
+        if (is_handshake && !is_acceptable(verdict)) blocked = "it cannot be loaded";
+        if (verdict == Verdict::timed_out && ++timed_out == k_most_timed_out && blocked.empty())
+            blocked = fmt::format("{} checks have not finished, so the rest is not run", timed_out);
     }
     return report;
 }
@@ -84,9 +101,11 @@ Report judge_answer(const fs::path& library, const Options& options) {
         set_answer(text);
         run_group(k_answer_group, findings);
     };
-    return {.library = library,
-            .id = library.stem().string(),
-            .outcomes = {run_in_child(k_answer_group, options.time_limit, run)}};
+    Report report{.library = library,
+                  .id = library.stem().string(),
+                  .outcomes = {run_in_child(k_answer_group, options.time_limit, run)}};
+    if (!options.json) print(report.outcomes.front());
+    return report;
 }
 
 bool conforms(const Report& report) {
@@ -96,15 +115,9 @@ bool conforms(const Report& report) {
     return true;
 }
 
-void print(const Report& report) {
-    std::cout << report.library.string() << '\n';
+void print_summary(const Report& report) {
     std::size_t counts[6] = {};
-    for (const Outcome& outcome : report.outcomes) {
-        ++counts[static_cast<int>(outcome.verdict)];
-        std::cout << fmt::format("  {:<9} {}\n", name_of(outcome.verdict), outcome.group);
-        for (const std::string& message : outcome.messages)
-            std::cout << fmt::format("            {}\n", message);
-    }
+    for (const Outcome& outcome : report.outcomes) ++counts[static_cast<int>(outcome.verdict)];
     std::string summary;
     for (int i = 0; i < 6; ++i) {
         if (counts[i] > 0)
@@ -226,13 +239,15 @@ int run(int argc, char** argv) {
             std::cerr << fmt::format("candela-conformance: error: there is no file '{}'\n", file);
             return static_cast<int>(ExitCode::failure);
         }
-        const Report report = options.answer.empty() ? test(fs::absolute(file), options)
-                                                     : judge_answer(fs::absolute(file), options);
+        const fs::path library = fs::absolute(file);
+        if (!options.json) std::cout << library.string() << std::endl;
+        const Report report =
+            options.answer.empty() ? test(library, options) : judge_answer(library, options);
         all_conform = all_conform && conforms(report);
         if (options.json) {
             reports.push_back(json_of(report));
         } else {
-            print(report);
+            print_summary(report);
         }
     }
     if (options.json)

@@ -1,14 +1,18 @@
 // What must hold of shading models.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "batch.h"
+#include "fence.h"
 
 import candela.shading;
 
@@ -23,23 +27,64 @@ struct Facets {
     std::vector<std::uint32_t> indices;
 
     std::vector<Vec3> vertex_normals(const ShadingModel& model) const;
+    /// What the model reads or writes outside the mesh's arrays; empty if nothing.
+    std::string trespass(const ShadingModel& model, Fence fence) const;
+
+  private:
+    Arrays positions() const;
+    Arrays face_normals() const;
 };
 
-std::vector<Vec3> Facets::vertex_normals(const ShadingModel& model) const {
-    const std::size_t count = position.size(), triangles = indices.size() / 3;
-    Arrays points(3, count), faces(3, triangles), normals(3, count);
-    std::vector<std::uint32_t> group(count);
-    std::iota(group.begin(), group.end(), 0u);
-    normals.fill_with_guard();
-    for (std::size_t i = 0; i < count; ++i) points.vec3(0).set(i, position[i]);
-    for (std::size_t t = 0; t < triangles; ++t) {
+Arrays Facets::positions() const {
+    Arrays points(3, position.size());
+    for (std::size_t i = 0; i < position.size(); ++i) points.vec3(0).set(i, position[i]);
+    return points;
+}
+
+Arrays Facets::face_normals() const {
+    Arrays faces(3, indices.size() / 3);
+    for (std::size_t t = 0; t < faces.count(); ++t) {
         const Vec3 a = position[indices[3 * t]], b = position[indices[3 * t + 1]],
                    c = position[indices[3 * t + 2]];
         faces.vec3(0).set(t, candela::normalized(cross(b - a, c - a)));
     }
-    model.vertex_normals({.position = std::as_const(points).vec3(0),
+    return faces;
+}
+
+std::string Facets::trespass(const ShadingModel& model, Fence fence) const {
+    const std::size_t count = position.size();
+    const auto named = [](const char* name) {
+        return [name](std::size_t array) { return fmt::format("{}.{}", name, "xyz"[array]); };
+    };
+    const Arrays points = positions().fenced(fence, named("position")),
+                 faces = face_normals().fenced(fence, named("face_normal"));
+    Arrays normals = Arrays(3, count).fenced(fence, named("normals"));
+    const Fenced corners("indices", indices.size() * sizeof(std::uint32_t), fence),
+        groups("smooth_group", count * sizeof(std::uint32_t), fence);
+    std::ranges::copy(indices, corners.as<std::uint32_t>());
+    std::iota(groups.as<std::uint32_t>(), groups.as<std::uint32_t>() + count, 0u);
+    return trespass_of([&] {
+        model.vertex_normals({.position = points.vec3(0),
+                              .indices = {corners.as<std::uint32_t>(), indices.size()},
+                              .face_normal = faces.vec3(0),
+                              .smooth_group = {groups.as<std::uint32_t>(), count},
+                              .vertex_count = count,
+                              .group_count = count,
+                              .authored_normal = {}},
+                             normals.vec3(0));
+    });
+}
+
+std::vector<Vec3> Facets::vertex_normals(const ShadingModel& model) const {
+    const std::size_t count = position.size();
+    const Arrays points = positions(), faces = face_normals();
+    Arrays normals(3, count);
+    std::vector<std::uint32_t> group(count);
+    std::iota(group.begin(), group.end(), 0u);
+    normals.fill_with_guard();
+    model.vertex_normals({.position = points.vec3(0),
                           .indices = indices,
-                          .face_normal = std::as_const(faces).vec3(0),
+                          .face_normal = faces.vec3(0),
                           .smooth_group = group,
                           .vertex_count = count,
                           .group_count = count,
@@ -74,6 +119,17 @@ Facets landscape(float bumps) {
 float distance(Vec3 a, Vec3 b) { return candela::length(a - b); }
 
 }  // namespace
+
+TEST_CASE("mesh: vertex_normals() reads and writes nothing outside the mesh's arrays", "[shading]") {
+    const Facets mesh = landscape(0.4f);
+    for (const Values& values : many_values(4)) {
+        const auto model = make<ShadingModel>(values);
+        for (const Fence fence : {Fence::after, Fence::before}) {
+            if (const std::string trespass = mesh.trespass(*model, fence); !trespass.empty())
+                FAIL("vertex_normals() " << trespass << ", with " << values.text);
+        }
+    }
+}
 
 TEST_CASE("unit: normals are unit vectors, to a millionth, at every point and vertex", "[shading]") {
     const Arrays in = inputs_for(1000);

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "at_once.h"
+#include "fence.h"
 #include "subject.h"
 
 import candela.mesh;
@@ -68,6 +71,47 @@ bool is_same(const Mesh& a, const Mesh& b) {
            same(a.dpdu, b.dpdu) && same(a.dpdv, b.dpdv) && same(a.color, b.color);
 }
 
+/// Arrays that end, or begin, at memory without access.
+class FencedMesh final : public candela::MeshSink {
+  public:
+    explicit FencedMesh(Fence fence) : fence_(fence) {}
+
+    candela::MeshSpans allocate(const candela::MeshLayout& layout) override {
+        const std::size_t n = layout.vertices;
+        const auto vec3 = [&](const std::string& name, bool is_there = true) {
+            candela::Vec3Span span;
+            for (const auto& [axis, array] :
+                 {std::pair{".x", &span.x}, std::pair{".y", &span.y}, std::pair{".z", &span.z}})
+                if (is_there) *array = make<float>(name + axis, n);
+            return span;
+        };
+        const auto indices = [&](const char* name, std::size_t count) {
+            return std::span(make<std::uint32_t>(name, count), count);
+        };
+        candela::MeshSpans mesh{.position = vec3("position"),
+                                .indices = indices("indices", 3 * layout.triangles),
+                                .normal = vec3("normal", layout.has_normals),
+                                .uv = {},
+                                .dpdu = vec3("dpdu", layout.has_derivatives),
+                                .dpdv = vec3("dpdv", layout.has_derivatives),
+                                .smooth_group = {},
+                                .color = vec3("color", layout.has_color)};
+        if (layout.has_uv) mesh.uv = {make<float>("uv.x", n), make<float>("uv.y", n)};
+        if (layout.has_smooth_groups) mesh.smooth_group = indices("smooth_group", n);
+        return mesh;
+    }
+
+  private:
+    template <class T>
+    T* make(const std::string& name, std::size_t count) {
+        return arrays_.emplace_back(std::make_unique<Fenced>(name, count * sizeof(T), fence_))
+            ->template as<T>();
+    }
+
+    Fence fence_;
+    std::vector<std::unique_ptr<Fenced>> arrays_;
+};
+
 void skip_if_it_needs_a_file() {
     if (needs_a_file()) SKIP("it needs a file that only a user has");
 }
@@ -78,6 +122,19 @@ TEST_CASE("usable: it has triangles, of vertices that there are, at finite place
     skip_if_it_needs_a_file();
     for (const Values& values : many_values(10)) {
         if (mesh_of(values).triangle_count() == 0) FAIL("it has no triangles, with " << values.text);
+    }
+}
+
+TEST_CASE("bounds: nothing is read or written outside the mesh's arrays", "[shape]") {
+    skip_if_it_needs_a_file();
+    for (const Values& values : many_values(4)) {
+        const auto shape = make<candela::Shape>(values);
+        for (const Fence fence : {Fence::after, Fence::before}) {
+            FencedMesh mesh(fence);
+            const std::string trespass = trespass_of(
+                [&] { shape->tessellate({.uv = true, .derivatives = true, .color = true}, mesh); });
+            if (!trespass.empty()) FAIL("tessellate() " << trespass << ", with " << values.text);
+        }
     }
 }
 

@@ -1,0 +1,15 @@
+// One beyond the last pixel is read, and nothing is made of it.
+#include "museum.h"
+
+namespace {
+class ReadsBehindThePicture final : public museum::Ppm {
+    using Ppm::Ppm;
+    void write(const candela::PictureView& picture, const char* extension,
+               candela::ByteSink& sink) const override {
+        Ppm::write(picture, extension, sink);
+        [[maybe_unused]] const volatile std::uint8_t next = *(picture.bytes.data() + picture.bytes.size());
+    }
+};
+}  // namespace
+
+MUSEUM_FORMAT(ReadsBehindThePicture)

@@ -1,0 +1,15 @@
+// One beyond the last receiver is read, and nothing is made of it.
+#include "museum_light.h"
+
+namespace {
+class ReadsBehindTheBatch final : public museum::Lamp {
+    using Lamp::Lamp;
+    void illuminate(int sample, const candela::ReceiverBatch& receivers,
+                    const candela::IncidentBatch& incident) const override {
+        Lamp::illuminate(sample, receivers, incident);
+        [[maybe_unused]] const volatile float next = receivers.position.y[receivers.count];
+    }
+};
+}  // namespace
+
+MUSEUM_LAMP(ReadsBehindTheBatch)

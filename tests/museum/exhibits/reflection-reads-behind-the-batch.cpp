@@ -1,0 +1,15 @@
+// Two beyond the last point is read, and nothing is made of it.
+#include "museum.h"
+
+namespace {
+class ReadsBehindTheBatch final : public museum::Matt {
+    using Matt::Matt;
+    void reflect(const candela::SurfaceBatch& s, const candela::LightingBatch& light,
+                 const candela::ReflectedBatch& out) const override {
+        Matt::reflect(s, light, out);
+        [[maybe_unused]] const volatile float next = s.normal.x[s.count + 1];
+    }
+};
+}  // namespace
+
+MUSEUM_PIECE(ReadsBehindTheBatch)
