@@ -6,26 +6,64 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <utility>
 
+#include "bash_line.h"
 #include "command_line.h"
 #include "reporting.h"
 
 import candela.descriptor;
 import candela.diagnostics;
+import candela.text;
 
 namespace po = boost::program_options;
 using candela::PluginKind;
 
-bool is_completing() {
+namespace {
+
+std::string_view shell_to_complete_for() {
     const char* const wanted = std::getenv("CANDELA_COMPLETE");
-    return wanted != nullptr && *wanted != '\0';
+    return wanted != nullptr ? wanted : "";
+}
+
+/// Where it is bash's.
+std::optional<BashLine>& bash_line() {
+    static std::optional<BashLine> line;
+    return line;
+}
+
+/// As the shell is to insert it; nothing where that cannot be.
+std::optional<std::string> inserted(const std::string& word) {
+    if (!can_be_shown(word)) return std::nullopt;
+    return bash_line() ? bash_line()->replacement_for(word) : word;
+}
+
+}  // namespace
+
+bool is_completing() { return !shell_to_complete_for().empty(); }
+
+std::vector<std::string> words_to_complete(const std::vector<std::string>& arguments) {
+    if (shell_to_complete_for() != "bash" || arguments.size() != 2) return arguments;
+    bash_line().emplace(arguments[0], arguments[1]);
+    const std::vector<std::string>& words = bash_line()->words();
+    return {words.begin() + 1, words.end()};  // without the command
+}
+
+bool can_be_shown(std::string_view word) {
+    return word.find('\t') == std::string_view::npos && candela::printable(word) == word;
 }
 
 void print_completions(std::string_view typed, std::span<const Completion> completions) {
     std::set<std::string_view> printed;
     for (const Completion& completion : completions) {
         if (!completion.word.starts_with(typed) || !printed.insert(completion.word).second) continue;
-        std::cout << completion.word;
+        const std::optional<std::string> word = inserted(completion.word);
+        if (!word) continue;
+        std::cout << *word;
+        if (bash_line()) {
+            std::cout << '\n';
+            continue;
+        }
         // One line: what is behind a line break is a detail.
         const std::string_view meaning = completion.meaning;
         if (!meaning.empty()) std::cout << '\t' << meaning.substr(0, meaning.find_first_of("\n\t"));
@@ -120,6 +158,12 @@ constexpr OptionValues k_values_of_options[] = {
 
 bool takes_value(const po::option_description& option) { return option.semantic()->max_tokens() > 0; }
 
+/// Prints those that are not taken for options.
+void print_arguments(std::string_view typed, std::vector<Completion> completions) {
+    std::erase_if(completions, [](const Completion& completion) { return completion.word.starts_with('-'); });
+    print_completions(typed, completions);
+}
+
 /// What help calls the value: "FILE".
 std::string value_name_of(const po::option_description& option) {
     const std::string name = option.format_parameter();
@@ -182,6 +226,7 @@ void CommandLine::complete_value(const po::option_description& option, const std
         kept += typed.substr(0, typed.rfind(',') + 1);
     }
     for (Completion& value : values) value.word.insert(0, kept);
+    if (given.empty()) return print_arguments(typed, std::move(values));
     print_completions(given + typed, values);
 }
 
@@ -189,9 +234,9 @@ void CommandLine::complete_positional(const std::string& typed) const {
     if (positional_.max_total_count() == 0) return;
     const std::string name = positional_.name_for_position(0);
     candela::Registry registry = registry_from(*this);
-    if (name == "kind") return print_completions(typed, kinds());
-    if (name == "plugin") return print_completions(typed, all_plugins(registry));
-    if (name == "model") return print_completions(typed, models_with_values(typed, registry));
-    if (name == "arguments" && all(name).empty()) return print_completions(typed, kinds());  // plugin new
+    if (name == "kind") return print_arguments(typed, kinds());
+    if (name == "plugin") return print_arguments(typed, all_plugins(registry));
+    if (name == "model") return print_arguments(typed, models_with_values(typed, registry));
+    if (name == "arguments" && all(name).empty()) return print_arguments(typed, kinds());  // plugin new
     print_file_completions(FileKind::any);
 }

@@ -133,5 +133,5 @@ bool complete_verb(const std::vector<std::string>& arguments, std::span<const Ve
 int main(int argc, char** argv) {
     prepare_for_signals();
     keep_freed_memory();
-    return run_and_report([&] { return run({argv + 1, argv + argc}); });
+    return run_and_report([&] { return run(words_to_complete({argv + 1, argv + argc})); });
 }

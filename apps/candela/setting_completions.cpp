@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,9 +24,13 @@ struct Settable {
     std::optional<PluginKind> names{};  // it is a plugin's name
 };
 
-/// How a label is written in a path: an index as it is.
-std::string in_path(const std::string& label) {
-    return std::string(candela::name_of_label(label).value_or(label));
+/// How the `index`th of some objects or lights is written in a path: by its name, unless it has none or a
+/// path cannot have it.
+std::string in_path(const std::string& label, std::size_t index) {
+    const std::string_view name = candela::name_of_label(label).value_or("");
+    const bool is_possible =
+        !name.empty() && name.find_first_of(".=") == std::string_view::npos && can_be_shown(name);
+    return is_possible ? std::string(name) : std::to_string(index);
 }
 
 class Paths {
@@ -60,14 +65,16 @@ void add_scene(Paths& paths, const candela::Scene& scene) {
         if (!table.repeated) {
             paths.add(table, table.name + '.');
         } else if (table.name == "light") {
-            for (const candela::LightSource& light : scene.lights) {
-                const std::string prefix = "light." + in_path(light.label) + '.';
+            for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+                const candela::LightSource& light = scene.lights[i];
+                const std::string prefix = "light." + in_path(light.label, i) + '.';
                 paths.add(table, prefix);
                 paths.add(PluginKind::light, light.model.name, prefix);
             }
         } else if (table.name == "object") {
-            for (const candela::Object& object : scene.objects) {
-                const std::string prefix = "object." + in_path(object.label) + '.';
+            for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+                const candela::Object& object = scene.objects[i];
+                const std::string prefix = "object." + in_path(object.label, i) + '.';
                 paths.add(table, prefix);
                 paths.add(PluginKind::shape, object.shape.name, prefix);
                 paths.add(PluginKind::reflection, object.reflection.name, prefix + "material.");

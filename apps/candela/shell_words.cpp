@@ -2,13 +2,28 @@
 
 #include <algorithm>
 #include <cctype>
-#include <string_view>
+
+namespace {
+
+/// No shell makes anything else of it.
+bool is_plain(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x80 && std::isalnum(byte) != 0) || byte >= 0x80 ||
+           std::string_view("._/-+,:@=%").find(c) != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string quoted_for_bash(std::string_view part) {
+    std::string result;
+    for (const char c : part) {
+        if (!is_plain(c)) result += '\\';
+        result += c;
+    }
+    return result;
+}
 
 std::string quoted_for_shell(const std::string& word) {
-    const auto is_plain = [](unsigned char c) {
-        return std::isalnum(c) != 0 || c >= 0x80 ||
-               std::string_view("._/-+,:@=%").find(static_cast<char>(c)) != std::string_view::npos;
-    };
     if (!word.empty() && !word.starts_with('=') && std::ranges::all_of(word, is_plain)) return word;
     std::string result = "'";
     for (const char c : word) {

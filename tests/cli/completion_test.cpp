@@ -1,4 +1,5 @@
-// Completion for shells, and the manual pages: both say what --help says.
+// Completion for shells, and the manual pages: both say what --help says. In the shells themselves:
+// tests/shells.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <regex>
@@ -14,7 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string k_examples = CANDELA_TEST_SOURCE "/docs/examples/";
-const fs::path k_shells = CANDELA_TEST_SOURCE "/apps/candela/shells";
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
@@ -36,15 +36,6 @@ std::set<std::string> completions(const std::vector<std::string>& words) {
 }
 
 using Words = std::set<std::string>;
-
-/// What a script prints in a shell that has the command on its PATH.
-std::string in_shell(const std::vector<std::string>& shell, const std::string& script) {
-    std::vector<std::string> words = shell;
-    words.push_back("PATH=" + fs::path(CANDELA_TEST_COMMAND).parent_path().string() + ":$PATH\n" + script);
-    const CommandResult result = run_program(words);
-    CHECK(result.err.empty());
-    return result.out;
-}
 
 }  // namespace
 
@@ -85,36 +76,79 @@ TEST_CASE("completion: files are left to the shell, and mistakes before the curs
     CHECK(completions({"render", "no-such-scene.toml", "--set", "obser"}) == Words{"observer."});
 }
 
-TEST_CASE("completion works in bash, zsh and fish") {
-    const std::string bash = in_shell(
-        {"bash", "-c"},
-        "source " + (k_shells / "candela.bash").string() +
-            "\ncompopt() { :; }\n"  // it works in readline only
-            "complete_line() { COMP_LINE=$1 COMP_POINT=${#1}; _candela; echo \"${COMPREPLY[*]}\"; }\n"
-            "complete_line 'candela ren'\ncomplete_line 'candela render --reflection=gg'\n"
-            "complete_line 'candela render --set light.'\ncomplete_line 'candela plot ggx:rou'\n");
-    CHECK(bash == "render\nggx\nlight.lamp.\nroughness=\n");
+namespace {
 
-    const std::string zsh =
-        in_shell({"zsh", "-f", "-c"},
-                 "compadd() { print -r -- \"${@[$#]}\" }\n_files() { print files $* }\n"  // they work in its
-                                                                                          // editor only
-                 "functions[_candela]=$(<" +
-                     (k_shells / "_candela").string() +
-                     ")\n"
-                     "words=(candela ren) CURRENT=2; _candela\nwords=(candela render --reflection gg) "
-                     "CURRENT=4; _candela\n"
-                     "words=(candela render --set light.) CURRENT=4; _candela\nwords=(candela render "
-                     "--plugin-dir '') CURRENT=4; _candela\n");
-    CHECK(zsh == "render\nggx\nlight.lamp.\nfiles -/\n");
+/// What readline is to put in place of `replaced`, the end of a line that is typed in bash.
+std::set<std::string> insertions(const std::string& line, const std::string& replaced,
+                                 const fs::path& directory = {}) {
+    const CommandResult result =
+        run_candela({line, replaced},
+                    {.input = {}, .environment = {{"CANDELA_COMPLETE", "bash"}}, .directory = directory});
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.empty());
+    const std::vector<std::string> lines = lines_of(result.out);
+    return {lines.begin(), lines.end()};
+}
 
-    const fs::path home = scratch_directory();
-    const std::string fish = in_shell({"env", "HOME=" + home.string(), "bash", "-c"},
-                                      "fish -c 'source " + (k_shells / "candela.fish").string() +
-                                          "; for line in \"candela ren\" \"candela render --reflection gg\" "
-                                          "\"candela render --set light.\"; "
-                                          "complete -C $line | cut -f 1; end'");
-    CHECK(fish == "render\nggx\nlight.lamp.\n");
+fs::path scene_with(const std::vector<std::string>& names_in_toml) {
+    std::string objects;
+    for (const std::string& name : names_in_toml) objects += "{type = \"cube\"" + name + "}, ";
+    const std::string text =
+        "version = 1\nobserver = {position = [0, 1, 4], look_at = [0, 0, 0]}\nobject = [" + objects + "]\n";
+    return write_file(scratch_directory() / "s.toml", text);
+}
+
+}  // namespace
+
+TEST_CASE("completion in bash: what is inserted is quoted for where it stands") {
+    using Insertions = std::set<std::string>;
+    CHECK(insertions("candela ren", "ren") == Insertions{"render"});
+    CHECK(insertions("candela render --reflection=gg", "gg") == Insertions{"ggx"});
+    CHECK(insertions("candela render --set light.", "light.") == Insertions{"light.lamp."});
+    CHECK(insertions("candela plot ggx:rou", "rou") == Insertions{"roughness="});
+    CHECK(insertions("candela render ", "") == Insertions{"\tfiles"});
+    const fs::path folder = scene_with({R"x(, name = "box$(touch${IFS}X)")x"}).parent_path();
+    const std::string before = "candela render s.toml --set ";
+    CHECK(insertions(before + "object.b", "object.b", folder) ==
+          Insertions{R"x(object.box\$\(touch\$\{IFS\}X\).)x"});
+    CHECK(insertions(before + "'object.b", "object.b", folder) == Insertions{"object.box$(touch${IFS}X)."});
+    CHECK(insertions(before + "\"object.b", "object.b", folder) ==
+          Insertions{R"x(object.box\$(touch\${IFS}X).)x"});
+    CHECK(insertions(before + R"x(object.box\$)x", R"x(object.box\$)x", folder) ==
+          Insertions{R"x(object.box\$\(touch\$\{IFS\}X\).)x"});
+    // Readline would leave what stands before it, and the shell execute that.
+    CHECK(insertions(before + "object.box$(tou", "tou", folder).empty());
+    CHECK(insertions(before + "$'object.b", "object.b", folder).empty());
+    CHECK(insertions(before + "object.box`tou", "tou", folder).empty());
+    CHECK(insertions(before + "\"object.box$(tou", "object.box$(tou", folder) ==
+          Insertions{R"x(object.box\$(touch\${IFS}X).)x"});
+}
+
+TEST_CASE("completion offers what can be typed: an index for a name that a path cannot have") {
+    const std::string scene =
+        scene_with({"", R"(, name = "a.b")", R"(, name = "a=b")", R"(, name = "plain")"}).string();
+    CHECK(completions({"render", scene, "--set", "object."}) ==
+          Words{"object.0.", "object.1.", "object.2.", "object.plain."});
+    CHECK(completions({"render", scene, "--set", "object.1.position"}) == Words{"object.1.position="});
+    const std::string hidden =
+        scene_with({R"(, name = "two\nlines")", R"(, name = "bell\u0007")", R"(, name = "a\ttab")"}).string();
+    CHECK(completions({"render", hidden, "--set", "object."}) ==
+          Words{"object.0.", "object.1.", "object.2."});
+}
+
+TEST_CASE("completion offers no name that would be taken for an option") {
+    const fs::path folder = scratch_directory();
+    const fs::path plugins = fs::path(CANDELA_TEST_PLUGINS);
+    std::string manifest = read_file(plugins / "reflection-lambert.json");
+    const std::string name = "\"name\": \"lambert\"";
+    const std::size_t at = manifest.find(name);
+    REQUIRE(at != std::string::npos);
+    write_file(folder / "reflection--x.json", manifest.replace(at, name.size(), "\"name\": \"-x\""));
+    fs::copy_file(plugins / "reflection-lambert.so", folder / "reflection--x.so");
+    const std::string where = "--plugin-dir=" + folder.string();
+    CHECK_FALSE(completions({"render", where, "--reflection", ""}).contains("-x"));
+    CHECK(completions({"render", where, "--reflection=-"}) == Words{"--reflection=-x"});
+    CHECK(completions({"describe", where, "reflection/-"}) == Words{"reflection/-x"});
 }
 
 TEST_CASE("every verb has a manual page with every option that its help has") {

@@ -1,21 +1,16 @@
-# Completion of candela in bash; the command itself knows what a word may become.
+# Completion of candela in bash; the command itself knows what a word may become, and how that is quoted where
+# readline inserts it: in place of "$2".
 _candela() {
-    local line=${COMP_LINE:0:COMP_POINT} word shown kept typed
-    local -a words
-    read -ra words <<<"$line"
-    [[ $line == *[[:space:]] ]] && words+=('')
-    typed=${words[-1]}
-    # Readline takes a word to begin behind the last '=' or ':'.
-    kept=${typed%"${typed##*[=:]}"}
+    local shown
     COMPREPLY=()
     while IFS= read -r shown; do
         case $shown in
-            $'\tfiles') compopt -o filenames; mapfile -t COMPREPLY < <(compgen -f -- "${typed#"$kept"}"); return ;;
-            $'\tfolders') compopt -o filenames; mapfile -t COMPREPLY < <(compgen -d -- "${typed#"$kept"}"); return ;;
+            $'\tfiles') compopt -o default ;;
+            $'\tfolders') compopt -o dirnames ;;
+            *)  # Behind a '=' or a '.', the word goes on.
+                [[ $shown == *[=.] ]] && compopt -o nospace
+                COMPREPLY+=("$shown") ;;
         esac
-        word=${shown%%$'\t'*}
-        [[ $word == *[=.] ]] && compopt -o nospace
-        COMPREPLY+=("${word#"$kept"}")
-    done < <(CANDELA_COMPLETE=1 "${words[0]}" "${words[@]:1}" 2>/dev/null)
+    done < <(CANDELA_COMPLETE=bash "$1" "${COMP_LINE:0:COMP_POINT}" "$2" 2>/dev/null)
 }
 complete -F _candela candela

@@ -1,14 +1,24 @@
-# Completion of candela in fish; the command itself knows what a word may become.
+# Completion of candela in fish; the command itself knows what a word may become, and fish quotes it.
 function __candela_complete
-    set -l words (commandline -opc) (commandline -ct)
-    for line in (CANDELA_COMPLETE=1 $words[1] $words[2..-1] 2>/dev/null)
+    set -l words (commandline -opc)
+    # What the word is without quotation marks and backslashes; the last quotation mark may be missing.
+    set -l shown (commandline -ct)
+    set -l typed
+    for end in '' \' \"
+        set typed (string unescape -- "$shown$end"); and break
+    end
+    set -q typed[1]; or set typed $shown
+    for line in (CANDELA_COMPLETE=1 $words[1] $words[2..-1] "$typed" 2>/dev/null)
         switch $line
-            case \tfiles
-                __fish_complete_path (commandline -ct)
-            case \tfolders
-                __fish_complete_directories (commandline -ct)
+            case \tfiles \tfolders
+                # Behind "--output=", it begins anew. The shell completes names for whatever command, '' as well.
+                set -l option (string match -r -- '^--[^=]*=' "$typed")
+                set -l path (string replace -r -- '^--[^=]*=' '' "$typed")
+                set -l found (complete -C"'' "(string escape -- "$path"))
+                test $line = \tfolders; and set found (string match -r -- '.*/$' $found)
+                set -q found[1]; and printf '%s\n' "$option"$found
             case '*'
-                echo $line
+                printf '%s\n' $line
         end
     end
 end
