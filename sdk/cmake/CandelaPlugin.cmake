@@ -91,9 +91,10 @@ function(candela_add_plugin id)
         cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
         target_compile_definitions(${target} PRIVATE CANDELA_KERNEL_FILE="${kernel}")
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS ${kernel})
-        # What programs that are generated from the kernel would not compile with is said now, once, at its line.
+        # What programs that are generated from the kernel would not compile with is said now, once, at its line. A variable that
+        # is not read yet is a warning, while the formula is being written.
         target_compile_options(${target} PRIVATE
-            -Werror=unused-variable -Werror=uninitialized
+            -Wunused-variable -Werror=uninitialized
             $<$<CXX_COMPILER_ID:Clang>:-Werror=sometimes-uninitialized>)
     endif()
     if(PLUGIN_EMBED)

@@ -1,12 +1,9 @@
 #include "answer.h"
 
-#include <sys/mman.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
-#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -18,6 +15,7 @@
 #include <vector>
 
 #include "agreement.h"
+#include "answer_process.h"
 #include "batch.h"
 #include "kernel_program.h"
 #include "sandbox.h"
@@ -26,19 +24,16 @@ namespace {
 
 constexpr std::size_t k_points = 500;  // for each set of values, as for a plugin's own kernel
 constexpr int k_random_values = 20;
-constexpr std::size_t k_room = 256UL * 1024 * 1024;
-constexpr unsigned k_seconds = 3;  // of processor time, for what takes milliseconds
 
 std::string& answer_text() {
     static std::string text;
     return text;
 }
 
-/// One call with one set of values: what the model gives, and where the answer's numbers will be.
+/// One call with one set of values, and where the answer's numbers are.
 struct Trial {
     Call call;
     Values values;
-    Arrays expected;
     std::size_t first;  // among all numbers
 };
 
@@ -46,60 +41,17 @@ bool is_compared(const Call& call) {
     return call.name != "show_surroundings" && call.name != "reflect_punctual";
 }
 
-std::vector<Trial> trials_for(const Arrays& in) {
+std::vector<Trial> trials_of(std::size_t points) {
     std::vector<Trial> trials;
     std::size_t first = 0;
     for (const Values& values : many_values(k_random_values)) {
         for (const Call& call : batch_subject(values).calls) {
             if (!is_compared(call)) continue;
-            Arrays expected = outputs_of(call, in);
-            const std::size_t numbers = expected.arrays() * expected.count();
-            trials.push_back({call, values, std::move(expected), first});
-            first += numbers;
+            trials.push_back({call, values, first});
+            first += 3 * call.outputs.size() * points;
         }
     }
     return trials;
-}
-
-/// Numbers that a child writes and this process reads.
-class SharedNumbers {
-  public:
-    explicit SharedNumbers(std::size_t count)
-        : bytes_(count * sizeof(float)),
-          at_(::mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
-        if (at_ == MAP_FAILED) FAIL("no memory is left: " << std::strerror(errno));
-    }
-    SharedNumbers(const SharedNumbers&) = delete;
-    SharedNumbers& operator=(const SharedNumbers&) = delete;
-    ~SharedNumbers() { ::munmap(at_, bytes_); }
-    std::span<float> all() const { return {static_cast<float*>(at_), bytes_ / sizeof(float)}; }
-
-  private:
-    std::size_t bytes_;
-    void* at_;
-};
-
-/// In a child that may do nothing but compute. Its status, as waitpid() says it.
-int run_confined(const KernelProgram& program, const std::vector<Trial>& trials, const Arrays& in,
-                 std::span<float> numbers) {
-    const pid_t child = ::fork();
-    if (child < 0) FAIL("no process can be started: " << std::strerror(errno));
-    if (child == 0) {
-        for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) ::signal(signal, SIG_DFL);
-        confine(k_room, k_seconds);
-        for (const Trial& trial : trials) {
-            Arrays actual(trial.expected.arrays(), in.count());
-            program.run(trial.call.name, trial.values, 0, in, actual);
-            for (std::size_t a = 0; a < actual.arrays(); ++a)
-                std::copy_n(actual[a], in.count(),
-                            numbers.subspan(trial.first + a * in.count(), in.count()).data());
-        }
-        ::_exit(0);
-    }
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
 }
 
 /// How a term of an answer differs, over all trials of one call.
@@ -117,13 +69,14 @@ struct TermDifference {
 class Judgement {
   public:
     void add(const Trial& trial, const Arrays& in, std::span<const float> numbers) {
+        const Arrays all_expected = outputs_of(trial.call, in);
         std::size_t differing_numbers = 0;
         for (std::size_t output = 0; output < trial.call.outputs.size(); ++output) {
             const auto actual = [&](std::size_t c, std::size_t i) {
                 return numbers[trial.first + (3 * output + c) * in.count() + i];
             };
             const auto expected = [&](std::size_t c, std::size_t i) {
-                return trial.expected[3 * output + c][i];
+                return all_expected[3 * output + c][i];
             };
             float peak = 0;
             for (std::size_t c = 0; c < 3; ++c)
@@ -192,23 +145,24 @@ class Judgement {
 
 nlohmann::json judged() {
     const Arrays in = inputs_for(k_points);
-    const std::vector<Trial> trials = trials_for(in);
+    const std::vector<Trial> trials = trials_of(k_points);
+    std::vector<AnswerCall> calls;
+    for (const Trial& trial : trials)
+        calls.push_back({trial.call.name, kernel_inputs(trial.values), 3 * trial.call.outputs.size()});
     limit_compiling();
-    std::size_t count = 0;
-    for (const Trial& trial : trials) count += trial.expected.arrays() * trial.expected.count();
     try {
-        const KernelProgram program(answer_text());
-        const SharedNumbers numbers(count);
-        const int status = run_confined(program, trials, in, numbers.all());
-        if (WIFSIGNALED(status)) {
-            const int signal = WTERMSIG(status);
+        const CompiledKernel compiled(answer_text(), KernelAuthor::anybody);
+        const ComputedAnswer answer = computed_answer(compiled.library(), calls, in);
+        if (WIFSIGNALED(answer.status)) {
+            const int signal = WTERMSIG(answer.status);
             if (signal == SIGXCPU) return {{"hangs", true}};
             const char* const name = ::sigabbrev_np(signal);
             return {{"signal", name == nullptr ? "?" : name}};
         }
-        if (WEXITSTATUS(status) != 0) FAIL("this system cannot confine a process: no seccomp filters");
+        if (WEXITSTATUS(answer.status) == k_cannot_be_loaded) return {{"refused", "it cannot be loaded"}};
+        if (WEXITSTATUS(answer.status) != 0) FAIL("this system cannot confine a process: no seccomp filters");
         Judgement judgement;
-        for (const Trial& trial : trials) judgement.add(trial, in, numbers.all());
+        for (const Trial& trial : trials) judgement.add(trial, in, answer.numbers);
         return judgement.json();
     } catch (const KernelRefused& problem) {
         return {{"refused", problem.what()}};

@@ -6,12 +6,14 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <span>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 import candela.light;
@@ -167,14 +169,14 @@ std::string source(const std::string& kernel_text) {
     return text + body;
 }
 
-/// Lines that say what is wrong, few enough to read: those that hold `word` and begin with `begin`.
-std::string lines_with(const std::string& word, const std::string& begin, const std::string& log) {
+/// Lines that `is_wanted` takes, few enough to read.
+std::string lines_of(const std::string& log, const std::function<bool(const std::string&)>& is_wanted) {
     std::istringstream lines(log);
     lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
     std::string result;
     int shown = 0;
     for (std::string line; std::getline(lines, line) && shown < 4;) {
-        if (line.find(word) == std::string::npos || !line.starts_with(begin)) continue;
+        if (!is_wanted(line)) continue;
         result += "\n" + line;
         ++shown;
     }
@@ -207,20 +209,6 @@ std::shared_ptr<candela::Instance> instance_of(const Values& values) {
     }
 }
 
-/// The tables of an instance, by parameter.
-struct Tables {
-    explicit Tables(const Values& values) : instance(instance_of(values)) {
-        for (std::size_t i = 0; i < subject_manifest().parameters.size(); ++i) {
-            const std::span<const float> table = instance->table(i);
-            numbers.push_back(table.data());
-            sizes.push_back(static_cast<int>(table.size()));
-        }
-    }
-    std::shared_ptr<candela::Instance> instance;
-    std::vector<const float*> numbers;
-    std::vector<int> sizes;
-};
-
 }  // namespace
 
 std::string kernel_file_name() { return subject_manifest().name + ".kernel"; }
@@ -245,19 +233,24 @@ TemporaryDirectory::~TemporaryDirectory() {
     fs::remove_all(path_, ignored);
 }
 
-KernelProgram::KernelProgram() try : KernelProgram(std::string(subject().kernel.text)) {
-} catch (const KernelRefused& problem) {
-    FAIL(problem.what());
+KernelInputs kernel_inputs(const Values& values) {
+    KernelInputs inputs{.parameters = delivered(values), .tables = {}};
+    const auto instance = instance_of(values);
+    for (std::size_t i = 0; i < subject_manifest().parameters.size(); ++i) {
+        const std::span<const float> table = instance->table(i);
+        inputs.tables.emplace_back(table.begin(), table.end());
+    }
+    return inputs;
 }
 
-KernelProgram::KernelProgram(const std::string& text) {
+CompiledKernel::CompiledKernel(const std::string& text, KernelAuthor author) {
     const auto compiler = candela::cxx_compiler();
     if (!compiler) SKIP("there is no C++ compiler here");
     const fs::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
-    const fs::path file = directory_.path() / "kernel.cpp", library = directory_.path() / "kernel.so";
+    const fs::path file = directory_.path() / "kernel.cpp";
     std::ofstream(file) << source(text);
-    // What it needs of the libraries is in this process already.
+    // What it needs of the libraries is in the process already that loads it.
     std::vector<std::string> words{compiler->string(), "-std=c++20", "-O1",   "-fPIC",
                                    "-shared",          "-nostdlib",  "-Wall", "-Wextra",
                                    "-ffp-contract=off"};
@@ -266,20 +259,34 @@ KernelProgram::KernelProgram(const std::string& text) {
         words.emplace_back("-ftrivial-auto-var-init=pattern");
     // A loop without an end is to be found, not to be taken for one that ends.
     words.emplace_back("-fno-finite-loops");
-    words.insert(words.end(), {"-isystem", include.string(), file.string(), "-o", library.string()});
+    // From an overflow, a compiler would conclude that an index is in range.
+    if (author == KernelAuthor::anybody) words.emplace_back("-fwrapv");
+    words.insert(words.end(), {"-isystem", include.string(), file.string(), "-o", library().string()});
     const candela::ProgramOutput compiled = candela::run_program(words);
     if (compiled.exit_code != 0) {
-        const std::string errors = lines_with("error", "", compiled.err);
+        const std::string errors = lines_of(
+            compiled.err, [](const std::string& line) { return line.find("error") != std::string::npos; });
         throw KernelRefused(fmt::format("the kernel's text does not compile as C++ ({}):{}",
                                         compiler->string(),
                                         errors.empty() ? "\n" + compiled.err.substr(0, 400) : errors));
     }
-    warnings_ = lines_with(": warning: ", kernel_file_name() + ":", compiled.err);
-    try {
-        library_.load(library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
-    } catch (const std::exception& problem) {
-        throw KernelRefused(fmt::format("the compiled kernel cannot be loaded: {}", problem.what()));
-    }
+    const auto warnings = [&](bool of_unused) {
+        return lines_of(compiled.err, [&](const std::string& line) {
+            const bool is_unused = line.find("[-Wunused") != std::string::npos;
+            return line.find(": warning: ") != std::string::npos &&
+                   line.starts_with(kernel_file_name() + ":") && is_unused == of_unused;
+        });
+    };
+    warnings_ = warnings(false);
+    unused_ = warnings(true);
+}
+
+KernelProgram::KernelProgram() try : compiled_(subject().kernel.text, KernelAuthor::of_the_plugin) {
+    library_.load(compiled_.library(), boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+} catch (const KernelRefused& problem) {
+    FAIL(problem.what());
+} catch (const std::system_error& problem) {
+    FAIL("the compiled kernel cannot be loaded: " << problem.what());
 }
 
 KernelProgram::Function KernelProgram::function(const std::string& name) const {
@@ -290,14 +297,18 @@ KernelProgram::Function KernelProgram::function(const std::string& name) const {
 
 void KernelProgram::run(const std::string& call, const Values& values, int sample, const Arrays& in,
                         Arrays& out) const {
-    const std::vector<float> parameters = delivered(values);
-    std::vector<const float*> from;
+    const KernelInputs inputs = kernel_inputs(values);
+    std::vector<const float*> tables, from;
+    std::vector<int> sizes;
+    for (const std::vector<float>& table : inputs.tables) {
+        tables.push_back(table.data());
+        sizes.push_back(static_cast<int>(table.size()));
+    }
     std::vector<float*> to;
     for (std::size_t a = 0; a < in.arrays(); ++a) from.push_back(in[a]);
     for (std::size_t a = 0; a < out.arrays(); ++a) to.push_back(out[a]);
-    const Tables tables(values);
-    function(call)(parameters.data(), tables.numbers.data(), tables.sizes.data(), sample, in.count(),
-                   from.data(), to.data());
+    function(call)(inputs.parameters.data(), tables.data(), sizes.data(), sample, in.count(), from.data(),
+                   to.data());
 }
 
 candela::Vec3 KernelProgram::position(const Values& values, float u, float v) const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "batch.h"
 
@@ -34,18 +35,40 @@ class KernelRefused : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Who has written a kernel's text, and with which care it is compiled.
+enum class KernelAuthor : bool { of_the_plugin, anybody };
+
+/// A kernel's text, with functions that call its functions, as a library that nobody has loaded.
+class CompiledKernel {
+  public:
+    /// Throws KernelRefused where the text is not C++; skips the check where there is no compiler.
+    CompiledKernel(const std::string& text, KernelAuthor author);
+    std::filesystem::path library() const { return directory_.path() / "kernel.so"; }
+    /// What the compiler warns of in the kernel's text, a line each, with the warnings that generated
+    /// programs are compiled with; `unused`: those of variables that nobody reads.
+    const std::string& warnings() const { return warnings_; }
+    const std::string& unused() const { return unused_; }
+
+  private:
+    TemporaryDirectory directory_;
+    std::string warnings_, unused_;
+};
+
+/// What the functions of a compiled kernel are given beside the points.
+struct KernelInputs {
+    std::vector<float> parameters;
+    std::vector<std::vector<float>> tables;  // by parameter
+};
+KernelInputs kernel_inputs(const Values& values);
+
 /// The text as C++: `run` does what the plugin's call of that name does, one point after another.
 class KernelProgram {
   public:
-    /// Fails the check, with what the compiler says, where the text is no C++; skips it where there is no
-    /// compiler.
+    /// Of the plugin. Fails the check, with what the compiler says, where the text is not C++; skips it where
+    /// there is no compiler.
     KernelProgram();
-    /// The same of another text for the same plugin. Throws KernelRefused instead of failing.
-    explicit KernelProgram(const std::string& text);
 
-    /// What the compiler warns of in the kernel's text, a line each, with the warnings that generated
-    /// programs are compiled with.
-    const std::string& warnings() const { return warnings_; }
+    const CompiledKernel& compiled() const { return compiled_; }
 
     /// What the calls of batch_subject() give, by name; `sample` is the light's.
     void run(const std::string& call, const Values& values, int sample, const Arrays& in, Arrays& out) const;
@@ -57,7 +80,6 @@ class KernelProgram {
                               int sample, std::size_t count, const float* const* in, float* const* out);
     Function function(const std::string& name) const;
 
-    TemporaryDirectory directory_;
-    std::string warnings_;
+    CompiledKernel compiled_;
     boost::dll::shared_library library_;
 };

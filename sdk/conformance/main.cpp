@@ -14,9 +14,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "answer.h"
+#include "answer_process.h"
 #include "groups.h"
 #include "outcome.h"
 #include "subject.h"
@@ -258,6 +260,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // Such a process has no business but this one.
+    if (argc == 3 && std::string_view(argv[1]) == k_compute_option) compute_answer(argv[2]);
     try {
         return run(argc, argv);
     } catch (const po::error& problem) {

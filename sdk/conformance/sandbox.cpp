@@ -42,7 +42,7 @@ constexpr __u32 k_architecture = AUDIT_ARCH_AARCH64;
 #endif
 
 constexpr rlim_t k_mib = rlim_t{1024} * 1024;
-constexpr int k_cannot = 125;
+constexpr int k_cannot = 125;  // k_cannot_be_confined of answer_process.h
 
 void limit(int what, rlim_t soft, rlim_t hard) {
     rlimit now{};

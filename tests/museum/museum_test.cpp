@@ -201,6 +201,15 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
     }
 }
 
+TEST_CASE("a variable of a kernel that nobody reads is a warning, and the plugin conforms") {
+    const Verdicts verdicts = judged(exhibit("reflection-unfinished-kernel"), {"--check", "kernel as C++"});
+    INFO(verdicts.checks.dump(2));
+    CHECK(verdicts.exit_code == 0);
+    CHECK(verdicts.of("kernel as C++") == "warning");
+    CHECK(verdicts.messages("kernel as C++")
+              .find("unfinished-kernel.kernel:11:11: warning: unused variable 'later'") != std::string::npos);
+}
+
 TEST_CASE("a sound plugin that needs a file conforms if it is given one, and is not judged without") {
     const fs::path file = write_file(scratch_directory() / "brightness.txt", "0.5\n");
     const Verdicts given = judged(exhibit("reflection-reads-a-file"), {"--set", "file=" + file.string()});
