@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the fuzzing harnesses and runs them, one after another, each from its committed corpus.
 #   scripts/fuzz.sh                       each for 60 seconds
-#   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file, material, gltf, request, answer
+#   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file, material, gltf, request, answer, kernel
 #   scripts/fuzz.sh --merge [HARNESS…]    puts what was found to reach new code into the corpus, and throws out what no
 #                                         longer adds anything
 # A corpus is tests/fuzz/corpus/<harness>, inputs with telling names, and <harness>.tar.gz, what fuzzing has found to reach code
@@ -17,7 +17,7 @@ if [ "$seconds" != --merge ] && ! [[ $seconds =~ ^[1-9][0-9]*$ ]]; then
     sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
     exit 2
 fi
-[ $# -gt 0 ] || set -- scene setting manifest mesh mesh_file material gltf request answer
+[ $# -gt 0 ] || set -- scene setting manifest mesh mesh_file material gltf request answer kernel
 
 "$root/scripts/setup.sh"
 cmake --preset fuzz -DCANDELA_TESTS=ON >/dev/null
@@ -48,6 +48,8 @@ for harness in "$@"; do
         mesh) options+=(-max_len=1024) ;;
         mesh_file) options+=(-max_len=4096) ;;
         material) options+=(-max_len=2048 -dict=tests/fuzz/mtl.dict) ;;
+        answer) options+=(-max_len=4096 -dict=tests/fuzz/kernel.dict) ;;
+        kernel) options+=(-max_len=2048) ;;
         gltf) options+=(-max_len=8192 -dict=tests/fuzz/gltf.dict) ;;
     esac
     if [ "$seconds" = --merge ]; then

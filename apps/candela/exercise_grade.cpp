@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "candela/kernel_language/language.h"
 #include "command_line.h"
 #include "exercise.h"
 #include "exercises.h"
 #include "exit_code.h"
 #include "helper.h"
 #include "json/json.h"
-#include "kernel_language.h"
 #include "reporting.h"
 #include "temporary_folder.h"
 #include "terminal.h"
@@ -25,6 +25,7 @@ import candela.files;
 import candela.process;
 import candela.text;
 
+namespace kl = candela::kernel_language;
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using candela::Error;
@@ -59,23 +60,38 @@ struct Grade {
     Result result = Result::is_no_answer;
     std::string message;         // what is wrong, where it is not in the numbers
     std::size_t line = 0;        // of the answer, where the message is about one
+    std::size_t column = 0;      // likewise
     Json terms = Json::array();  // as the conformance kit says them
 };
 
-/// What the compiler says about the first error in the answer's own lines; in other lines, an error is about
-/// where the answer ends.
-void take_refusal(Grade& grade, const std::string& log, const Exercise& exercise, const std::string& body) {
+constexpr const char* k_answer = "answer";  // what messages call its text
+
+/// What the compiler says about the first error in the answer: a name that a header has a macro of, say.
+void take_refusal(Grade& grade, const std::string& log) {
     grade.result = Result::does_not_compile;
-    static const std::regex k_error(R"(\.kernel:(\d+):\d+: (?:fatal )?error: ([^\n]*))");
+    static const std::regex k_error(fmt::format(R"(\b{}:(\d+):(\d+): (?:fatal )?error: ([^\n]*))", k_answer));
     std::smatch found;
     if (!std::regex_search(log, found, k_error)) {
         grade.message = log.substr(0, log.find('\n', log.find('\n') + 1));
         return;
     }
-    const std::size_t at = std::stoul(found[1]), first = exercise.first_line();
-    const auto lines = 1 + static_cast<std::size_t>(std::ranges::count(body, '\n'));
-    grade.message = found[2];
-    grade.line = at < first ? 0 : std::min(at - first + 1, lines);
+    grade.message = found[3];
+    grade.line = std::stoul(found[1]);
+    grade.column = std::stoul(found[2]);
+}
+
+/// The exercise's kernel with an answer in it, as C++; or nothing, and what is wrong with the answer.
+std::optional<std::string> compilable(const Exercise& exercise, const std::string& answer, Grade& grade) try {
+    return kl::emitted(kl::read_kernel(exercise.kernel, kl::Body{exercise.function, {k_answer, answer}}),
+                       kl::Emission::guarded_cpp);
+} catch (const kl::Problem& problem) {
+    grade.result = Result::does_not_compile;
+    grade.message = problem.what();
+    if (problem.file() == k_answer) {
+        grade.line = problem.line();
+        grade.column = problem.column();
+    }
+    return std::nullopt;
 }
 
 /// What the kit says of the kernel in `text`, with an answer in it.
@@ -120,17 +136,13 @@ class Grader {
             grade.message = problem.what();
             return grade;
         }
-        if (const auto problem = problem_in_body(answer->body)) {
-            grade.result = Result::does_not_compile;
-            grade.line = problem->line;
-            grade.message = problem->message;
-            return grade;
-        }
+        const std::optional<std::string> kernel = compilable(*exercise, answer->body, grade);
+        if (!kernel) return grade;
         const fs::path text = folder_.path() / "answer.kernel";
-        candela::write_text_file(text, exercise->with(body_for_cpp(answer->body)));
+        candela::write_text_file(text, *kernel);
         const Json found = judged_by_kit(kit_, *exercise, text, seconds_);
         if (found.contains("refused")) {
-            take_refusal(grade, found["refused"], *exercise, answer->body);
+            take_refusal(grade, found["refused"]);
         } else if (found.contains("hangs")) {
             grade.result = Result::hangs;
             grade.message = "it does not come to an end";
@@ -168,7 +180,7 @@ std::string term_text(const Json& term) {
 std::string summary_of(const Grade& grade) {
     std::string text = grade.result == Result::does_not_compile ? "does not compile" : name_of(grade.result);
     if (grade.result == Result::is_no_answer) return grade.message;
-    if (grade.line > 0) text += fmt::format(": line {}", grade.line);
+    if (grade.line > 0) text += fmt::format(": line {}, column {}", grade.line, grade.column);
     if (!grade.message.empty()) text += ": " + grade.message;
     return text;
 }
@@ -209,6 +221,7 @@ Json json_of(const Grade& grade) {
                    {"function", grade.function},  {"result", name_of(grade.result)},
                    {"message", grade.message},    {"terms", grade.terms}};
     result["line"] = grade.line > 0 ? Json(grade.line) : Json();
+    result["column"] = grade.column > 0 ? Json(grade.column) : Json();
     return result;
 }
 

@@ -83,10 +83,6 @@ TextAroundBody text_around_body(const std::string& text, const std::string& func
     return {.before = text.substr(0, begin), .after = text.substr(end)};
 }
 
-std::size_t Exercise::first_line() const {
-    return 2 + static_cast<std::size_t>(std::ranges::count(text.before, '\n'));
-}
-
 Exercise exercise_about(const std::string& model, const std::string& function, candela::Registry& registry) {
     const candela::PluginFile& file = loaded_model(model, registry);
     const std::string text = candela::target::without_comments(file.descriptor->kernel.text);
@@ -113,10 +109,20 @@ Exercise exercise_about(const std::string& model, const std::string& function, c
                                 file.manifest.name, function, meant.empty() ? "" : "; " + meant,
                                 fmt::join(short_names, ", ")));
     }
+    candela::kernel_language::Source kernel{.name = file.manifest.name + ".kernel",
+                                            .text = file.descriptor->kernel.text};
+    try {
+        static_cast<void>(candela::kernel_language::read_kernel(kernel));
+    } catch (const candela::kernel_language::Problem& problem) {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("the kernel of reflection/{} is not in the kernel language: {}",
+                                file.manifest.name, problem.text()));
+    }
     return {.model = "reflection/" + file.manifest.name,
             .function = name,
             .plugin = &file,
-            .text = text_around_body(text, name)};
+            .text = text_around_body(text, name),
+            .kernel = std::move(kernel)};
 }
 
 Answer answer_from(const fs::path& file) {

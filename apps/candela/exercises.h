@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "candela/kernel_language/language.h"
+
 import candela.descriptor;
 import candela.registry;
 
@@ -22,11 +24,7 @@ struct Exercise {
     std::string function;                         // "phong_reflect"
     const candela::PluginFile* plugin = nullptr;  // loaded; the registry's
     TextAroundBody text;                          // the kernel's, without comments
-
-    /// The whole kernel with this body, which begins on a line of its own.
-    std::string with(const std::string& body) const { return text.before + "\n" + body + "\n" + text.after; }
-    /// The line of with() on which the body begins, from 1.
-    std::size_t first_line() const;
+    candela::kernel_language::Source kernel;      // the whole kernel, as messages call it
 };
 
 /// The plugin of a reflection model ("reflection/phong", "phong"), loaded, with kernel text. Throws
@@ -34,7 +32,8 @@ struct Exercise {
 const candela::PluginFile& loaded_model(const std::string& model, candela::Registry& registry);
 
 /// The exercise about a model (reflection/phong) and a function of its kernel (reflect or phong_reflect).
-/// Throws candela::Error (bad_request), with what is possible, for what there is no such exercise about.
+/// Throws candela::Error (bad_request), with what is possible, for what there is no such exercise about, and
+/// for a kernel that is not in the kernel language.
 Exercise exercise_about(const std::string& model, const std::string& function, candela::Registry& registry);
 
 /// Somebody's answer to an exercise.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "candela/kernel_language/language.h"
 #include "command_line.h"
 #include "exercises.h"
 #include "output_folder.h"
@@ -35,7 +36,13 @@ std::string kernel_from(const CommandLine& line, const candela::PluginFile& mode
     auto text = candela::read_text_file(file, k_largest_kernel);
     if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file));
     if (text->size() > k_largest_kernel || candela::first_invalid_byte(*text))
-        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is no kernel text", file));
+        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is not a kernel's text", file));
+    // It may come from a page, and is going to be compiled.
+    try {
+        static_cast<void>(candela::kernel_language::read_kernel({fs::path(file).filename().string(), *text}));
+    } catch (const candela::kernel_language::Problem& problem) {
+        throw Error(ErrorCategory::bad_request, problem.text());
+    }
     return *std::move(text);
 }
 

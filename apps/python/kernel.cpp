@@ -1,6 +1,7 @@
 // Plugins that are compiled on the spot.
 #include "binding.h"
 
+#include "candela/kernel_language/language.h"
 #include "explanation/kernel_compiler.h"
 #include "module.h"
 
@@ -26,6 +27,7 @@ std::vector<std::string> options_for(const std::string& name, const fs::path& fo
         "-fvisibility=hidden",
         "-fno-math-errno",
         "-fno-trapping-math",
+        "-fwrapv",  // no kernel's integers leave anything open
 #ifdef __x86_64__
         "-mprefer-vector-width=512",
 #endif
@@ -76,11 +78,23 @@ void compile_plugin(const std::string& name, const fs::path& folder) {
     file.finish();
 }
 
+/// A kernel as the C++ that is compiled of it; Error where it is not in the kernel language.
+std::string kernel_as_cpp(const std::string& source, const std::string& file) {
+    try {
+        return kernel_language::emitted(kernel_language::read_kernel({file, source}),
+                                        kernel_language::Emission::guarded_cpp);
+    } catch (const kernel_language::Problem& problem) {
+        throw Error(ErrorCategory::bad_request, problem.text());
+    }
+}
+
 }  // namespace
 
 void add_kernel(py::module_& module) {
     module.def("compile_plugin", &compile_plugin, py::arg("name"), py::arg("folder"),
                py::call_guard<py::gil_scoped_release>(), "Makes a plugin of what is in a folder.");
+    module.def("kernel_as_cpp", &kernel_as_cpp, py::arg("source"), py::arg("file"),
+               "What is compiled of a kernel, which has to be in the kernel language.");
 }
 
 }  // namespace candela::python

@@ -108,3 +108,27 @@ TEST_CASE("the command that new suggests is one that a shell understands") {
     CHECK(result.exit_code == 0);
     CHECK(holds(result.err, "candela render 'it'\\''s a scene.toml'"));
 }
+
+TEST_CASE("plugin new takes a kernel that is in the kernel language, and says where one is not") {
+    const fs::path directory = scratch_directory();
+    const std::string kernel =
+        "struct PhongMaterial { vec3 ka; vec3 kd; vec3 ks; float shininess; };\n"
+        "KERNEL vec3 phong_reflect_ambient(PhongMaterial m, Surface s) { return m.ka * s.color; }\n"
+        "KERNEL Reflected phong_reflect(PhongMaterial m, Surface s, vec3 to_light) {\n"
+        "    STATEMENT\n    return Reflected(s.color, s.color);\n}\n";
+    const auto made = [&](const std::string& statement) {
+        std::string text = kernel;
+        write_file(directory / "mine.kernel", text.replace(text.find("STATEMENT"), 9, statement));
+        return run_candela(
+            {"plugin", "new", "reflection", "mine", "--from", "reflection/phong", "--kernel", "mine.kernel"},
+            in(directory));
+    };
+    const CommandResult refused = made("Surface &t = s;");
+    CHECK(refused.exit_code == 2);
+    CHECK(holds(refused.err, "mine.kernel:4:13: the kernel language has neither pointers nor references"));
+    CHECK(!fs::exists(directory / "mine"));
+    const CommandResult result = made("float unused = 1.0f;  // so far");
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(holds(read_file(directory / "mine/mine.kernel"), "float unused = 1.0f;  // so far"));
+}

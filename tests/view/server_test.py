@@ -152,10 +152,10 @@ class ServerTest(unittest.TestCase):
         return sorted(each.name for each in self.view.folder.iterdir() if each.is_dir())
 
     def test_a_formula_is_kept_in_a_new_folder_and_nowhere_else(self):
-        status, answer = self.keep("model=reflection%2Fphong&name=cel", b"// mine\nKERNEL vec3 phong_reflect_ambient(PhongMaterial m, Surface s);\n")
+        status, answer = self.keep("model=reflection%2Fphong&name=cel", b"// mine\nstruct PhongMaterial { vec3 ka; };\nKERNEL vec3 phong_reflect_ambient(PhongMaterial m, Surface s) { return m.ka; }\n")
         self.assertEqual(status, 200, answer)
         self.assertEqual(self.folders(), ["cel", "tmp"])
-        self.assertEqual(self.view.folder.joinpath("cel/cel.kernel").read_text(), "// mine\nKERNEL vec3 cel_reflect_ambient(CelMaterial m, Surface s);\n")
+        self.assertEqual(self.view.folder.joinpath("cel/cel.kernel").read_text(), "// mine\nstruct CelMaterial { vec3 ka; };\nKERNEL vec3 cel_reflect_ambient(CelMaterial m, Surface s) { return m.ka; }\n")
         before = {each: each.read_bytes() for each in self.view.folder.joinpath("cel").iterdir()}
         self.view.folder.joinpath("link").symlink_to("/nonexistent")
         for name, reason in (("cel", b"already there"), ("link", b"already there"), ("tmp", b"already there"), ("..%2Fx", b"cannot be a plugin's name"),
@@ -163,6 +163,12 @@ class ServerTest(unittest.TestCase):
             status, answer = self.keep(f"model=phong&name={name}")
             self.assertEqual(status, 422, name)
             self.assertIn(reason, answer, name)
+        for kernel, reason in ((b"KERNEL float f(float x) { float *p = x; return x; }", b"kept.kernel:1:34: the kernel language has neither pointers"),
+                               (b"#include </etc/passwd>", b"kept.kernel:1:1: the kernel language has no preprocessor"),
+                               (b"// \\\nKERNEL", b"must not end with")):
+            status, answer = self.keep("model=phong&name=other", kernel)
+            self.assertEqual(status, 422, kernel)
+            self.assertIn(reason, answer, kernel)
         for model in ("phnog", "light%2Fpoint", "--help", "..%2F..%2Fx"):
             self.assertEqual(self.keep(f"model={model}&name=other")[0], 422, model)
         self.assertEqual(self.folders(), ["cel", "tmp"])

@@ -71,7 +71,7 @@ class _Kernel:
         fields = f"fields({', '.join(self.field(*member) for member in self.members)})" if self.members else "k_no_fields"
         using = f"using {struct};\n" if self.struct else ""
         reads = " | ".join(["reads_no_more", *self.reads])
-        return (f'#include "candela/reflection_plugin.h"\n\nnamespace candela::kernel {{\n#include "{self.name}.kernel"\n}}\n\n'
+        return (f'#include "candela/reflection_plugin.h"\n\nnamespace candela::kernel {{\n#include "{self.name}.inc"\n}}\n\n'
                 f"using namespace candela;\nusing namespace candela::sdk;\n{using}\n"
                 f"static constexpr auto k_the_fields = {fields};\n\n"
                 f"CANDELA_REFLECTION_PLUGIN_READING({reads}, {self.prefix}, {self.struct or 'NoParams'}, k_the_fields,\n"
@@ -82,9 +82,13 @@ class _Kernel:
 def _compiled(source: str) -> tuple[str, Registry]:
     """The name of a kernel's model, and a registry that has it."""
     kernel = _Kernel(source)
+    text = kernel.kernel(source)
+    # What was understood of the text is compiled. The text is what programs are generated from.
+    compiled = _candela.kernel_as_cpp(text, f"{kernel.name}.kernel")
     folder = pathlib.Path(tempfile.mkdtemp(prefix="candela-kernel-"))
     try:
-        (folder / f"{kernel.name}.kernel").write_text(kernel.kernel(source), encoding="utf-8")
+        (folder / f"{kernel.name}.kernel").write_text(text, encoding="utf-8")
+        (folder / f"{kernel.name}.inc").write_text(compiled, encoding="utf-8")
         (folder / f"{kernel.name}.cpp").write_text(kernel.plugin(), encoding="utf-8")
         (folder / "plugin.map").write_text("{ global: candela_*; local: *; };\n", encoding="utf-8")
         _candela.compile_plugin(kernel.name, folder)
@@ -102,13 +106,13 @@ def kernel_reflection(source: str, **values: Any) -> Reflection:
     source
         A struct of parameters (``float``, ``int``, ``vec3``), a function ``KERNEL Reflected NAME_reflect(Material m, Surface s, vec3
         to_light)``, and, if it reflects ambient light, ``KERNEL vec3 NAME_reflect_ambient(Material m, Surface s)``, in the language of
-        docs/adding-a-model.md. It is what the ``.kernel`` file of a plugin has.
+        docs/kernel-language.md. It is what the ``.kernel`` file of a plugin has.
     values
         Of all parameters.
 
-    It is as fast as an installed model, and its `registry` is for scenes that name it. Raises RequestError, with the line and what the
-    compiler says, and Error where there is no compiler, or where Candela's headers (the package candela-dev) are not installed. Texts
-    that were compiled before are not compiled again. A kernel is code that runs with all your rights.
+    It is as fast as an installed model, and its `registry` is for scenes that name it. Raises RequestError, with the place, for
+    what is not in the kernel language, and Error where there is no compiler, or where Candela's headers (the package candela-dev) are
+    not installed. Texts that were compiled before are not compiled again. What is compiled can compute and nothing else, and ends.
     """
     name, registry = _compiled(source)
     return reflection(name, registry=registry, **values)

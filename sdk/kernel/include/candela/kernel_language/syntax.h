@@ -1,0 +1,115 @@
+// A kernel as the parser has read it and the checker has understood it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace candela::kernel_language {
+
+/// Where something begins: the byte, and in which of a kernel's texts (see Kernel::sources).
+struct Place {
+    std::uint32_t offset = 0;
+    std::uint8_t source = 0;
+};
+
+/// The types of the language. A struct is known by its number among all structs (see Checker).
+struct Type {
+    enum class Kind : std::uint8_t { none, boolean, integer, real, vec2, vec3, vec4, mat3, table, structure };
+    Kind kind = Kind::none;
+    std::int32_t structure = -1;
+    friend bool operator==(const Type&, const Type&) = default;
+};
+
+/// A type as it is written, and what it turns out to be.
+struct TypeName {
+    std::string name{};
+    Type type{};
+    Place place{};
+};
+
+struct Expression {
+    enum class Kind : std::uint8_t {
+        integer,
+        real,
+        boolean,
+        variable,
+        member,  // of a struct or a vector: operand 0
+        index,   // a column of a matrix: operand 0, by operand 1
+        call,    // of a function or a constructor, by its name
+        unary,
+        binary,
+        conditional
+    };
+    Kind kind = Kind::integer;
+    Type type{};
+    Place place{};       // of the name or the operator
+    std::string text{};  // the literal, the name or the operator
+    std::vector<Expression> operands{};
+    std::uint32_t depth = 1;    // of the tree
+    bool becomes_real = false;  // an integer where a number with a fraction is expected
+};
+
+struct Statement {
+    enum class Kind : std::uint8_t { block, declare, assign, branch, loop, result, leave, next };
+    Kind kind = Kind::block;
+    Place place{};
+    bool is_constant = false;  // of `declare`
+    TypeName type{};           // of `declare`
+    std::string name{};        // what is declared, or the operator of `assign`: "=", "+=", "++"
+    Place name_place{};
+    /// declare: the initialiser, if any. assign: what is assigned to, then the value, except for ++ and --.
+    /// branch: the condition. loop: the condition. result: the value.
+    std::vector<Expression> expressions{};
+    /// block: all. branch: what is done if so, and else, if there is one. loop: the first declaration, the
+    /// step, and the body.
+    std::vector<Statement> statements{};
+};
+
+struct Variable {
+    bool is_constant = false;
+    TypeName type{};
+    std::string name{};
+    Place place{};
+};
+
+struct Structure {
+    std::string name{};
+    Place place{};
+    std::vector<Variable> members{};
+    Place end{};
+};
+
+struct Constant {
+    Statement declaration{};
+};
+
+struct Function {
+    TypeName result{};
+    std::string name{};
+    Place place{};  // of KERNEL
+    Place name_place{};
+    std::vector<Variable> parameters{};
+    Place begin{};  // of the body's brace
+    std::vector<Statement> body{};
+    Place end{};
+    std::uint64_t steps = 0;  // that a call takes at most
+    std::uint64_t size = 0;   // of the expressions, with those of the functions that it calls
+};
+
+using Declaration = std::variant<Structure, Constant, Function>;
+
+/// One of the texts that a kernel is made of.
+struct Source {
+    std::string name{};  // as messages call it
+    std::string text{};
+};
+
+struct Kernel {
+    std::vector<Source> sources{};
+    std::vector<Declaration> declarations{};
+};
+
+}  // namespace candela::kernel_language
