@@ -36,9 +36,12 @@ void require_no_obstacle(const fs::path& from, const fs::path& to) {
         const fs::file_status there = fs::symlink_status(to / name);
         if (!fs::exists(there)) continue;
         const bool is_folder = fs::is_directory(fs::symlink_status(from / name));
-        if (is_folder != fs::is_directory(there))
-            fail(to / name, is_folder ? "something else is there, a link or a file; remove it"
-                                      : "expected a file there, or nothing; remove it");
+        if (is_folder && !fs::is_directory(there))
+            fail(to / name, "something else is there, a link or a file; remove it");
+        if (!is_folder && fs::is_directory(there)) {
+            throw Error(ErrorCategory::failure, fmt::format("'{}' is a directory; a file is to be written",
+                                                            (to / name).lexically_normal().string()));
+        }
         if (is_folder) require_no_obstacle(from / name, to / name);
     }
 }

@@ -119,7 +119,7 @@ int render_picture(const CommandLine& line) {
     }
     for (std::size_t i = 0; i < term_files.size(); ++i)
         candela::write_picture(term_renderer.picture(terms[i], format.pixels), format, term_files[i],
-                               registry, existing);
+                               registry, existing, candela::Links::not_followed);
     const double write_ms = writing.milliseconds();
 
     say_afterwards([&] {

@@ -6,10 +6,14 @@
 #include <vector>
 
 #include "command_line.h"
+#include "exit_code.h"
 #include "job_plan.h"
 #include "job_state.h"
 #include "json/json.h"
+#include "reporting.h"
 #include "verbs.h"
+
+import candela.diagnostics;
 
 using Kind = TaskState::Kind;
 
@@ -116,8 +120,15 @@ int run_status(const std::vector<std::string>& arguments) {
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> given = line.all("directory");
     std::vector<JobState> jobs;
-    for (const JobFolder& folder : JobFolder::all_in(given.empty() ? "." : given.front()))
-        jobs.push_back(state_of(folder));
+    int code = 0;
+    for (const JobFolder& folder : JobFolder::all_in(given.empty() ? "." : given.front())) {
+        try {
+            jobs.push_back(state_of(folder));
+        } catch (const candela::Error& problem) {
+            code =
+                fail(exit_code_of(problem.category()), problem.what());  // the others are shown all the same
+        }
+    }
     if (line.has("json")) {
         Json json = Json::array();
         for (const JobState& job : jobs) json.push_back(json_of(job));
@@ -125,5 +136,5 @@ int run_status(const std::vector<std::string>& arguments) {
     } else {
         for (const JobState& job : jobs) std::cout << text_of(job);
     }
-    return 0;
+    return code;
 }

@@ -394,3 +394,38 @@ TEST_CASE("a link in the place of a folder in a report is refused, and nothing i
     place.check_victims();
     CHECK_FALSE(fs::exists(place.directory / "report/index.html"));
 }
+
+TEST_CASE("status shows the other jobs of a folder that has a broken one") {
+    const Place place;
+    REQUIRE(place.candela(k_submit).exit_code == 0);
+    write_file(place.directory / "frames/.candela/jobs/a.png/plan.json", "[]");
+    put_pipe(place.directory / "frames/.candela/jobs/z.png");
+    const CommandResult result = place.candela({"status", "frames"});
+    CHECK(result.exit_code == 1);
+    CHECK(holds(result.out, "2 of 2 files done"));
+    CHECK(holds(result.err, "a.png/plan.json' is not a job's plan"));
+    CHECK(holds(result.err, "z.png/plan.json' cannot be read"));
+}
+
+TEST_CASE("a link in the place of a term's picture is replaced, and one that -o names is followed") {
+    const Place place;
+    place.put_link("p.diffuse.png", place.victim());
+    place.put_link("p.png", place.directory / "elsewhere.png");
+    const CommandResult result =
+        place.candela({"render", "scene.toml", "-o", "p.png", "--terms", "diffuse", "--quiet"});
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    place.check_victims();
+    CHECK(fs::is_regular_file(fs::symlink_status(place.directory / "p.diffuse.png")));
+    CHECK(fs::is_regular_file(place.directory / "elsewhere.png"));
+}
+
+TEST_CASE("a film whose name is a directory's is an error that says so") {
+    const Place place;
+    write_file(place.directory / "bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho film >\"$last\"\n");
+    fs::permissions(place.directory / "bin/ffmpeg", fs::perms::owner_all);
+    fs::create_directories(place.directory / "film.mp4");
+    check_refused(place.candela({"animate", "scene.toml", "-o", "film.mp4"},
+                                (place.directory / "bin").string() + ":/usr/bin:/bin"),
+                  1, "'film.mp4' is a directory");
+}
