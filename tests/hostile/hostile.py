@@ -130,7 +130,9 @@ def sweep(document: str, count: int, kinds: list, trial) -> int:
             directory.mkdir()
             problem = trial(options.candela, directory, kind, random.Random(f"{kind} {options.seed} {index}"), index)
             if problem and options.keep:
-                shutil.copytree(directory, options.keep / directory.name, dirs_exist_ok=True, symlinks=True)
+                options.keep.mkdir(parents=True, exist_ok=True)
+                # Pipes and files without end are kept as such.
+                subprocess.run(["cp", "-a", "--sparse=always", directory, options.keep], check=False)
             shutil.rmtree(directory)
             return index, problem
 

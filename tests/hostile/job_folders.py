@@ -197,7 +197,8 @@ def put_name(work: Path, chance) -> None:
 
 def strange_line_of(script: Path) -> str:
     """A line of a job script that is not one of Candela's."""
-    for line in script.read_bytes().split(b"\n") if script.is_file() and not script.is_symlink() else ():
+    is_small = stat.S_ISREG(script.lstat().st_mode) and script.lstat().st_size < 1 << 20
+    for line in script.read_bytes().split(b"\n") if is_small else ():
         if line.startswith(b"#SBATCH ") and not os.fsdecode(line[8:]).startswith(OPTIONS):
             return f"a job script has the line {line!r}"
     return ""
