@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "output_folder.h"
 #include "owned_files.h"
@@ -71,8 +72,12 @@ std::optional<std::string> record_text_of(const fs::path& picture) {
 
 /// Whether the picture has the size that its record says.
 bool has_recorded_size(const fs::path& picture, const std::string& record, Links links) {
-    const candela::RegularFile file(picture, links);
-    return file.is_open() && record.find(fmt::format("\nbytes {}\n", file.size())) != std::string::npos;
+    std::error_code problem;
+    const fs::file_status is =
+        links == Links::followed ? fs::status(picture, problem) : fs::symlink_status(picture, problem);
+    if (!fs::is_regular_file(is)) return false;
+    const auto size = fs::file_size(picture, problem);
+    return !problem && record.find(fmt::format("\nbytes {}\n", size)) != std::string::npos;
 }
 
 /// What a record of the picture says; nothing where there is no picture.

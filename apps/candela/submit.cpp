@@ -75,18 +75,18 @@ void write_job(Submission& job, Engine engine) {
     if (!job.last.empty()) write_owned_file(job.folder.script_of_last(), slurm_script_of_last(job));
 }
 
-/// Standard output is made printable, and would hold other names.
-void require_printable_words(const Submission& job) {
-    for (const Words& command : job.commands) {
-        for (const std::string& word : command) {
-            if (candela::printable(word) == word) continue;
-            throw Error(
-                ErrorCategory::bad_request,
-                fmt::format("'{}' has characters that are not printed as they are, and --engine print "
-                            "prints it; use another name or value",
-                            candela::printable(word)));
-        }
-    }
+/// What is printed is made printable, and would name other files.
+void require_printable_lines(const Submission& job) {
+    const auto require = [&](const Words& command) {
+        const std::string line = shell_line(job, command);
+        if (candela::printable(line) == line) return;
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' has characters that are not printed as they are, and --engine print "
+                                "prints it; use another name or value",
+                                candela::printable(line)));
+    };
+    for (const Words& command : job.commands) require(command);
+    if (!job.last.empty()) require(job.last);
 }
 
 void print_command_lines(const Submission& job) {
@@ -207,7 +207,7 @@ int run_submit(const std::vector<std::string>& arguments) {
     job->plan.submitted = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
     require_plain_words(*job);
     if (engine == Engine::slurm) require_folder_for_slurm(*job);
-    if (engine == Engine::print) require_printable_words(*job);
+    if (engine == Engine::print) require_printable_lines(*job);
     for (std::size_t i = 0; i < job->plan.tasks.size(); ++i) {
         if (state_of(job->plan, job->plan.tasks[i], i + 1, job->folder).kind != TaskState::Kind::done)
             job->open.push_back(i);

@@ -327,6 +327,12 @@ TEST_CASE("a texture inside a glTF file is written beside the scene, and shown b
     CHECK(middle[1] > 2 * middle[2]);
     CHECK(candela(folder, {"import", "a.gltf"}).exit_code == 1);  // it is there already
     CHECK(candela(folder, {"import", "a.gltf", "--force"}).exit_code == 0);
+    // A link in the place of the folder, whose name Candela chooses, is not followed.
+    fs::remove(folder / "a_textures" / "leaf_0.png");
+    fs::rename(folder / "a_textures", folder / "elsewhere");
+    fs::create_directory_symlink("elsewhere", folder / "a_textures");
+    CHECK(holds(candela(folder, {"import", "a.gltf", "--force"}).err, "a_textures' cannot be made: a link"));
+    CHECK(fs::is_empty(folder / "elsewhere"));
 }
 
 TEST_CASE("textures of a glTF file that are broken, elsewhere or endless are left out with a reason") {

@@ -317,6 +317,11 @@ TEST_CASE("names that job scripts cannot hold are refused by every engine, befor
     }
     check_refused(place.candela({"submit", "scene.toml", "-o", "a\u202e/%04d.png", "--engine", "print"}), 2,
                   "are not printed as they are");
+    fs::create_directories(place.directory / "b\u202e");
+    fs::copy(place.directory / "scene.toml", place.directory / "b\u202e/scene.toml");
+    check_refused(run_candela({"submit", "scene.toml", "--engine", "print"},
+                              {.input = "", .environment = {}, .directory = place.directory / "b\u202e"}),
+                  2, "are not printed as they are");
 }
 
 TEST_CASE("names that mean something to a shell or to sbatch are quoted in scripts and command lines") {
