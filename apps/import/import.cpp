@@ -34,6 +34,7 @@ Model model_of(const Source& source, candela::Registry& registry) {
     const std::string extension = candela::extension_of(source.file);
     if (extension == "obj") return read_obj(source, registry);
     if (extension == "gltf" || extension == "glb") return read_gltf(source, registry);
+    if (extension == "ply") return read_ply(source, registry);
     Model model;
     model.parts.emplace_back();
     return model;

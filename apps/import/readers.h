@@ -27,6 +27,9 @@ Model read_obj(const Source& source, candela::Registry& registry);
 /// glTF 2.0 or GLB whose triangles have been read. Throws candela::Error (failure) for what is no such file.
 Model read_gltf(const Source& source, candela::Registry& registry);
 
+/// PLY with the texture that a comment of MeshLab's names.
+Model read_ply(const Source& source, candela::Registry& registry);
+
 /// Whether `part`, which `model` names as a part of itself, lies in its folder or below, once links are
 /// resolved: models are often somebody else's.
 bool is_beside(const std::filesystem::path& part, const std::filesystem::path& model);

@@ -478,3 +478,31 @@ TEST_CASE("import refuses what is no model, is not there or is broken, and write
     CHECK(candela(folder, {"import"}).exit_code == 2);
     CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 2);
 }
+
+TEST_CASE("a PLY file shows the texture that a comment of MeshLab's names") {
+    const fs::path folder = scratch_directory();
+    const auto write = [&](const char* picture) {
+        write_file(folder / "a.ply",
+                   fmt::format(
+                       "ply\nformat ascii 1.0\ncomment TextureFile {}\nelement vertex 4\nproperty float x\n"
+                       "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+                       "vertex_indices\nproperty list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n1 1 0\n"
+                       "0 1 0\n4 0 1 2 3 8 0 0 1 0 1 1 0 1\n",
+                       picture));
+    };
+    write_file(folder / "red paint.ppm", std::string("P6\n1 1\n255\n\xff\0\0", 14));
+    write("red paint.ppm");
+    const CommandResult result = candela(folder, {"render", "a.ply", "-o", "a.ppm"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK_FALSE(holds(result.err, "warning"));
+    const Pixels picture = read_ppm(folder / "a.ppm");
+    const auto middle = picture.at(picture.width / 2, picture.height / 2);
+    CHECK(middle[0] > 4 * middle[1]);
+    write("nowhere.png");
+    CHECK(
+        holds(candela(folder, {"render", "a.ply", "-o", "a.ppm"}).err, "there is no texture 'nowhere.png'"));
+    write("../a.ppm");
+    write_file(folder.parent_path() / "a.ppm", grey_ppm(9));
+    CHECK(holds(candela(folder, {"render", "a.ply", "-o", "a.ppm"}).err, "is outside the model's folder"));
+}

@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 
 #include "candela/parallel.h"
+#include "finite.h"
+#include "ply_colors.h"
 #include "ply_header.h"
 #include "ply_values.h"
 #include "polygons.h"
 #include "readers.h"
+#include "wedges.h"
 
 namespace mesh {
 
@@ -80,13 +83,16 @@ class Reader {
             read_all(BinaryValues(bytes_, header_));
         }
         if (!has_vertices_) throw BadFile("has no element 'vertex'");
-        if (!has_faces_) throw BadFile("has no faces: points alone have no surface");
+        require_faces();
+        // Strips name the file's own vertices.
+        if (!wedges_.empty() && strips_.empty()) split_by_wedges(wedges_, polygons_, surface_);
         if (fixed_triangles_.empty()) {
             triangulate(polygons_, {}, surface_);
         } else {
             surface_.indices = std::move(fixed_triangles_);
         }
         surface_.indices.insert(surface_.indices.end(), strips_.begin(), strips_.end());
+        require_finite(surface_, "face");
         return std::move(surface_);
     }
 
@@ -101,14 +107,15 @@ class Reader {
             } else if (const auto corners = element.find({"vertex_indices", "vertex_index"});
                        corners && (element.name == "face" || element.name == "tristrips") &&
                        element.properties[*corners].is_list()) {
-                has_faces_ = true;
-                note_others(element, {*corners}, "face");
+                has_faces_ = has_faces_ || element.count > 0;
                 if (element.name == "face") {
                     read_faces(values, element, *corners);
                 } else {
+                    note_others(element, {*corners}, "face");
                     read_strips(values, element, *corners);
                 }
             } else {
+                if (element.name == "edge") edges_ += element.count;
                 if (element.count > 0)
                     surface_.losses.emplace_back(counted(element.count, "element") + " " +
                                                  in_quotes(element.name));
@@ -117,7 +124,39 @@ class Reader {
         }
     }
 
+    /// Says what a file has that has no faces.
+    void require_faces() const {
+        if (has_faces_) return;
+        const std::size_t points = surface_.position.size();
+        if (edges_ > 0)
+            throw BadFile(
+                fmt::format("has {} and no triangles; Candela draws surfaces", counted(edges_, "line")));
+        throw BadFile(
+            points == 0
+                ? std::string("has no vertices and no faces")
+                : fmt::format("has 1 set of points ({}) and no triangles; Candela draws surfaces, and points "
+                              "alone have none",
+                              points));
+    }
+
     // ---- vertices
+
+    using Place = std::optional<std::size_t>;
+
+    static Place scalar_of(const Element& element, std::initializer_list<std::string_view> names) {
+        const Place found = element.find(names);
+        return found && !element.properties[*found].is_list() ? found : std::nullopt;
+    }
+    /// The properties of red, green and blue that have one type.
+    static std::array<Place, 3> colors_of(const Element& element) {
+        const Place red = scalar_of(element, {"red", "diffuse_red", "r"}),
+                    green = scalar_of(element, {"green", "diffuse_green", "g"}),
+                    blue = scalar_of(element, {"blue", "diffuse_blue", "b"});
+        if (!red || !green || !blue) return {};
+        const auto type = [&](Place place) { return element.properties[*place].type; };
+        if (type(red) != type(green) || type(red) != type(blue)) return {};
+        return {red, green, blue};
+    }
 
     template <class Values>
     void read_vertices(Values& values, const Element& element) {
@@ -129,8 +168,7 @@ class Reader {
             used.push_back(*property);
         };
         const auto scalar = [&](std::initializer_list<std::string_view> names) {
-            const auto found = element.find(names);
-            return found && !element.properties[*found].is_list() ? found : std::nullopt;
+            return scalar_of(element, names);
         };
         const auto x = scalar({"x"}), y = scalar({"y"}), z = scalar({"z"});
         if (!x || !y || !z) throw BadFile("has vertices without x, y and z");
@@ -153,8 +191,7 @@ class Reader {
             use(u, surface_.u);
             use(v, surface_.v);
         }
-        const auto red = scalar({"red", "diffuse_red", "r"}), green = scalar({"green", "diffuse_green", "g"}),
-                   blue = scalar({"blue", "diffuse_blue", "b"});
+        const auto [red, green, blue] = colors_of(element);
         if (red && green && blue) {
             use(red, surface_.color.x);
             use(green, surface_.color.y);
@@ -166,24 +203,15 @@ class Reader {
         note_others(element, used, "vertex");
         read_columns(values, element, columns);
         if (alpha) {
-            scale(opacity, element.properties[*alpha].type);
+            std::vector<std::string> unsaid;
+            scale_colors({&opacity}, element.properties[*alpha].type, "vertex", unsaid);
             if (std::ranges::any_of(opacity, [](float a) { return a != 1; }))
                 surface_.losses.emplace_back("the opacity of vertices");
         }
         if (red && green && blue) {
-            scale(surface_.color.x, element.properties[*red].type);
-            scale(surface_.color.y, element.properties[*green].type);
-            scale(surface_.color.z, element.properties[*blue].type);
+            scale_colors({&surface_.color.x, &surface_.color.y, &surface_.color.z},
+                         element.properties[*red].type, "vertex", surface_.notes);
         }
-    }
-
-    /// Integers as shares of their largest one.
-    static void scale(Array<float>& column, Type type) {
-        if (!is_integer(type)) return;
-        with_type(type, [&](auto t) {
-            constexpr auto k_largest = static_cast<float>(std::numeric_limits<decltype(t)>::max());
-            for (float& x : column) x /= k_largest;
-        });
     }
 
     template <class Values>
@@ -249,23 +277,85 @@ class Reader {
 
     template <class Values>
     void read_faces(Values& values, const Element& element, std::size_t corners) {
+        FaceProperties other;
+        std::vector<std::size_t> used = {corners};
+        // What vertices have is not the faces', and strips have no faces' numbers.
+        const bool is_only_one =
+            header_.elements.end() == std::ranges::find(header_.elements, "tristrips", &Element::name);
+        if (surface_.color.empty() && has_vertices_ && is_only_one) other.color = colors_of(element);
+        const Place uv = element.find({"texcoord"});
+        if (uv && element.properties[*uv].is_list() && surface_.u.empty() && has_vertices_ && is_only_one)
+            other.uv = uv;
+        if (other.uv) other.picture = scalar_of(element, {"texnumber"});
+        for (const Place place : {other.color[0], other.color[1], other.color[2], other.uv, other.picture})
+            if (place) used.push_back(*place);
+        note_others(element, used, "face");
         if constexpr (requires { values.go_to(0); }) {
-            if (read_fixed_triangles(values, element, corners)) return;
+            if (used.size() == 1 && read_fixed_triangles(values, element, corners)) return;
         }
+        std::vector<float> coordinates;
+        std::uint64_t faces_without = 0, faces_of_others = 0;
         for (std::uint64_t i = 0; i < element.count; ++i) {
+            std::array<float, 3> color{};
+            coordinates.clear();
             for (std::size_t p = 0; p < element.properties.size(); ++p) {
                 const Property& property = element.properties[p];
-                if (p != corners) {
+                const auto channel = std::ranges::find(other.color, Place(p));
+                if (p == corners) {
+                    const std::uint64_t count = values.length(*property.length_type);
+                    if (count > values.most(property.type)) throw BadFile("ends within its faces");
+                    for (std::uint64_t k = 0; k < count; ++k)
+                        polygons_.corners.push_back(corner(values, property.type));
+                } else if (channel != other.color.end()) {
+                    color[static_cast<std::size_t>(channel - other.color.begin())] =
+                        static_cast<float>(values.number(property.type));
+                } else if (other.uv == p) {
+                    const std::uint64_t count = values.length(*property.length_type);
+                    if (count > values.most(property.type))
+                        throw BadFile("ends within its texture coordinates");
+                    for (std::uint64_t k = 0; k < count; ++k)
+                        coordinates.push_back(static_cast<float>(values.number(property.type)));
+                } else if (other.picture == p) {
+                    if (values.number(property.type) > 0) ++faces_of_others;
+                } else {
                     skip(values, property);
-                    continue;
                 }
-                const std::uint64_t count = values.length(*property.length_type);
-                if (count > values.most(property.type)) throw BadFile("ends within its faces");
-                for (std::uint64_t k = 0; k < count; ++k)
-                    polygons_.corners.push_back(corner(values, property.type));
-                polygons_.end_face();
+            }
+            const std::size_t faces = polygons_.ends.size();
+            polygons_.end_face();
+            if (polygons_.ends.size() == faces) continue;
+            if (other.color[0]) wedges_.face_color.push_back({color[0], color[1], color[2]});
+            if (!other.uv) continue;
+            const std::size_t first = wedges_.u.size(), last = polygons_.corners.size();
+            const bool has_all = coordinates.size() == 2 * (last - first);
+            if (!has_all) ++faces_without;
+            for (std::size_t k = 0; k < last - first; ++k) {
+                wedges_.u.push_back(has_all ? coordinates[2 * k] : 0);
+                wedges_.v.push_back(has_all ? coordinates[2 * k + 1] : 0);
             }
         }
+        note_wedges(element, other, faces_without, faces_of_others);
+    }
+
+    /// What a face may have beside its corners.
+    struct FaceProperties {
+        std::array<Place, 3> color{};
+        Place uv, picture;
+    };
+
+    void note_wedges(const Element& element, const FaceProperties& other, std::uint64_t without,
+                     std::uint64_t of_others) {
+        if (other.color[0])
+            scale_colors({&wedges_.face_color.x, &wedges_.face_color.y, &wedges_.face_color.z},
+                         element.properties[*other.color[0]].type, "face", surface_.notes);
+        if (without > 0)
+            surface_.notes.push_back(fmt::format(
+                "has {} without a pair of texture coordinates for each corner; zeros take their place",
+                counted(without, "face")));
+        if (of_others > 0)
+            surface_.notes.push_back(
+                fmt::format("has {} of a second texture or a further one, which {} the first",
+                            counted(of_others, "face"), of_others == 1 ? "shows" : "show"));
     }
 
     /// Reads faces that all have three corners and no other list; false, and nothing read, if they have not.
@@ -366,6 +456,8 @@ class Reader {
     const Progress& progress_;
     Surface surface_;
     Polygons polygons_;
+    Wedges wedges_;
+    std::uint64_t edges_ = 0;
     Array<std::uint32_t> fixed_triangles_;
     std::vector<std::uint32_t> strips_;
     bool has_vertices_ = false;

@@ -128,6 +128,10 @@ std::size_t size_of(Type type) {
     return k_sizes[static_cast<std::size_t>(type)];
 }
 
+std::string_view name_of(Type type) {
+    return std::ranges::find(k_types, type, &std::pair<std::string_view, Type>::second)->first;
+}
+
 bool is_integer(Type type) { return type != Type::float32 && type != Type::float64; }
 
 bool Element::has_lists() const { return std::ranges::any_of(properties, &Property::is_list); }

@@ -14,6 +14,8 @@ enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 /// In bytes.
 std::size_t size_of(Type type);
 bool is_integer(Type type);
+/// As headers write it.
+std::string_view name_of(Type type);
 
 struct Property {
     std::string name;

@@ -173,14 +173,18 @@ void triangulate(std::span<const std::uint32_t> corners, ConstVec3Span position,
     EarClipper(std::move(flat)).run(emit);
 }
 
-void triangulate(const Polygons& polygons, std::span<const std::uint32_t> smoothing, Surface& surface) {
+void require_vertices(const Polygons& polygons, std::size_t vertices) {
     for (const std::uint32_t corner : polygons.corners) {
-        if (corner >= surface.position.size()) {
+        if (corner >= vertices) {
             throw BadFile(
                 fmt::format("has a face whose corner is out of range: vertex {} of {}, counted from 0",
-                            corner, surface.position.size()));
+                            corner, vertices));
         }
     }
+}
+
+void triangulate(const Polygons& polygons, std::span<const std::uint32_t> smoothing, Surface& surface) {
+    require_vertices(polygons, surface.position.size());
     surface.indices.clear();
     surface.indices.reserve(3 * (polygons.corners.size() - 2 * polygons.ends.size()));
     std::uint32_t begin = 0;

@@ -6,10 +6,13 @@
 #include <bit>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "candela/parallel.h"
+#include "finite.h"
 #include "readers.h"
 #include "text_scanner.h"
 
@@ -34,6 +37,12 @@ Vec3 vector_at(const char* from) {
     return {little_endian<float>(from), little_endian<float>(from + 4), little_endian<float>(from + 8)};
 }
 
+/// What is not finite stays so, to be counted.
+Vec3 unit(Vec3 v) {
+    const Vec3 n = candela::normalized(v);
+    return n == Vec3{} && v != Vec3{} && !std::isfinite(v.x + v.y + v.z) ? v : n;
+}
+
 bool is_word(std::string_view word, std::string_view lower_case) {
     return std::ranges::equal(
         word, lower_case, [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
@@ -49,6 +58,37 @@ bool is_binary(std::string_view bytes) {
     TextScanner scanner(without_mark(bytes.substr(0, 4096)));
     if (!is_word(scanner.word(), "solid")) return true;
     return bytes.substr(0, 4096).find('\0') != std::string_view::npos;
+}
+
+using Color = std::array<std::uint8_t, 4>;
+
+/// The object's colour, as Materialise Magics writes it into the header: "COLOR=" and four bytes.
+std::optional<Color> magics_color(std::string_view bytes) {
+    constexpr std::string_view k_key = "COLOR=";
+    const std::string_view header = bytes.substr(0, 80);
+    const std::size_t at = header.find(k_key);
+    if (at == std::string_view::npos || at + k_key.size() + 4 > header.size()) return std::nullopt;
+    Color color{};
+    std::memcpy(color.data(), header.data() + at + k_key.size(), color.size());
+    return color;
+}
+
+/// With Magics' header, a facet's attributes are its own colour, five bits of each channel, unless the
+/// highest bit is set; where all are zero, none has one.
+void set_magics_colors(std::string_view bytes, Color object, bool has_attributes, Surface& surface) {
+    surface.color.resize(surface.position.size());
+    constexpr float k_most = 255, k_most_of_five_bits = 31;
+    const Vec3 whole = {object[0] / k_most, object[1] / k_most, object[2] / k_most};
+    for (std::size_t t = 0; t < surface.triangles(); ++t) {
+        const unsigned bits = little_endian<std::uint16_t>(bytes.data() + k_header + t * k_facet + 48);
+        const auto channel = [&](unsigned shift) {
+            return static_cast<float>(bits >> shift & 31u) / k_most_of_five_bits;
+        };
+        const bool is_own = has_attributes && (bits & 0x8000u) == 0;
+        const Vec3 color = is_own ? Vec3{channel(0), channel(5), channel(10)} : whole;
+        for (std::size_t k = 0; k < 3; ++k) surface.color.span().set(3 * t + k, color);
+    }
+    if (object[3] != k_most) surface.losses.emplace_back("an opacity");
 }
 
 Surface read_binary(std::string_view bytes, const Origin& origin) {
@@ -69,7 +109,7 @@ Surface read_binary(std::string_view bytes, const Origin& origin) {
         unsigned attributes = 0;
         for (std::size_t t = begin; t < end; ++t) {
             const char* const facet = bytes.data() + k_header + t * k_facet;
-            surface.facet_normal.span().set(t, candela::normalized(vector_at(facet)));
+            surface.facet_normal.span().set(t, unit(vector_at(facet)));
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3 p = vector_at(facet + 12 * (k + 1));
                 surface.position.span().set(3 * t + k, origin.moved({p.x, p.y, p.z}));
@@ -79,7 +119,11 @@ Surface read_binary(std::string_view bytes, const Origin& origin) {
         }
         if (attributes != 0) has_attributes = true;
     });
-    if (has_attributes) surface.losses.emplace_back("attributes of facets, such as colours");
+    if (const auto color = magics_color(bytes)) {
+        set_magics_colors(bytes, *color, has_attributes, surface);
+    } else if (has_attributes) {
+        surface.losses.emplace_back("attributes of facets, such as colours");
+    }
     const std::size_t rest = bytes.size() - k_header - facets * k_facet;
     if (rest > 0) surface.losses.emplace_back(counted(rest, "byte") + " after the last facet");
     return surface;
@@ -117,7 +161,7 @@ class TextReader {
   private:
     void read_facet() {
         expect("normal");
-        surface_.facet_normal.push_back(candela::normalized(Origin().moved(vector())));
+        surface_.facet_normal.push_back(unit(Origin().moved(vector())));
         expect("outer");
         expect("loop");
         for (int k = 0; k < 3; ++k) {
@@ -183,6 +227,7 @@ void note_contradictions(Surface& surface) {
 Surface read_stl(std::string_view bytes, const Origin& origin, const Progress& progress) {
     Surface surface = is_binary(bytes) ? read_binary(bytes, origin)
                                        : TextReader(without_mark(bytes), origin, progress).read();
+    require_finite(surface, "facet");
     note_contradictions(surface);
     return surface;
 }
