@@ -26,6 +26,7 @@
 #include "subject.h"
 
 import candela.image;
+import candela.picture_rows;
 import candela.registry;
 
 namespace fs = std::filesystem;
@@ -186,21 +187,67 @@ std::optional<std::size_t> first_difference(const std::vector<float>& sent, cons
     return std::nullopt;
 }
 
-/// What is read outside a picture, and outside its layers, while a file of it is written; empty if nothing.
+/// A picture whose pixels end, or begin, at memory without access.
+class FencedPicture {
+  public:
+    FencedPicture(const candela::PictureView& picture, Fence fence)
+        : view_(picture),
+          bytes_("bytes", picture.bytes.size(), fence),
+          reals_("reals", picture.reals.size_bytes(), fence) {
+        std::ranges::copy(picture.bytes, bytes_.as<std::uint8_t>());
+        std::ranges::copy(picture.reals, reals_.as<float>());
+        if (!picture.bytes.empty()) view_.bytes = {bytes_.as<std::uint8_t>(), picture.bytes.size()};
+        if (!picture.reals.empty()) view_.reals = {reals_.as<float>(), picture.reals.size()};
+    }
+    const candela::PictureView& view() const { return view_; }
+
+  private:
+    candela::PictureView view_;
+    Fenced bytes_, reals_;
+};
+
+/// Rows that are each other's memory without access.
+class FencedRows final : public candela::PictureRows {
+  public:
+    FencedRows(const candela::PictureView& picture, Fence fence) : rows_(picture), fence_(fence) {}
+    candela::PictureView next(int count) override {
+        return current_.emplace(rows_.next(count), fence_).view();
+    }
+
+  private:
+    candela::ViewedRows rows_;
+    Fence fence_;
+    std::optional<FencedPicture> current_;
+};
+
+/// Memory for a picture that is read.
+class FencedSink final : public candela::PictureSink {
+  public:
+    explicit FencedSink(Fence fence) : fence_(fence) {}
+    std::span<float> allocate(int width, int height, bool) override {
+        const std::size_t count = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        return {values_.emplace("the picture", count * sizeof(float), fence_).as<float>(), count};
+    }
+
+  private:
+    Fence fence_;
+    std::optional<Fenced> values_;
+};
+
+/// What is read outside a picture, its rows and its layers while a file of it is written; empty if nothing.
 std::string trespass_of_writing(const ImageFormat& writer, const FileFormat& format, const Picture& picture,
                                 Fence fence) {
-    const Fenced bytes("bytes", picture.bytes.size(), fence),
-        reals("reals", picture.reals.size() * sizeof(float), fence);
-    std::ranges::copy(picture.bytes, bytes.as<std::uint8_t>());
-    std::ranges::copy(picture.reals, reals.as<float>());
-    candela::PictureView view = picture.view(format.pixels);
-    if (format.pixels == PixelType::byte) {
-        view.bytes = {bytes.as<std::uint8_t>(), picture.bytes.size()};
-    } else {
-        view.reals = {reals.as<float>(), picture.reals.size()};
-    }
     Memory memory;
-    std::string trespass = trespass_of([&] { writer.write(view, format.extension, memory); });
+    const FencedPicture whole(picture.view(format.pixels), fence);
+    std::string trespass = trespass_of([&] { writer.write(whole.view(), format.extension, memory); });
+    const auto* const by_rows = dynamic_cast<const candela::RowFormat*>(&writer);
+    if (trespass.empty() && by_rows != nullptr && by_rows->writes_rows(format.extension)) {
+        FencedRows rows(picture.view(format.pixels), fence);
+        candela::PictureView without_pixels = picture.view(format.pixels);
+        without_pixels.bytes = {};
+        without_pixels.reals = {};
+        trespass = trespass_of([&] { by_rows->write_rows(without_pixels, rows, format.extension, memory); });
+    }
     if (!trespass.empty() || !format.layers) return trespass;
     const LayeredPicture layers(picture);
     std::vector<std::unique_ptr<Fenced>> values;
@@ -267,15 +314,24 @@ TEST_CASE("round trip: what it writes is read as the same picture, of any size",
     if (compared == 0) SKIP("no installed plugin reads its formats");
 }
 
-TEST_CASE("bounds: nothing outside the picture is read", "[image]") {
-    const auto writer = make<ImageFormat>(default_values());
+TEST_CASE("bounds: nothing outside the picture is read, or written where a file is read", "[image]") {
+    const auto plugin = make<ImageFormat>(default_values());
+    const TemporaryDirectory directory;
     for (const FileFormat& format : subject().formats) {
         for (const Picture& picture : {Picture(1, 1), Picture(7, 5), Picture(64, 48)}) {
+            Memory memory;
+            plugin->write(picture.view(format.pixels), format.extension, memory);
+            const fs::path file = directory.path() / (std::string("picture.") + format.extension);
+            write_file(file, memory.bytes);
             for (const Fence fence : {Fence::after, Fence::before}) {
-                const std::string trespass = trespass_of_writing(*writer, format, picture, fence);
-                if (!trespass.empty())
-                    FAIL("writing a ." << format.extension << " of " << picture.size() << ", it "
-                                       << trespass);
+                const std::string written = trespass_of_writing(*plugin, format, picture, fence);
+                if (!written.empty())
+                    FAIL("writing a ." << format.extension << " of " << picture.size() << ", it " << written);
+                FencedSink sink(fence);
+                const std::string read =
+                    format.reads ? trespass_of([&] { plugin->read(file.c_str(), sink); }) : "";
+                if (!read.empty())
+                    FAIL("reading a ." << format.extension << " of " << picture.size() << ", it " << read);
             }
         }
     }

@@ -154,6 +154,8 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"shading-reads-behind-the-batch", "mesh", "failed",
          "vertex_normals() reads past the end of position.z"},
         {"shape-reads-behind-its-mesh", "bounds", "failed", "tessellate() reads past the end of indices"},
+        {"image-writes-behind-what-it-reads", "bounds", "failed",
+         "reading a .runs of 1 x 1, it writes past the end of the picture"},
         {"image-reads-behind-the-picture", "bounds", "failed", "it reads past the end of bytes"},
         {"reflection-glows-at-the-rim", "energy-bounded", "failed", "towards an observer at 88 degrees"},
         {"reflection-declares-in-vain", "declarations", "failed", "did you mean 'reciprocal'?"},

@@ -164,6 +164,31 @@ TEST_CASE("however loading a library ends, the doctor says so and ends, and so d
     }
 }
 
+TEST_CASE("however loading a library ends, the conformance kit says so, and ends") {
+    const fs::path library = fs::path(CANDELA_TEST_MUSEUM) / "reflection-misbehaves-on-load.so";
+    struct Ending {
+        const char* what;
+        const char* message;
+    };
+    for (const auto& [what, message] : {
+             Ending{"exit", "the plugin ended the process, with exit code 0"},
+             Ending{"sleep", "not finished after 2 s"},
+             Ending{"stop", "not finished after 2 s"},
+             Ending{"abort", "ended by signal SIGABRT"},
+             Ending{"crash", "ended by signal SIGSEGV"},
+             Ending{"close", "the plugin ended the process"},
+         }) {
+        CommandSetup setup;
+        setup.environment = {{"MUSEUM_ON_LOAD", what}};
+        const CommandResult result =
+            run_candela({"plugin", "test", library.string(), "--time-limit", "2"}, setup);
+        INFO(what << result.out << result.err);
+        CHECK(result.exit_code == 4);
+        CHECK(result.out.find(message) != std::string::npos);
+        CHECK(result.out.find("it cannot be loaded") != std::string::npos);
+    }
+}
+
 TEST_CASE("the doctor says once that a plugin is refused, whether its folder's path is relative or not") {
     const fs::path directory = scratch_directory();
     fs::create_directory(directory / "plugins");
