@@ -1,5 +1,6 @@
 #include "bash_line.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -9,18 +10,17 @@ namespace {
 
 constexpr std::string_view k_special_in_double_quotes = "$`\"\\";
 
-/// Readline closes the quotation marks behind a whole word, but not where the last character is one: it takes
-/// them for closed then.
-std::string closed(std::string text, char quote) {
-    if (text.ends_with(quote)) text += quote;
-    return text;
-}
-
 /// Behind an opening one.
 std::string in_single_quotes(std::string_view word) {
     std::string result;
     for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return closed(std::move(result), '\'');
+    return result;
+}
+
+std::string common_beginning(const std::vector<std::string>& words) {
+    std::string common = words.front();
+    for (const std::string& word : words) common.erase(std::ranges::mismatch(common, word).in1, common.end());
+    return common;
 }
 
 std::string in_double_quotes(std::string_view word) {
@@ -34,7 +34,7 @@ std::string in_double_quotes(std::string_view word) {
         if (k_special_in_double_quotes.find(c) != std::string_view::npos) result += '\\';
         result += c;
     }
-    return closed(std::move(result), '"');
+    return result;
 }
 
 }  // namespace
@@ -147,18 +147,41 @@ BashLine::BashLine(std::string_view line, std::string_view replaced) {
     words_ = reader.words();
 }
 
-std::optional<std::string> BashLine::replacement_for(std::string_view word) const {
-    if (!kept_ || !word.starts_with(*kept_)) return std::nullopt;
-    word.remove_prefix(kept_->size());
-    switch (quotes_) {
-        case Quotes::none:
-            return quoted_for_bash(word);
-        case Quotes::single:
-            return in_single_quotes(word);
-        case Quotes::twofold:
-            return in_double_quotes(word);
-        case Quotes::ansi:
-            break;
+std::string BashLine::quoted(std::string_view part) const {
+    return quotes_ == Quotes::none     ? quoted_for_bash(part)
+           : quotes_ == Quotes::single ? in_single_quotes(part)
+                                       : in_double_quotes(part);
+}
+
+/// The same, but for one character in quotation marks of its own.
+std::string BashLine::quoted_otherwise(std::string_view part, std::size_t at) const {
+    const std::string character(1, part[at]);
+    const std::string mark = character == "'" ? "\"" : "'";
+    const std::string outside = quotes_ == Quotes::twofold ? "\"" : "";
+    return quoted(part.substr(0, at)) + outside + mark + character + mark + outside +
+           quoted(part.substr(at + 1));
+}
+
+/// Readline closes the quotation marks behind a whole word, but not where the last character is one: it takes
+/// them for closed then.
+std::string BashLine::closed(std::string text) const {
+    const char mark = quotes_ == Quotes::single ? '\'' : '"';
+    if (quotes_ != Quotes::none && text.ends_with(mark)) text += mark;
+    return text;
+}
+
+std::vector<std::string> BashLine::replacements_for(std::vector<std::string> words) const {
+    if (!kept_ || quotes_ == Quotes::ansi) return {};
+    std::erase_if(words, [&](const std::string& word) { return !word.starts_with(*kept_); });
+    for (std::string& word : words) word.erase(0, kept_->size());
+    std::vector<std::string> replacements;
+    for (const std::string& word : words) replacements.push_back(quoted(word));
+    if (words.size() > 1) {
+        const std::string common = common_beginning(words), inserted = common_beginning(replacements);
+        // Else they differ behind a backslash, which would stay without a character.
+        if (inserted != quoted(common) && inserted.ends_with('\\') && words.front().size() > common.size())
+            replacements.front() = quoted_otherwise(words.front(), common.size());
     }
-    return std::nullopt;
+    for (std::string& replacement : replacements) replacement = closed(std::move(replacement));
+    return replacements;
 }

@@ -1,6 +1,7 @@
 // A command line that is being typed in bash, up to the cursor.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,13 +19,18 @@ class BashLine {
     /// and may be empty.
     const std::vector<std::string>& words() const { return words_; }
 
-    /// What has to stand in place of the replaced part for the last word to become `word`. Nothing where that
-    /// cannot be: what stands before it is something else, or is expanded by the shell.
-    std::optional<std::string> replacement_for(std::string_view word) const;
+    /// What has to stand in place of the replaced part for the last word to become each of `words`. Without
+    /// those that it cannot become: what stands before it is something else, or is expanded by the shell. Of
+    /// several, readline inserts what they have in common, so that none shares half of an escaped character.
+    std::vector<std::string> replacements_for(std::vector<std::string> words) const;
 
   private:
     enum class Quotes { none, single, twofold, ansi };
     class Reader;
+
+    std::string quoted(std::string_view part) const;
+    std::string quoted_otherwise(std::string_view part, std::size_t at) const;
+    std::string closed(std::string text) const;
 
     std::vector<std::string> words_;
     Quotes quotes_ = Quotes::none;     // where the replaced part begins

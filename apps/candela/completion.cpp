@@ -32,12 +32,6 @@ std::optional<BashLine>& bash_line() {
     return line;
 }
 
-/// As the shell is to insert it; nothing where that cannot be.
-std::optional<std::string> inserted(const std::string& word) {
-    if (!can_be_shown(word)) return std::nullopt;
-    return bash_line() ? bash_line()->replacement_for(word) : word;
-}
-
 }  // namespace
 
 bool is_completing() { return !shell_to_complete_for().empty(); }
@@ -54,18 +48,22 @@ bool can_be_shown(std::string_view word) {
 }
 
 void print_completions(std::string_view typed, std::span<const Completion> completions) {
-    std::set<std::string_view> printed;
+    std::set<std::string_view> offered;
+    std::vector<const Completion*> chosen;
     for (const Completion& completion : completions) {
-        if (!completion.word.starts_with(typed) || !printed.insert(completion.word).second) continue;
-        const std::optional<std::string> word = inserted(completion.word);
-        if (!word) continue;
-        std::cout << *word;
-        if (bash_line()) {
-            std::cout << '\n';
-            continue;
-        }
+        const std::string& word = completion.word;
+        if (word.starts_with(typed) && can_be_shown(word) && offered.insert(word).second)
+            chosen.push_back(&completion);
+    }
+    if (bash_line()) {
+        for (const std::string& text : bash_line()->replacements_for({offered.begin(), offered.end()}))
+            std::cout << text << '\n';
+        return;
+    }
+    for (const Completion* const completion : chosen) {
+        std::cout << completion->word;
         // One line: what is behind a line break is a detail.
-        const std::string_view meaning = completion.meaning;
+        const std::string_view meaning = completion->meaning;
         if (!meaning.empty()) std::cout << '\t' << meaning.substr(0, meaning.find_first_of("\n\t"));
         std::cout << '\n';
     }

@@ -21,7 +21,7 @@ VICTIM = "victim"  # a file that nobody but an executed name makes
 SCENE = """version = 1
 observer = {{position = [0, 1, 4], look_at = [0, 0, 0]}}
 light = [{{type = "directional", name = "{name}", direction = [-1, -1, -1]}}]
-object = [{{type = "cube", name = "{name}", color = [1, 2, 40]}}]
+object = [{objects}]
 """
 
 FRAGMENTS = ["$(touch victim)", "$(touch${IFS}victim)", "`touch victim`", "`touch${IFS}victim`", ";touch victim;", "|touch victim|", "&touch victim&",
@@ -51,6 +51,11 @@ def in_toml(name):
     return "".join(f"\\U{ord(c):08X}" for c in name)
 
 
+def scene_with(*names):
+    objects = ", ".join(f'{{type = "cube", name = "{in_toml(name)}", color = [1, 2, 40], position = [{3 * i}, 0, 0]}}' for i, name in enumerate(names))
+    return SCENE.format(name=in_toml(names[0]), objects=objects)
+
+
 class Tester:
     def __init__(self, kinds):
         self.shells = {kind: Shell(kind, SCRATCH / kind) for kind in kinds}
@@ -60,14 +65,16 @@ class Tester:
         for shell in self.shells.values():
             shell.end()
 
-    def check(self, shell, words, before, typed, quote, expected=None):
+    def check(self, shell, words, before, typed, quote, expected=None, is_folder=False):
         """`words`: before the one that is completed, which begins with `before` and then `typed`, without the quotation mark."""
         line = " ".join(["candela", *words, before + quote + typed])
         if expected is None:
             found = candidates([*words, before + typed], shell.here)
-            expected = found[0] if len(found) == 1 else (before + typed).encode()
+            expected = os.path.commonprefix(found) if found else (before + typed).encode()
         there = sorted(os.listdir(shell.here))
         given = shell.arguments(line, quote)
+        if is_folder:
+            given[-1] = given[-1].removesuffix(b"/")
         self.tried += 1
         self.completed += expected != (before + typed).encode()
         problem = f"{shell.kind}: {line!r} and Tab"
@@ -75,7 +82,7 @@ class Tester:
         assert sorted(os.listdir(shell.here)) == there, f"{problem} has made {set(os.listdir(shell.here)) - set(there)}"
 
     def try_scene(self, shell, name, chance):
-        (shell.here / "s.toml").write_text(SCENE.format(name=in_toml(name)))
+        (shell.here / "s.toml").write_text(scene_with(name))
         what = chance.choice(["object.", "light."])
         verb, option = chance.choice([("render", "--set"), ("edit", "--change")])
         quote = chance.choice(["", "'", '"'])
@@ -83,6 +90,15 @@ class Tester:
             self.check(shell, [verb, "s.toml"], f"{option}=", what, quote)
         else:
             self.check(shell, [verb, "s.toml", option], "", what, quote)
+
+    def try_scene_of_several(self, shell, name, chance):
+        """What they have in common is inserted, and that is whole, too. (fish and zsh go on with one of them.)"""
+        if shell.kind != "bash":
+            return
+        names = {name + chance.choice(FRAGMENTS) for _ in range(chance.randrange(2, 4))}
+        (shell.here / "s.toml").write_text(scene_with(*sorted(names)))
+        quote = chance.choice(["", "'", '"'])
+        self.check(shell, ["render", "s.toml", "--set"], "", "object.", quote)
 
     def try_plugin(self, shell, name, chance):
         """One that begins in no other way than all others, so that it is the only one that is meant."""
@@ -113,14 +129,21 @@ class Tester:
         name = "zq" + "".join(c for c in name if c != "/" and c.isprintable())
         if len(name.encode()) > 200:
             return
-        file = shell.here / name
-        file.write_text("")
-        self.check(shell, ["render"], "", "zq", chance.choice(["", "'", '"']), name.encode())
-        file.unlink()
+        file, quote, is_value = shell.here / name, chance.choice(["", "'", '"']), chance.random() < 0.3
+        if chance.random() < 0.5:
+            file.write_text("")
+            words, before = (["render"], "--output=") if is_value else (["render"], "")
+            self.check(shell, words, before, "zq", quote, before.encode() + name.encode())
+            file.unlink()
+        else:
+            file.mkdir()
+            words, before = (["list"], "--plugin-dir=") if is_value else (["list", "--plugin-dir"], "")
+            self.check(shell, words, before, "zq", quote, before.encode() + name.encode(), is_folder=True)
+            file.rmdir()
 
     def try_name(self, name, chance):
         for shell in self.shells.values():
-            for attempt in (self.try_scene, self.try_plugin, self.try_file):
+            for attempt in (self.try_scene, self.try_scene_of_several, self.try_plugin, self.try_file):
                 attempt(shell, name, chance)
 
 
