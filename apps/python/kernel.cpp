@@ -28,6 +28,7 @@ std::vector<std::string> options_for(const std::string& name, const fs::path& fo
         "-fno-math-errno",
         "-fno-trapping-math",
         "-fwrapv",  // no kernel's integers leave anything open
+        "-fstack-clash-protection",
 #ifdef __x86_64__
         "-mprefer-vector-width=512",
 #endif

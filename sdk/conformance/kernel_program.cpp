@@ -260,7 +260,7 @@ CompiledKernel::CompiledKernel(const std::string& text, KernelAuthor author) {
     // A loop without an end is to be found, not to be taken for one that ends.
     words.emplace_back("-fno-finite-loops");
     // From an overflow, a compiler would conclude that an index is in range.
-    if (author == KernelAuthor::anybody) words.emplace_back("-fwrapv");
+    if (author == KernelAuthor::anybody) words.insert(words.end(), {"-fwrapv", "-fstack-clash-protection"});
     words.insert(words.end(), {"-isystem", include.string(), file.string(), "-o", library().string()});
     const candela::ProgramOutput compiled = candela::run_program(words);
     if (compiled.exit_code != 0) {

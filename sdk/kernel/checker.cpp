@@ -30,6 +30,19 @@ std::string Checker::text_of(Type type) const {
     return std::string(name_of(type.kind));
 }
 
+std::uint64_t Checker::numbers_in(Type type) const {
+    switch (type.kind) {
+        case Type::Kind::structure:
+            return declared_.structures[static_cast<std::size_t>(type.structure)].numbers;
+        case Type::Kind::mat3:
+            return 9;
+        case Type::Kind::table:
+            return 3;  // an address takes two
+        default:
+            return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(components_of(type)));
+    }
+}
+
 std::vector<std::string> Checker::known_types() const {
     std::vector<std::string> names = {"float", "int", "bool", "vec2", "vec3", "vec4", "mat3", "Table"};
     for (const Structure& structure : declared_.structures) names.push_back(structure.name);
@@ -75,6 +88,10 @@ void Checker::structure(Structure& structure) {
         resolve(member.type);
         if (!names.insert(member.name).second)
             throw Refusal{member.place, fmt::format("'{}' is a member already", member.name)};
+        structure.numbers += numbers_in(member.type.type);
+        if (structure.numbers > k_largest_struct)
+            throw Refusal{member.place, fmt::format("struct {} holds more than {} numbers", structure.name,
+                                                    k_largest_struct)};
     }
     declared_.structures.push_back(structure);
 }
@@ -153,7 +170,7 @@ void Checker::count(std::uint64_t steps, std::uint64_t size, Place place) {
                                          k_most_steps)};
     if (size_ > k_largest_size)
         throw Refusal{place, fmt::format("up to here, {}() is too large: with all the functions that it "
-                                         "calls, {} operations are allowed",
+                                         "calls, it may compute {} numbers",
                                          function_, k_largest_size)};
 }
 

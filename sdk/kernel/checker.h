@@ -50,6 +50,7 @@ class Checker {
     void require_new_name(const std::string& name, Place place);
     void resolve(TypeName& type) const;
     std::string text_of(Type type) const;
+    std::uint64_t numbers_in(Type type) const;
     std::vector<std::string> known_types() const;
     void see(const std::string& name, Place place, Seen seen, bool is_assigned);
     const std::size_t* seen_as(std::string_view name) const;

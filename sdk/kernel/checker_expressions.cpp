@@ -47,7 +47,6 @@ bool is_swizzle(const Expression& expression) {
 }
 
 Type Checker::check(Expression& expression) {
-    count(1, 1, expression.place);
     Type type{};
     switch (expression.kind) {
         case Kind::integer:
@@ -81,6 +80,7 @@ Type Checker::check(Expression& expression) {
             type = conditional(expression);
             break;
     }
+    count(1, numbers_in(type), expression.place);
     return expression.type = type;
 }
 

@@ -74,6 +74,7 @@ void Checker::declare(Statement& statement) {
         being_declared_.clear();
         if (statement.is_constant && seen.type == k_int) seen.value = value_of(value);
     }
+    count(0, numbers_in(seen.type), statement.name_place);
     see(statement.name, statement.name_place, seen, has_value);
 }
 

@@ -188,7 +188,9 @@ class Parser {
     }
 
     Statement step(const Token& sign, Expression target) const {
-        Statement result{.kind = Kind::assign, .place = target.place, .name = std::string(sign.text)};
+        Statement result{.kind = Kind::assign,
+                         .place = sign.place.offset < target.place.offset ? sign.place : target.place,
+                         .name = std::string(sign.text)};
         result.name_place = sign.place;
         result.expressions.push_back(std::move(target));
         return result;

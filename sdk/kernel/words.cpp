@@ -110,8 +110,8 @@ bool is_one_of(std::string_view word, const auto& words) {
 }
 
 /// Macros and names that headers and compilers have without a leading "_".
-constexpr std::array<std::string_view, 8> k_taken = {"errno",  "i386",  "linux",  "std",
-                                                     "stderr", "stdin", "stdout", "unix"};
+constexpr std::array<std::string_view, 9> k_taken = {"defined", "errno", "i386",   "linux", "std",
+                                                     "stderr",  "stdin", "stdout", "unix"};
 
 bool is_reserved(std::string_view name) {
     return name.starts_with("_") || name.find("__") != std::string_view::npos || name == "KERNEL" ||

@@ -79,8 +79,8 @@ class Kernels(unittest.TestCase):
     def test_what_is_wrong_with_a_kernel_is_said(self):
         for source, said in (
                 ("KERNEL vec3 x_reflekt(Surface s) { return s.color; }", "a function 'KERNEL Reflected NAME_reflect"),
-                (MINNAERT.replace("struct MyMoonMaterial", "struct Moon"), "takes a 'MyMoonMaterial', which is no struct"),
-                (MINNAERT.replace("float k;", "double k;"), "'double k;' in struct MyMoonMaterial"),
+                (MINNAERT.replace("struct MyMoonMaterial", "struct Moon"), "my-moon.kernel:8:34: unknown type 'MyMoonMaterial'"),
+                (MINNAERT.replace("float k;", "double k;"), "my-moon.kernel:5:5: the kernel language has no 'double'; numbers with a fraction are float"),
                 (MINNAERT.replace("n_dot_v;", "n_dot_w;").replace("* n_dot_v,", "* n_dot_w,"), r"my-moon.kernel:11:67: unknown variable 'n_dot_w'; did you mean 'n_dot_"),
                 (MINNAERT.replace("float n_dot_v", "vec3 *p = (vec3 * const) 16; float n_dot_v"),
                  r"my-moon.kernel:10:10: the kernel language has neither pointers nor references"),

@@ -198,6 +198,7 @@ TEST_CASE("kernel language: what else C++ has is refused") {
         {"KERNEL float x = 1.0;", "reserved name"},
         {"CANDELA_KERNEL_INLINE float x = 1.0;", "reserved name"},
         {"float x = errno;", "reserved name"},
+        {"float defined = 1.0;", "reserved name"},
         {"template <int n> int f();", "no 'template'"},
         {"min<float>(1.0, 2.0);", "expected an assignment"},
         {"float x = min<float>(1.0, 2.0);", "'float' is a type"},
@@ -369,6 +370,14 @@ TEST_CASE("kernel language: functions that call one another again and again are 
                 "(x); }\n";
     }
     CHECK(holds(problem_in_kernel(text), "is too large"));
+    // Nor do values grow that have to lie somewhere.
+    std::string structs = "struct S0 { mat3 a, b; };\n";
+    for (int i = 1; i < 40; ++i)
+        structs += "struct S" + std::to_string(i) + " { S" + std::to_string(i - 1) + " a, b; };\n";
+    CHECK(holds(problem_in_kernel(structs), "x.kernel:7:19: struct S6 holds more than 1000 numbers"));
+    std::string locals = "struct S { mat3 a, b, c, d; };\nKERNEL float f(S s) {\n";
+    for (int i = 0; i < 1000; ++i) locals += "S s" + std::to_string(i) + " = s;\n";
+    CHECK(holds(problem_in_kernel(locals + "return 1.0f; }"), "it may compute 30000 numbers"));
     CHECK(holds(problem_in_kernel(
                     "KERNEL float f(float x) { return g(x); }\nKERNEL float g(float x) { return f(x); }"),
                 "g() is declared further down; move it before f()"));

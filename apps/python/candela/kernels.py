@@ -81,10 +81,13 @@ class _Kernel:
 @functools.lru_cache(maxsize=64)
 def _compiled(source: str) -> tuple[str, Registry]:
     """The name of a kernel's model, and a registry that has it."""
+    named = re.search(r"\b(\w+?)_reflect\b", source)
+    file = f"{named[1].replace('_', '-')}.kernel" if named else "kernel"
+    _candela.kernel_as_cpp(source, file)  # refuses what is not in the language, or too long to look at
     kernel = _Kernel(source)
     text = kernel.kernel(source)
     # What was understood of the text is compiled. The text is what programs are generated from.
-    compiled = _candela.kernel_as_cpp(text, f"{kernel.name}.kernel")
+    compiled = _candela.kernel_as_cpp(text, file)
     folder = pathlib.Path(tempfile.mkdtemp(prefix="candela-kernel-"))
     try:
         (folder / f"{kernel.name}.kernel").write_text(text, encoding="utf-8")

@@ -19,7 +19,8 @@ inline constexpr std::size_t k_deepest_nesting = 64;         // of brackets and 
 inline constexpr std::size_t k_deepest_expression = 256;     // operations that depend on one another
 inline constexpr std::uint64_t k_most_iterations = 100'000;  // of a loop, times those around it
 inline constexpr std::uint64_t k_most_steps = 1'000'000;     // of one call, with the calls that it makes
-inline constexpr std::uint64_t k_largest_size = 100'000;     // of a function, with those that it calls
+inline constexpr std::uint64_t k_largest_size = 30'000;      // of a function: numbers computed, with calls
+inline constexpr std::uint64_t k_largest_struct = 1'000;     // numbers
 
 /// What is not in the language, and where. Lines and columns count from 1, columns in characters.
 class Problem : public std::runtime_error {

@@ -80,6 +80,7 @@ struct Structure {
     Place place{};
     std::vector<Variable> members{};
     Place end{};
+    std::uint64_t numbers = 0;  // that it holds, those of its members' structs included
 };
 
 struct Constant {
@@ -96,7 +97,7 @@ struct Function {
     std::vector<Statement> body{};
     Place end{};
     std::uint64_t steps = 0;  // that a call takes at most
-    std::uint64_t size = 0;   // of the expressions, with those of the functions that it calls
+    std::uint64_t size = 0;   // numbers that its text computes, with those of the functions that it calls
 };
 
 using Declaration = std::variant<Structure, Constant, Function>;
