@@ -70,7 +70,12 @@ constexpr const char* k_answer = "answer";  // what messages call its text
 void take_refusal(Grade& grade, const std::string& log) {
     grade.result = Result::does_not_compile;
     static const std::regex k_error(fmt::format(R"(\b{}:(\d+):(\d+): (?:fatal )?error: ([^\n]*))", k_answer));
+    static const std::regex k_macro(R"(error: ('\w+' is a macro of C\+\+; choose another name))");
     std::smatch found;
+    if (std::regex_search(log, found, k_macro)) {
+        grade.message = found[1];
+        return;
+    }
     if (!std::regex_search(log, found, k_error)) {
         grade.message = log.substr(0, log.find('\n', log.find('\n') + 1));
         return;

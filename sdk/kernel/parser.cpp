@@ -187,10 +187,8 @@ class Parser {
         tokens_.expect(";", "an operator or ");
     }
 
-    Statement step(const Token& sign, Expression target) const {
-        Statement result{.kind = Kind::assign,
-                         .place = sign.place.offset < target.place.offset ? sign.place : target.place,
-                         .name = std::string(sign.text)};
+    static Statement change(const Token& first, const Token& sign, Expression target) {
+        Statement result{.kind = Kind::assign, .place = first.place, .name = std::string(sign.text)};
         result.name_place = sign.place;
         result.expressions.push_back(std::move(target));
         return result;
@@ -201,13 +199,13 @@ class Parser {
         const Token& first = tokens_.peek();
         if (first.text == "++" || first.text == "--") {
             const Token& sign = tokens_.take();
-            return step(sign, target());
+            return change(first, sign, target());
         }
         if (first.text == "*") TokenReader::refuse(first, k_no_pointers);
         if (first.kind != Token::Kind::name) tokens_.refuse_next("a statement");
         Expression what = target();
         const Token& sign = tokens_.peek();
-        if (sign.text == "++" || sign.text == "--") return step(tokens_.take(), std::move(what));
+        if (sign.text == "++" || sign.text == "--") return change(first, tokens_.take(), std::move(what));
         if ((sign.text == "*" || sign.text == "&&") && what.kind == Expression::Kind::variable)
             TokenReader::refuse(sign, k_no_pointers);
         if (sign.text == "(")
@@ -217,7 +215,7 @@ class Parser {
         if (sign.text == ":") TokenReader::refuse(first, "the kernel language has no labels");
         for (const std::string_view known : k_assignments) {
             if (sign.kind != Token::Kind::sign || sign.text != known) continue;
-            Statement result = step(tokens_.take(), std::move(what));
+            Statement result = change(first, tokens_.take(), std::move(what));
             result.expressions.push_back(parsed_expression(tokens_));
             return result;
         }

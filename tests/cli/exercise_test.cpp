@@ -211,6 +211,13 @@ TEST_CASE("exercise: an answer that calls itself, or takes too long, is not run 
     CHECK(grades.at(1)["line"] == 2);
 }
 
+TEST_CASE("exercise: a name that C++ has a macro of is said, and nothing is put in its place") {
+    const json grade = grade_of(
+        "float UINT64_C = 1.0;\nfloat INT8_MAX = UINT64_C;\nreturn Reflected(s.color * INT8_MAX, s.color);");
+    CHECK(grade["result"] == "does-not-compile");
+    CHECK(holds(grade["message"], "is a macro of C++; choose another name"));
+}
+
 TEST_CASE("exercise: what is not assigned is zero, and no index or integer leads out of what there is") {
     const fs::path folder = scratch_directory();
     answer(
