@@ -64,7 +64,7 @@ candela::ProgramOutput run_verb(const std::vector<std::string>& verb,
 }
 
 constexpr const char* k_inputs = "inputs.json";
-constexpr std::chrono::minutes k_longest_rendering{5};
+constexpr std::chrono::minutes k_longest_rendering{5}, k_longest_making{5};
 // Browsers have both the scene and the processors to themselves until they have drawn it.
 constexpr std::chrono::milliseconds k_until_shown{300};
 
@@ -212,12 +212,19 @@ void SceneFollower::get_ready() {
 
 candela::ProgramOutput SceneFollower::generated() {
     std::optional<candela::ProgramOutput> result;
-    if (waiting_ && plugins_ == states_in(job_.plugin_folders)) result = waiting_->go_on();
+    const candela::Patience patience{.longest = k_longest_making, .unwanted = {}};
+    if (waiting_ && plugins_ == states_in(job_.plugin_folders)) result = waiting_->go_on(patience);
     if (!result) {
         get_ready();
-        result = waiting_->go_on();
+        result = waiting_->go_on(patience);
     }
     waiting_.reset();
+    if (result && result->end == candela::ProgramEnd::late) {
+        result->err += fmt::format(
+            "Making the page took more than {} minutes and was ended; it is made again when a file is "
+            "saved.\n",
+            k_longest_making.count());
+    }
     if (!result)
         throw Error(ErrorCategory::failure, "candela generate ends before it has been told anything");
     return *std::move(result);

@@ -64,6 +64,12 @@ TEST_CASE("a program that takes too long, or that nobody wants any more, is ende
     CHECK(deaf.end == candela::ProgramEnd::late);
     CHECK(deaf.exit_code == 128 + SIGKILL);
 
+    candela::WaitingProgram told({"/bin/sh", "-c", "read line; echo begun; exec sleep 100000"});
+    const auto given_up = told.go_on({.longest = milliseconds(100)});
+    REQUIRE(given_up.has_value());
+    CHECK(given_up->end == candela::ProgramEnd::late);
+    CHECK(given_up->exit_code == 128 + SIGTERM);
+
     const candela::ProgramOutput quick = candela::run_program(
         {"/bin/echo", "said"}, {.longest = k_patience, .unwanted = std::stop_source().get_token()});
     CHECK(quick.end == candela::ProgramEnd::own);

@@ -143,6 +143,8 @@ class Beside {
         return true;
     }
 
+    ProgramEnd await(const Patience& patience) const { return Overseer(process_, patience).await(); }
+
     /// Waits for its end. Its exit code, 128 + signal where a signal ended it.
     int wait() {
         int status = 0;
@@ -222,9 +224,10 @@ class WaitingProgram::Implementation {
     explicit Implementation(const std::vector<std::string>& words)
         : output_(::memfd_create("output", MFD_CLOEXEC)), program_(words, output_.number()) {}
 
-    std::optional<ProgramOutput> go_on() {
+    std::optional<ProgramOutput> go_on(const Patience& patience) {
         if (!program_.send("\n")) return std::nullopt;
         ProgramOutput result;
+        result.end = program_.await(patience);
         result.exit_code = program_.wait();
         result.out = content_of(output_);
         result.err = program_.errors();
@@ -240,6 +243,8 @@ WaitingProgram::WaitingProgram(const std::vector<std::string>& words)
     : implementation_(std::make_unique<Implementation>(words)) {}
 WaitingProgram::~WaitingProgram() = default;
 
-std::optional<ProgramOutput> WaitingProgram::go_on() { return implementation_->go_on(); }
+std::optional<ProgramOutput> WaitingProgram::go_on(const Patience& patience) {
+    return implementation_->go_on(patience);
+}
 
 }  // namespace candela

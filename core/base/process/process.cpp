@@ -16,13 +16,10 @@ module;
 #include <boost/process/pipe.hpp>
 #include <boost/process/search_path.hpp>
 #include <cerrno>
-#include <chrono>
-#include <condition_variable>
 #include <csignal>
 #include <filesystem>
 #include <mutex>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -66,55 +63,6 @@ int exit_code_of(process::child& child) {
     child.wait();
     const int status = child.native_exit_code();
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-/// Ends a program that takes too long, or that nobody wants any more.
-class Overseer {
-  public:
-    Overseer(pid_t process, const Patience& patience) {
-        if (patience.longest || patience.unwanted.stop_possible())
-            thread_ = std::thread([this, process, patience] { oversee(process, patience); });
-    }
-    Overseer(const Overseer&) = delete;
-    Overseer& operator=(const Overseer&) = delete;
-    ~Overseer() { dismiss(); }
-
-    /// To be called when the program has ended, and before it is waited for: its number may be another's
-    /// then.
-    ProgramEnd dismiss() {
-        {
-            const std::lock_guard lock(mutex_);
-            has_ended_ = true;
-        }
-        news_.notify_all();
-        if (thread_.joinable()) thread_.join();
-        return end_;
-    }
-
-  private:
-    void oversee(pid_t process, const Patience& patience) {
-        constexpr std::chrono::hours k_ever{24 * 365};
-        constexpr std::chrono::seconds k_longest_end{2};
-        std::unique_lock lock(mutex_);
-        const auto has_ended = [this] { return has_ended_; };
-        if (news_.wait_for(lock, patience.unwanted, patience.longest.value_or(k_ever), has_ended)) return;
-        end_ = patience.unwanted.stop_requested() ? ProgramEnd::unwanted : ProgramEnd::late;
-        ::kill(process, SIGTERM);
-        if (!news_.wait_for(lock, k_longest_end, has_ended)) ::kill(process, SIGKILL);
-    }
-
-    std::mutex mutex_;
-    std::condition_variable_any news_;
-    bool has_ended_ = false;
-    ProgramEnd end_ = ProgramEnd::own;
-    std::thread thread_;
-};
-
-/// Waits for its end, and leaves it to be waited for.
-void await_end(pid_t process) {
-    siginfo_t state{};
-    while (::waitid(P_PID, static_cast<id_t>(process), &state, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
-    }
 }
 
 /// In large pieces: a stream would read a kilobyte at a time.
@@ -167,8 +115,7 @@ ProgramOutput run_program(const std::vector<std::string>& words, const Patience&
     std::thread reader([&] { output.err = all_of(err); });
     output.out = all_of(out);
     reader.join();
-    await_end(child.id());
-    output.end = overseer.dismiss();
+    output.end = overseer.await();
     output.exit_code = exit_code_of(child);
     return output;
 }

@@ -4,12 +4,14 @@ module;
 #include "candela/api.h"
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 export module candela.process;
@@ -94,11 +96,39 @@ class CANDELA_API WaitingProgram {
     ~WaitingProgram();
 
     /// Tells it to go on, and waits for its end. Nothing if it has ended before. Call it once.
-    std::optional<ProgramOutput> go_on();
+    std::optional<ProgramOutput> go_on(const Patience& patience = {});
 
   private:
     class Implementation;
     std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace candela
+
+namespace candela {
+
+/// Ends a program when the patience with it is over.
+class Overseer {
+  public:
+    /// `process`: its number. Nobody else may wait for it until await() has.
+    Overseer(int process, const Patience& patience);
+    Overseer(const Overseer&) = delete;
+    Overseer& operator=(const Overseer&) = delete;
+    ~Overseer();
+
+    /// Waits for the program's end, which is still to be had from the system afterwards. Who has ended it.
+    ProgramEnd await();
+
+  private:
+    void dismiss();
+    void oversee(const Patience& patience);
+
+    int process_;
+    std::mutex mutex_;
+    std::condition_variable_any news_;
+    bool has_ended_ = false;
+    ProgramEnd end_ = ProgramEnd::own;
+    std::thread thread_;
 };
 
 }  // namespace candela
