@@ -1,6 +1,7 @@
 // Loads and stores of structure-of-arrays batches: element i of three arrays as a vector of the kernel
 // language, for the bodies of batch loops. Works on whatever has members x, y and z that can be indexed:
-// Vec3Span, ConstVec3Span, arrays.
+// Vec3Span, ConstVec3Span, arrays. Arrays have `count` elements, and nothing behind the
+// last one may be read, whatever `count` is: the renderer fills whole vectors, other callers do not.
 #pragma once
 
 #include "candela/kernel.h"

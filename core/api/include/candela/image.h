@@ -11,7 +11,8 @@
 
 namespace candela {
 
-/// A finished picture: red, green, blue interleaved, rows from the top, no padding.
+/// A finished picture: red, green, blue interleaved, rows from the top, no padding, between rows or at the
+/// end.
 struct PictureView {
     int width = 0;
     int height = 0;

@@ -24,8 +24,9 @@ struct IncidentBatch {
     Vec3Span specular;  // the same for highlights
 };
 
-/// A light. Any thread, any batch size from 1; arrays need no alignment and do not alias. All intensities are
-/// >= 0 and finite, even where a receiver coincides with the light.
+/// A light. Any thread, any batch size from 1; arrays have `count` elements, and nothing outside them may be
+/// read or written; they need no alignment and do not alias. All intensities are >= 0 and finite, even where
+/// a receiver coincides with the light.
 class CANDELA_API Light : public Instance {
   public:
     ~Light() override;

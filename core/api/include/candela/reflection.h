@@ -66,8 +66,9 @@ class CANDELA_API Surroundings {
                        const ExitBatch& exit) = 0;
 };
 
-/// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays need
-/// no alignment and do not alias. Results are finite and, unless the model declares otherwise, not negative.
+/// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays have
+/// `count` elements, and nothing outside them may be read or written; they need no alignment and do not
+/// alias. Results are finite and, unless the model declares otherwise, not negative.
 class CANDELA_API ReflectionModel : public Instance {
   public:
     ~ReflectionModel() override;

@@ -63,7 +63,8 @@ struct ShadingPointBatch {
 };
 
 /// A shading model (CA: "how the normal vector is calculated for polygons in the scene"). Any thread, any
-/// batch size from 1; arrays need no alignment and do not alias.
+/// batch size from 1; arrays have as many elements as there are points, vertices or triangles, and nothing
+/// outside them may be read or written; they need no alignment and do not alias.
 class CANDELA_API ShadingModel : public Instance {
   public:
     ~ShadingModel() override;

@@ -43,7 +43,8 @@ struct MeshLayout {
     std::size_t open_edges = 0;  // of an open shape, if it has counted them; otherwise the host does
 };
 
-/// Arrays of the requested sizes, zero-filled; null or empty if not requested. Object space, metres.
+/// Arrays of the requested sizes, zero-filled; null or empty if not requested. Nothing outside them may be
+/// read or written. Object space, metres.
 struct MeshSpans {
     Vec3Span position;
     std::span<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from outside
