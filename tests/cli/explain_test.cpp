@@ -223,7 +223,8 @@ TEST_CASE("a pixel that is none is a usage error that says which there are") {
 }
 
 TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, and say what they said") {
-    const fs::path kept = scratch_directory();
+    const fs::path directory = scratch_directory(), kept = directory / "kept";
+    fs::create_directory(kept);
     const auto explained_at = [&](const char* pixel, bool is_kept, bool has_compiler) {
         std::vector<std::string> words{"explain", "--pixel", pixel, "--json", "--quiet"};
         if (is_kept) words.insert(words.end(), {"--keep", kept.string()});
@@ -244,8 +245,8 @@ TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, 
     fs::permissions(program, fs::perms::group_write, fs::perm_options::add);
     CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
     fs::permissions(program, fs::perms::group_write, fs::perm_options::remove);
-    fs::rename(program, kept.parent_path() / (kept.filename().string() + "-elsewhere"));
-    fs::create_symlink(kept.parent_path() / (kept.filename().string() + "-elsewhere"), program);
+    fs::rename(program, directory / "elsewhere");
+    fs::create_symlink(directory / "elsewhere", program);
     CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
     // A program whose source is another's is not used.
     fs::remove(program);

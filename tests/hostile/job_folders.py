@@ -124,7 +124,7 @@ def put_file(work: Path, chance) -> None:
     kind = chance.randrange(8)
     if kind >= 6:
         path = work / name
-        if path.is_file() and not path.is_symlink():
+        if path.is_file() and not path.is_symlink() and path.stat().st_size < 1 << 20:
             path.write_bytes(hostile.mutated(path.read_bytes(), [b"{}", b"inputs x\nbytes 0\n"], chance, WORDS))
         return
     path = cleared(work, name)
