@@ -82,3 +82,17 @@ TEST_CASE("candela edit needs a file to write into") {
     CHECK(holds(piped.err, "pipe"));
     CHECK(run_candela({"edit", "missing.toml", "--change", "image.width=9"}).exit_code != 0);
 }
+
+TEST_CASE(
+    "candela edit changes the first line of a file that begins with a byte order mark, and keeps the mark") {
+    const fs::path folder = scratch_directory();
+    const std::string mark = "\xef\xbb\xbf";
+    const fs::path file =
+        write_file(folder / "scene.toml", mark + "image = { width = 100, height = 50 }\n" + k_scene);
+    const CommandResult result =
+        run_candela({"edit", "scene.toml", "--change", "image.width=200", "--change", "image.samples=4"},
+                    {.input = "", .environment = {}, .directory = folder});
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(read_file(file) == mark + "image = { width = 200, height = 50, samples = 4 }\n" + k_scene);
+}

@@ -22,9 +22,10 @@ namespace candela {
 
 namespace {
 
-/// Where a line and a column are, which count from 1, in characters.
+/// Where a line and a column are, which count from 1, in characters. A byte order mark is no column.
 std::size_t offset_of(std::string_view text, const SourcePlace& place) {
-    std::size_t at = 0;
+    constexpr std::string_view k_mark = "\xef\xbb\xbf";
+    std::size_t at = text.starts_with(k_mark) ? k_mark.size() : 0;
     for (int line = 1; line < place.line; ++line) at = std::min(text.find('\n', at), text.size() - 1) + 1;
     for (int column = 1; column < place.column; ++column) at += first_character(text.substr(at)).size();
     return at;
