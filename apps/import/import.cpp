@@ -23,6 +23,22 @@ void Model::note(std::string sentence) {
     if (std::ranges::find(notes, sentence) == notes.end()) notes.push_back(std::move(sentence));
 }
 
+void Model::note_one_of(const std::string& kind, std::string sentence) {
+    const auto [known, is_new] = kinds_.try_emplace(kind, Kind{.note = notes.size()});
+    if (is_new) {
+        notes.push_back(std::move(sentence));
+    } else {
+        ++known->second.more;
+    }
+}
+
+void Model::count_notes() {
+    for (const auto& [kind, each] : kinds_)
+        if (each.more > 0)
+            notes[each.note] += fmt::format("; so {} {} more", each.more == 1 ? "is" : "are", each.more);
+    kinds_.clear();
+}
+
 bool is_model(const fs::path& file) {
     constexpr std::array k_extensions = {"obj", "ply", "stl", "gltf", "glb"};
     return std::ranges::find(k_extensions, candela::extension_of(file)) != k_extensions.end();
@@ -150,6 +166,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
             model.note(
                 "lights at one place, or where the camera is, are moved a little along the line of sight");
     }
+    model.count_notes();
     setting.room = room_for(bounds, setting.camera, setting.lights);
     return {.scene = scene_text(model, setting),
             .notes = model.notes,

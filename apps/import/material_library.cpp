@@ -35,7 +35,8 @@ bool are_all(const std::vector<double>& values, double value) {
 bool limit(std::vector<double>& kd, std::vector<double>& ks) {
     double most = 0;
     for (std::size_t c = 0; c < 3; ++c) most = std::max(most, kd[c] + ks[c]);
-    if (most <= 1) return false;
+    constexpr double k_rounding = 1e-6;
+    if (most <= 1 + k_rounding) return false;
     constexpr double k_digits = 1e4;
     for (std::vector<double>* const values : {&kd, &ks})
         for (double& x : *values) x = std::floor(k_digits * x / most) / k_digits;
@@ -46,7 +47,12 @@ bool limit(std::vector<double>& kd, std::vector<double>& ks) {
 
 void MaterialLibraries::read_named(std::string_view names) {
     names = trimmed(names);
-    if (names.empty() || read_if_there(names)) return;
+    if (names.empty() || !named_.emplace(names).second) return;
+    constexpr std::size_t k_most_statements = 1000;
+    if (named_.size() > k_most_statements)
+        return model_.note(
+            fmt::format("statements mtllib after the first {} are left out", k_most_statements));
+    if (read_if_there(names)) return;
     // Several, if each of them has an extension.
     std::vector<std::string_view> words;
     for (std::string_view rest = names, word = word_from(rest); !word.empty(); word = word_from(rest))
@@ -56,7 +62,8 @@ void MaterialLibraries::read_named(std::string_view names) {
     if (!are_several) words = {names};
     for (const std::string_view word : words)
         if ((words.size() == 1 && word == names) || !read_if_there(word))
-            model_.note(fmt::format("the material library '{}' cannot be read", word));
+            model_.note_one_of("unreadable library",
+                               fmt::format("the material library '{}' cannot be read", word));
 }
 
 bool MaterialLibraries::read_if_there(std::string_view name) {
@@ -86,8 +93,11 @@ void MaterialLibraries::read(const fs::path& file) {
     Description* current = nullptr;
     each_statement(*text, [&](const Statement& s) {
         if (s.keyword == "newmtl") {
-            current = &descriptions_[name_from(s.rest)];
+            const std::string name = name_from(s.rest);
+            current = &descriptions_[name];
             *current = {};
+            if (const std::string_view bare = without_comment(name); bare != name)
+                commented_.try_emplace(std::string(bare), name);
         } else if (current != nullptr) {
             statement(lower(s.keyword), s.rest, *current);
         }
@@ -99,9 +109,9 @@ const MaterialLibraries::Description* MaterialLibraries::find(const std::string&
     if (same != descriptions_.end()) return &same->second;
     // One of them may have a comment behind it.
     const std::string_view bare = without_comment(name);
-    for (const auto& [other, description] : descriptions_)
-        if (other == bare || without_comment(other) == bare) return &description;
-    return nullptr;
+    if (const auto plain = descriptions_.find(bare); plain != descriptions_.end()) return &plain->second;
+    const auto commented = commented_.find(bare);
+    return commented != commented_.end() ? &descriptions_.find(commented->second)->second : nullptr;
 }
 
 std::vector<double> MaterialLibraries::coefficients(const std::vector<double>& value, double otherwise) {
@@ -222,22 +232,24 @@ void MaterialLibraries::texture(std::string_view rest, Description& to) {
 }
 
 std::optional<std::size_t> MaterialLibraries::picture(const std::string& material, const Description& of) {
-    const auto say = [&](std::string_view what) {
-        model_.note(fmt::format("the texture '{}' of material '{}' {}", of.texture, material, what));
+    const auto say = [&](const char* kind, std::string_view what) {
+        model_.note_one_of(kind,
+                           fmt::format("the texture '{}' of material '{}' {}", of.texture, material, what));
     };
     const auto found = find_named(of.texture_folder, of.texture);
     if (!found) {
-        model_.note(fmt::format("there is no texture '{}', which material '{}' names", of.texture, material));
+        say("missing texture", "is not there");
         return std::nullopt;
     }
     if (!source_.may_read(found->path)) {
-        say(fmt::format("is outside the model's folder{}", k_outside_remedy));
+        say("outside texture", fmt::format("is outside the model's folder{}", k_outside_remedy));
         return std::nullopt;
     }
     const fs::path file = candela::canonical_path(found->path);
     const auto [known, is_new] = pictures_.try_emplace(file);
     if (!is_new) return known->second;
-    if (found->is_renamed) say(fmt::format("is read from '{}'", found->path.filename().string()));
+    if (found->is_renamed)
+        say("renamed texture", fmt::format("is read from '{}'", found->path.filename().string()));
     Picture picture{file};
     try {
         // A scene is UTF-8, and could not name it.
@@ -249,9 +261,10 @@ std::optional<std::size_t> MaterialLibraries::picture(const std::string& materia
         const InspectedPicture inspected = inspect(picture, registry_);
         picture.brightness = inspected.brightness;
         if (!inspected.other_format.empty())
-            say(fmt::format("is read as {}, which its content says it is", inspected.other_format));
+            say("misnamed texture",
+                fmt::format("is read as {}, which its content says it is", inspected.other_format));
     } catch (const candela::Error& problem) {
-        say(fmt::format("is left out: {}", problem.what()));
+        say("broken texture", fmt::format("is left out: {}", problem.what()));
         return std::nullopt;
     }
     model_.pictures.push_back(std::move(picture));

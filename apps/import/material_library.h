@@ -54,9 +54,11 @@ class MaterialLibraries {
     Model& model_;
     const Source& source_;
     candela::Registry& registry_;
-    std::filesystem::path folder_;  // of the library that is being read
+    std::filesystem::path folder_;              // of the library that is being read
+    std::set<std::string, std::less<>> named_;  // by statements mtllib
     std::set<std::filesystem::path> known_files_;
     std::map<std::string, Description, std::less<>> descriptions_;
+    std::map<std::string, std::string, std::less<>> commented_;             // names without their comments
     std::map<std::filesystem::path, std::optional<std::size_t>> pictures_;  // of the model, by file
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -64,6 +65,17 @@ struct Model {
     std::vector<std::string> notes;  // whole sentences without a full stop, each once
 
     void note(std::string sentence);
+    /// Notes a loss of a kind of which there may be many: the first as a sentence, the others by their
+    /// number, which count_notes() adds at the end.
+    void note_one_of(const std::string& kind, std::string sentence);
+    void count_notes();
+
+  private:
+    struct Kind {
+        std::size_t note = 0;  // of `notes`
+        std::size_t more = 0;
+    };
+    std::map<std::string, Kind> kinds_;
 };
 
 }  // namespace importing

@@ -51,7 +51,8 @@ Model read_obj(const Source& source, candela::Registry& registry) {
             part.material = model.materials.size();
             model.materials.push_back(libraries.material(name));
         } else if (name != "(none)") {
-            model.note(fmt::format("no material library describes the material '{}'", name));
+            model.note_one_of("undescribed",
+                              fmt::format("the material '{}' is not in any material library", name));
         }
         model.parts.push_back(part);
     }

@@ -381,8 +381,51 @@ TEST_CASE("a small model far out is drawn, and its scene says where it lies") {
 
 TEST_CASE("numbers of a scene read back as they were where six digits are too few") {
     const fs::path folder = scratch_directory();
-    write_file(folder / "a.obj", ball(1, {90.125, 0, 0}));
+    write_file(folder / "a.obj", ball(1, {99.015625, 0, 0}));
     const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
     CHECK_FALSE(holds(result.out, "origin"));
-    CHECK(holds(result.out, "look_at  = [90.125, "));
+    CHECK(holds(result.out, "= [99.015625, "));
+}
+
+TEST_CASE("a far glTF file's camera and lights are moved with it") {
+    const fs::path folder = scratch_directory();
+    const auto scene_at = [&](const char* name, double x, double y, double z) {
+        write_file(folder / name,
+                   fmt::format(R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
+"nodes": [{{"translation": [{}, {}, {}], "children": [1, 2, 3]}}, {{"mesh": 0}}, {{"camera": 0, "translation": [0.25, 0.25, 3]}},
+  {{"translation": [0.5, 1, 2], "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
+"cameras": [{{"type": "perspective", "perspective": {{"yfov": 0.5, "znear": 0.1}}}}],
+"extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point", "intensity": 20}}]}}}},
+"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}}],
+"bufferViews": [{{"buffer": 0, "byteLength": 36}}], "buffers": [{{"byteLength": 36, "uri":
+"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
+                               x, y, z));
+        return rendered(folder, name).picture;
+    };
+    const Pixels here = scene_at("here.gltf", 0, 0, 0),
+                 far = scene_at("far.gltf", 500000.25, 4500000.75, 120);
+    CHECK(here.middle() != here.at(0, 0));
+    REQUIRE(here.bytes.size() == far.bytes.size());
+    int most = 0;
+    for (std::size_t i = 0; i < here.bytes.size(); ++i)
+        most = std::max(most, std::abs(static_cast<unsigned char>(here.bytes[i]) -
+                                       static_cast<unsigned char>(far.bytes[i])));
+    CHECK(most <= 2);
+}
+
+TEST_CASE("losses of one kind are one note with a count") {
+    const fs::path folder = scratch_directory();
+    std::string model = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n", library;
+    for (int i = 0; i < 50; ++i) {
+        model += fmt::format("usemtl m{0}\nf 1/1 2/1 3/1\nusemtl n{0}\nf 1/1 2/1 3/1\n", i);
+        library += fmt::format("newmtl m{0}\nmap_Kd no{0}.png\n", i);
+    }
+    write_file(folder / "a.obj", model);
+    write_file(folder / "a.mtl", library);
+    const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.err, "the texture 'no0.png' of material 'm0' is not there; so are 49 more"));
+    CHECK(holds(result.err, "the material 'n0' is not in any material library; so are 49 more"));
+    CHECK(std::ranges::count(result.err, '\n') == 2);
 }

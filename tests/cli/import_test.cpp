@@ -215,13 +215,13 @@ TEST_CASE("import says which libraries, materials and textures are not there, an
     write_file(folder / "two.obj", k_squares);
     CommandResult result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
     CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "no material library describes the material 'left'"));
+    CHECK(holds(result.err, "the material 'left' is not in any material library; so is 1 more"));
     write_file(folder / "two.mtl",
                "newmtl left\nmap_Kd -s 2 2 2 -clamp on no such.png\nnewmtl right side\nmap_Kd a.xyz\n");
     write_file(folder / "a.xyz", "what?");
     result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
     CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "there is no texture 'no such.png', which material 'left' names"));
+    CHECK(holds(result.err, "the texture 'no such.png' of material 'left' is not there"));
     CHECK(
         holds(result.err,
               "the texture 'a.xyz' of material 'right side' is left out: no image plugin reads its format"));

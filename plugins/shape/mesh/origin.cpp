@@ -38,7 +38,7 @@ std::optional<Origin> origin_from(std::string_view text) {
 
 std::string too_far_note(const Surface& surface, const Origin& origin) {
     std::array<double, 3> center{};
-    double size = 0, farthest = 0;
+    double size = 0, farthest = 0, farthest_in_file = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Array<float>& values = axis == 0   ? surface.position.x
                                      : axis == 1 ? surface.position.y
@@ -47,19 +47,30 @@ std::string too_far_note(const Surface& surface, const Origin& origin) {
         const auto [low, high] = std::ranges::minmax(values);
         center[axis] = 0.5 * (double{low} + double{high});
         size = std::max(size, double{high} - double{low});
-        farthest = std::max({farthest, std::abs(double{low}), std::abs(double{high})});
+        for (const double x : {double{low}, double{high}}) {
+            farthest = std::max(farthest, std::abs(x));
+            farthest_in_file = std::max(farthest_in_file, std::abs(x + origin.at[axis]));
+        }
     }
-    // Of a thousandth of a picture's width 0.06 is lost at this distance.
+    // Of a picture a thousand pixels wide, 0.06 pixels are lost at this distance.
     constexpr double k_too_far = 1e3;
-    if (!std::isfinite(farthest) || !(farthest > k_too_far * size) || size == 0) return {};
-    const double step =
-        std::exp2(std::floor(std::log2(farthest))) * double{std::numeric_limits<float>::epsilon()};
+    if (!std::isfinite(farthest) || size == 0) return {};
+    const auto step = [](double x) {
+        return std::exp2(std::floor(std::log2(x))) * double{std::numeric_limits<float>::epsilon()};
+    };
+    if (surface.is_single && farthest_in_file > k_too_far * size)
+        return fmt::format(
+            "has its coordinates in single precision, which rounds them to {:.2g} m so far from the origin; "
+            "its form "
+            "is lost in the file itself",
+            step(farthest_in_file));
+    if (!(farthest > k_too_far * size)) return {};
     return fmt::format(
         "lies so far from the origin that its coordinates are rounded to {:.2g} m; origin = \"{} {} {}\" "
         "moves "
         "it there before they are",
-        step, origin.at[0] + short_number(center[0], size), origin.at[1] + short_number(center[1], size),
-        origin.at[2] + short_number(center[2], size));
+        step(farthest), origin.at[0] + short_number(center[0], size),
+        origin.at[1] + short_number(center[1], size), origin.at[2] + short_number(center[2], size));
 }
 
 }  // namespace mesh

@@ -28,8 +28,8 @@ struct Origin {
 /// Nothing for any other text.
 std::optional<Origin> origin_from(std::string_view text);
 
-/// What to say about a surface that lies so far from the origin that its coordinates are visibly rounded;
-/// empty for any other.
+/// What to say about a surface that lies so far from the origin that its coordinates are visibly rounded,
+/// here or in its file; empty for any other.
 std::string too_far_note(const Surface& surface, const Origin& origin);
 
 }  // namespace mesh

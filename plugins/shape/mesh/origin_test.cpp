@@ -140,3 +140,19 @@ TEST_CASE("shape/mesh: an origin that is not three finite numbers is refused, wi
                           Catch::Matchers::ContainsSubstring("expected three numbers"));
     }
 }
+
+TEST_CASE(
+    "shape/mesh: coordinates that the file itself has rounded are warned of, for no origin mends them") {
+    std::string bytes(80, ' ');
+    bytes += std::string("\1\0\0\0", 4) + std::string(12, '\0');
+    for (const Point& p : k_corners)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(4500000 + p[axis]));
+            for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 0xff);
+        }
+    bytes += std::string(2, '\0');
+    const candela::PlacedShape far = placed("far.stl", bytes, "4500000 4500000 4500000");
+    REQUIRE_FALSE(far.warnings.empty());
+    CHECK_THAT(far.warnings[0], Catch::Matchers::ContainsSubstring(
+                                    "has its coordinates in single precision, which rounds them to 0.5 m"));
+}

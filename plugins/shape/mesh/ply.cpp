@@ -176,6 +176,7 @@ class Reader {
         use(x, surface_.position.x);
         use(y, surface_.position.y);
         use(z, surface_.position.z);
+        surface_.is_single = element.properties[*x].type == Type::float32;
         columns[*x].origin = origin_.at[0];
         columns[*y].origin = origin_.at[1];
         columns[*z].origin = origin_.at[2];

@@ -101,6 +101,7 @@ Surface read_binary(std::string_view bytes, const Origin& origin) {
                                   k_facet, bytes.size() - k_header));
     }
     Surface surface;
+    surface.is_single = true;
     surface.position.resize(3 * facets);
     surface.facet_normal.resize(facets);
     surface.indices.resize(3 * facets);

@@ -79,6 +79,7 @@ struct Surface {
     Vectors facet_normal;          // per triangle, unit, zero where the file's is none; or empty
     std::vector<std::uint32_t> smoothing;  // per triangle: its smoothing group; or empty: all k_by_angle
 
+    bool is_single = false;        // the file itself has positions in single precision
     bool is_color_linear = false;  // else encoded as colours of scenes are
 
     std::vector<std::uint32_t> material;  // per triangle: one of the materials; or empty
