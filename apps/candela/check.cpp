@@ -115,12 +115,13 @@ void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene
         Json objects = Json::array();
         for (std::size_t i = 0; i < scene->objects.size(); ++i) {
             const candela::Object& object = scene->objects[i];
-            objects.push_back({{"label", object.label},
-                               {"type", object.shape.name},
-                               {"triangles", compiled->objects[i].mesh.triangle_count()},
-                               {"closed", compiled->objects[i].mesh.closed},
-                               {"shading", object.shading.name},
-                               {"reflection", object.reflection.name}});
+            objects.push_back(
+                {{"label", object.label},
+                 {"type", object.shape.name},
+                 {"triangles", compiled->objects[i].mesh.triangle_count()},
+                 {"closed", compiled->objects[i].mesh.closed && compiled->objects[i].mesh.open_edges == 0},
+                 {"shading", object.shading.name},
+                 {"reflection", object.reflection.name}});
         }
         Json lights = Json::array();
         for (const candela::LightSource& light : scene->lights)

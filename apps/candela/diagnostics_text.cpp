@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "import/import.h"
 #include "json/json.h"
 
 import candela.text;
@@ -21,6 +22,11 @@ using candela::Severity;
 using candela::SourcePlace;
 
 namespace {
+
+/// What a scene that an importer made says on some line, nobody can look up.
+SourcePlace visible(SourcePlace place) {
+    return importing::is_model(place.file) ? SourcePlace{.file = std::move(place.file)} : place;
+}
 
 std::string location(const SourcePlace& place) {
     if (place.line == 0) return place.file;
@@ -142,7 +148,8 @@ std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_co
     if (shown == Shown::errors)
         std::erase_if(all, [](const Diagnostic& d) { return d.severity == Severity::warning; });
     for (std::size_t i = 0; i < std::min(most, all.size()); ++i) {
-        const Diagnostic& d = all[i];
+        Diagnostic& d = all[i];
+        d.place = visible(std::move(d.place));
         const auto color =
             d.severity == Severity::error ? fmt::terminal_color::red : fmt::terminal_color::magenta;
         result += fmt::format("{}{} {} {}\n", styled(bold, sentence(location(d.place))),
@@ -170,11 +177,12 @@ std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_co
 std::string diagnostics_json(const candela::Diagnostics& diagnostics) {
     Json all = Json::array();
     for (const Diagnostic& d : diagnostics.sorted()) {
+        const SourcePlace place = visible(d.place);
         all.push_back({{"severity", word(d.severity)},
-                       {"file", d.place.file},
-                       {"line", d.place.line},
-                       {"column", d.place.column},
-                       {"length", d.place.length},
+                       {"file", place.file},
+                       {"line", place.line},
+                       {"column", place.column},
+                       {"length", place.length},
                        {"message", full_message(d.message, d.help)},
                        {"hint", full_hint(d)}});
     }

@@ -11,6 +11,7 @@
 
 #include "import/gltf_container.h"
 #include "import/gltf_json.h"
+#include "import/gltf_materials.h"
 #include "import/readers.h"
 #include "import/vectors.h"
 
@@ -34,15 +35,6 @@ using gltf::number;
 using gltf::numbers;
 using gltf::object_of;
 using gltf::text;
-
-/// A linear colour as a scene has it.
-Vector encoded(const std::vector<double>& linear) {
-    Vector color{};
-    for (std::size_t k = 0; k < 3; ++k)
-        color[k] =
-            std::round(255 * candela::linear_to_srgb(static_cast<float>(std::clamp(linear[k], 0.0, 1.0))));
-    return color;
-}
 
 /// Columns of a node's transformation to the world.
 struct Placement {
@@ -83,12 +75,15 @@ Placement within(const Placement& a, const Placement& b) {
 class Reader {
   public:
     Reader(const Source& source, candela::Registry& registry)
-        : registry_(registry), container_(source), json_(container_.json()) {}
+        : container_(source), json_(container_.json()), materials_(container_, registry, model_) {}
 
     Model read() {
         walk();
         add_parts();
-        note_extensions();
+        if (const std::size_t count = array_of(json_, "animations").size(); count > 0)
+            model_.note(count == 1
+                            ? "its animation is left out: it is shown at rest"
+                            : fmt::format("its {} animations are left out: it is shown at rest", count));
         return std::move(model_);
     }
 
@@ -123,6 +118,10 @@ class Reader {
             if (index >= nodes.size() || seen[index]) continue;
             seen[index] = true;
             const Json& node = nodes[index];
+            const Json& visibility = object_of(object_of(node, "extensions"), "KHR_node_visibility");
+            if (const Json* const visible = gltf::find(visibility, "visible");
+                visible != nullptr && *visible == false)
+                continue;
             const Placement place = within(parent, placement_of(node));
             if (const Json* const mesh = element(array_of(json_, "meshes"), index_of(node, "mesh")))
                 add_mesh(*mesh);
@@ -144,6 +143,8 @@ class Reader {
             const bool is_known = element(array_of(json_, "materials"), index) != nullptr;
             const std::optional<std::size_t> material = is_known ? index : std::nullopt;
             if (known_materials_.insert(material).second) used_materials_.push_back(material);
+            // glTF 2.0, 3.7.2.1: without normals, triangles are flat.
+            if (!object_of(primitive, "attributes").contains("NORMAL")) flat_materials_.insert(material);
         }
     }
 
@@ -175,7 +176,7 @@ class Reader {
         if (result.type != "point" && result.type != "spot" && result.type != "directional")
             return model_.note("lights of other types than point, spot and directional are left out");
         if (const std::vector<double> color = numbers(light, "color", 3); !color.empty())
-            result.color = encoded(color);
+            result.color = gltf::encoded(color);
         // Candela's models have no 1 / pi in what they reflect.
         constexpr double k_brightest = 1e30;  // so that sums of some are numbers
         result.intensity = std::clamp(number(light, "intensity", 1), 0.0, k_brightest) * std::numbers::inv_pi;
@@ -200,11 +201,19 @@ class Reader {
 
     // ---- materials
 
+    bool is_double_sided(std::optional<std::size_t> material) const {
+        const Json* const from = element(array_of(json_, "materials"), material);
+        const Json* const both = from == nullptr ? nullptr : gltf::find(*from, "doubleSided");
+        return both != nullptr && *both == true;
+    }
+
     void add_parts() {
         std::map<std::string, int> names;
         for (const Json& material : array_of(json_, "materials")) ++names[text(material, "name")];
         for (const std::optional<std::size_t> index : used_materials_) {
             Part part;
+            part.is_flat = flat_materials_.contains(index);
+            part.sides = is_double_sided(index) ? Sides::both : Sides::front;
             std::string name;
             if (index) name = text(array_of(json_, "materials")[*index], "name");
             if (used_materials_.size() > 1) {
@@ -214,134 +223,20 @@ class Reader {
             }
             if (index) {
                 part.material = model_.materials.size();
-                model_.materials.push_back(material(array_of(json_, "materials")[*index], name));
+                model_.materials.push_back(materials_.material(*index));
             }
             model_.parts.push_back(part);
         }
         if (model_.parts.empty()) model_.parts.emplace_back();
     }
 
-    /// glTF 2.0, appendix B: a dielectric's diffuse and specular light, blended with a metal's.
-    Material material(const Json& from, const std::string& name) {
-        const Json& pbr = object_of(from, "pbrMetallicRoughness");
-        std::vector<double> base = numbers(pbr, "baseColorFactor", 4);
-        if (base.empty()) base = {1, 1, 1, 1};
-        const double metallic = std::clamp(number(pbr, "metallicFactor", 1), 0.0, 1.0);
-        const double roughness = std::clamp(number(pbr, "roughnessFactor", 1), 0.0, 1.0);
-        const double ior = number(object_of(object_of(from, "extensions"), "KHR_materials_ior"), "ior", 1.5);
-        const std::vector<double> dielectric = dielectric_of(from, std::pow((ior - 1) / (ior + 1), 2));
-        Material result{.name = name, .reflection = "ggx", .color = encoded(base)};
-        if (const Json* const found = gltf::find(pbr, "baseColorTexture")) texture(*found, name, result);
-        if (object_of(pbr, "metallicRoughnessTexture").contains("index")) {
-            model_.note(
-                "textures of metalness and roughness are left out; the factors hold for the whole surface");
-        }
-        std::vector<double> specular(3);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double metal = result.picture ? 1 : std::clamp(base[k], 0.0, 1.0);
-            specular[k] = std::round(1e4 * (dielectric[k] * (1 - metallic) + metal * metallic)) / 1e4;
-        }
-        const bool is_grey = specular[0] == specular[1] && specular[1] == specular[2];
-        const double diffuse = (1 - metallic) * (1 - *std::ranges::max_element(dielectric));
-        if (result.picture && metallic > 0)
-            model_.note("the highlights of textured metals have no colour of the texture's");
-        model_.note(
-            "metallic-roughness materials are 'ggx' with highlights of the reflectance at normal "
-            "incidence, which does not rise towards grazing angles");
-        result.values = {{"ka", {std::round(1e4 * (diffuse + 0.5 * metallic)) / 1e4}},
-                         {"kd", {std::round(1e4 * diffuse) / 1e4}},
-                         {"ks", is_grey ? std::vector{specular[0]} : specular},
-                         {"roughness", {std::max(std::round(1e4 * roughness * roughness) / 1e4, 0.02)}},
-                         {"ior", {100}}};
-        if (from.is_object()) note_losses(from, base[3]);
-        return result;
-    }
-
-    /// What the dielectric mirrors at normal incidence: KHR_materials_specular.
-    static std::vector<double> dielectric_of(const Json& from, double usual) {
-        const Json& specular = object_of(object_of(from, "extensions"), "KHR_materials_specular");
-        std::vector<double> color = numbers(specular, "specularColorFactor", 3);
-        if (color.empty()) color = {1, 1, 1};
-        const double factor = std::clamp(number(specular, "specularFactor", 1), 0.0, 1.0);
-        for (double& channel : color) channel = factor * std::clamp(usual * channel, 0.0, 1.0);
-        return color;
-    }
-
-    void note_losses(const Json& from, double opacity) {
-        const std::string mode = text(from, "alphaMode");
-        if (mode == "BLEND" || mode == "MASK" || opacity < 1)
-            model_.note("the opacity of materials is left out: they are opaque");
-        if (from.contains("normalTexture")) model_.note("normal maps are left out");
-        if (from.contains("occlusionTexture")) model_.note("occlusion maps are left out");
-        const std::vector<double> emission = numbers(from, "emissiveFactor", 3);
-        if (std::ranges::any_of(emission, [](double x) { return x > 0; }))
-            model_.note("the light that materials emit is left out");
-        const Json& extensions = object_of(from, "extensions");
-        for (const auto& [name, unused] : extensions.items())
-            if (name != "KHR_materials_ior" && name != "KHR_materials_specular") left_out_.insert(name);
-        for (const char* const map : {"specularTexture", "specularColorTexture"})
-            if (object_of(extensions, "KHR_materials_specular").contains(map))
-                model_.note(
-                    "textures of what a surface mirrors are left out; the factors hold for the whole "
-                    "surface");
-    }
-
-    void texture(const Json& info, const std::string& material, Material& to) {
-        if (index_of(info, "texCoord").value_or(0) != 0)
-            return model_.note("textures that use further texture coordinates are left out");
-        if (object_of(info, "extensions").contains("KHR_texture_transform"))
-            left_out_.insert("KHR_texture_transform");
-        const Json* const texture = element(array_of(json_, "textures"), index_of(info, "index"));
-        if (texture == nullptr)
-            return model_.note(fmt::format("there is no texture that material '{}' names", material));
-        if (const Json* const sampler = element(array_of(json_, "samplers"), index_of(*texture, "sampler"))) {
-            const std::size_t s = index_of(*sampler, "wrapS").value_or(10497),
-                              t = index_of(*sampler, "wrapT").value_or(10497);
-            to.clamps = s == 33071 && t == 33071;
-            if (s == 33648 || t == 33648) model_.note("mirrored repetition of textures is plain repetition");
-            if (s != t) model_.note("textures that repeat in one direction only repeat in both");
-        }
-        auto source = index_of(*texture, "source");
-        for (const char* const extension : {"EXT_texture_webp", "KHR_texture_basisu"})
-            if (!source) source = index_of(object_of(object_of(*texture, "extensions"), extension), "source");
-        if (!source || element(array_of(json_, "images"), source) == nullptr)
-            return model_.note(fmt::format("there is no picture for the texture of material '{}'", material));
-        const auto known = pictures_.find(*source);
-        to.picture =
-            known != pictures_.end() ? known->second : pictures_[*source] = picture(*source, material);
-    }
-
-    std::optional<std::size_t> picture(std::size_t index, const std::string& material) {
-        try {
-            Picture found = container_.picture(index);
-            if (!is_readable_picture(found.file, registry_)) {
-                model_.note(
-                    fmt::format("the texture of material '{}' is of a format that no image plugin reads{}",
-                                material, candela::possible_formats(registry_, candela::FormatUse::read)));
-                return std::nullopt;
-            }
-            model_.pictures.push_back(std::move(found));
-            return model_.pictures.size() - 1;
-        } catch (const candela::Error& problem) {
-            model_.note(
-                fmt::format("the texture of material '{}' is left out: {}", material, problem.what()));
-            return std::nullopt;
-        }
-    }
-
-    void note_extensions() {
-        for (const std::string& name : left_out_)
-            model_.note(fmt::format("the extension '{}' is left out", name));
-    }
-
-    candela::Registry& registry_;
     gltf::Container container_;
     const Json& json_;
     Model model_;
+    gltf::Materials materials_;
     std::vector<std::optional<std::size_t>> used_materials_;  // by the order of their first triangles
     std::set<std::optional<std::size_t>> known_materials_;
-    std::map<std::size_t, std::optional<std::size_t>> pictures_;  // by image
-    std::set<std::string> left_out_;
+    std::set<std::optional<std::size_t>> flat_materials_;  // those of triangles without normals
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "import/framing.h"
@@ -23,25 +22,23 @@ void Model::note(std::string sentence) {
     if (std::ranges::find(notes, sentence) == notes.end()) notes.push_back(std::move(sentence));
 }
 
-void Model::note_one_of(const std::string& kind, std::string sentence) {
-    const auto [known, is_new] = kinds_.try_emplace(kind, Kind{.note = notes.size()});
-    if (is_new) {
-        notes.push_back(std::move(sentence));
-    } else {
-        ++known->second.more;
-    }
+void Model::count(const std::string& kind, std::string one, std::string_view many) {
+    const auto [known, is_new] =
+        counted_.try_emplace(kind, Counted{.note = notes.size(), .count = 1, .many = std::string(many)});
+    if (is_new) return notes.push_back(std::move(one));
+    // Not as a format: names from the file may hold braces.
+    std::string sentence = known->second.many;
+    sentence.replace(sentence.find("{}"), 2, std::to_string(++known->second.count));
+    notes[known->second.note] = std::move(sentence);
 }
 
-void Model::count_notes() {
-    for (const auto& [kind, each] : kinds_)
-        if (each.more > 0)
-            notes[each.note] += fmt::format("; so {} {} more", each.more == 1 ? "is" : "are", each.more);
-    kinds_.clear();
-}
-
-bool is_model(const fs::path& file) {
-    constexpr std::array k_extensions = {"obj", "ply", "stl", "gltf", "glb"};
-    return std::ranges::find(k_extensions, candela::extension_of(file)) != k_extensions.end();
+std::vector<double> Metal::highlights() const {
+    std::vector<double> result;
+    for (std::size_t k = 0; k < 3; ++k)
+        result.push_back(std::round(1e4 * (below[k] * (1 - share) + color[k] * share)) / 1e4);
+    const bool is_grey = result[0] == result[1] && result[1] == result[2];
+    if (is_grey) result.resize(1);
+    return result;
 }
 
 namespace {
@@ -54,6 +51,59 @@ Model model_of(const Source& source, candela::Registry& registry) {
     Model model;
     model.parts.emplace_back();
     return model;
+}
+
+/// What is multiplied with the colours of a part's vertices: their mean, linear.
+std::optional<Vector> mean_color(candela::ParamSet parameters, const Part& part,
+                                 candela::Registry& registry) {
+    parameters.set("part", part.selector);
+    const auto shape = registry.create<candela::Shape>("mesh", parameters, candela::ColorEncoding::srgb);
+    try {
+        const candela::Mesh mesh = candela::place(*shape, {.color = true}, {}).mesh;
+        if (mesh.color.empty()) return std::nullopt;
+        Vector sum{};
+        for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+            const candela::Vec3 color = mesh.color.span()[i];
+            sum = sum + Vector{color.x, color.y, color.z};
+        }
+        return (1 / static_cast<double>(mesh.vertex_count())) * sum;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+        return std::nullopt;  // said when the scene is read
+    }
+}
+
+void tint_metals(Model& model, const Source& source, candela::Registry& registry) {
+    candela::ParamSet parameters = registry.parameters(candela::PluginKind::shape, "mesh");
+    parameters.set("file", fs::absolute(source.file).string());
+    parameters.set("allow_outside", source.allows_outside);
+    // While this exists, the file is read once.
+    const auto whole = registry.create<candela::Shape>("mesh", parameters, candela::ColorEncoding::srgb);
+    for (const Part& part : model.parts) {
+        Material* const material = part.material ? &model.materials[*part.material] : nullptr;
+        constexpr double k_least_share = 0.05;
+        if (material == nullptr || material->metal.share < k_least_share) continue;
+        const std::optional<Vector> mean = mean_color(parameters, part, registry);
+        if (!mean) continue;
+        for (std::size_t k = 0; k < 3; ++k) material->metal.color[k] *= (*mean)[k];
+        for (auto& [name, value] : material->values)
+            if (name == "ks") value = material->metal.highlights();
+        model.count("metals of vertices", "the highlights of a metal have the mean colour of its vertices",
+                    "the highlights of {} metals have the mean colours of their vertices");
+    }
+}
+
+void write_cutouts(const Request& request, Model& model, Setting& setting) {
+    try {
+        for (const Picture& cutout : model.cutouts)
+            setting.cutouts.push_back(request.write_picture(cutout.file.string(), cutout.content));
+    } catch (const candela::Error& problem) {
+        if (problem.category() != candela::ErrorCategory::bad_request) throw;
+        // A scene that is printed has no place beside it.
+        setting.cutouts.clear();
+        model.note("what is transparent is not cut out: that needs a file beside the scene");
+    }
 }
 
 /// No scene has anything farther out than a mesh may be.
@@ -127,6 +177,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     model.is_z_up = is_z_up;
     move(model, geometry);
     leave_out_what_is_too_far(model);
+    if (geometry.has_colors) tint_metals(model, source, registry);
 
     Setting setting;
     setting.file = request.shown_file;
@@ -145,6 +196,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
         setting.pictures.push_back(picture.content.empty()
                                        ? request.name_of_picture(picture.file)
                                        : request.write_picture(picture.file.string(), picture.content));
+    if (geometry.has_uv) write_cutouts(request, model, setting);
     constexpr double k_aspect = 4.0 / 3;
     const Bounds& bounds = geometry.bounds;
     setting.camera = model.camera ? *model.camera : camera_for(bounds, k_aspect);
@@ -157,6 +209,8 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     if (setting.lights.empty()) {
         setting.lights = lights_for(setting.camera, brightness_for(model));
     } else {
+        // What they do not reach is dark, and not black.
+        constexpr double k_little = 0.08;
         const double factor = expose(setting.lights, bounds);
         if (factor != 1)
             model.note(fmt::format(
@@ -165,8 +219,8 @@ Imported import_model(const Request& request, candela::Registry& registry) {
         if (separate(setting.lights, setting.camera, bounds))
             model.note(
                 "lights at one place, or where the camera is, are moved a little along the line of sight");
+        setting.lights.push_back({.name = "sky", .type = "ambient", .intensity = k_little});
     }
-    model.count_notes();
     setting.room = room_for(bounds, setting.camera, setting.lights);
     return {.scene = scene_text(model, setting),
             .notes = model.notes,

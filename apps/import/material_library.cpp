@@ -62,8 +62,9 @@ void MaterialLibraries::read_named(std::string_view names) {
     if (!are_several) words = {names};
     for (const std::string_view word : words)
         if ((words.size() == 1 && word == names) || !read_if_there(word))
-            model_.note_one_of("unreadable library",
-                               fmt::format("the material library '{}' cannot be read", word));
+            model_.count("unreadable libraries",
+                         fmt::format("the material library '{}' cannot be read", word),
+                         fmt::format("{{}} material libraries cannot be read, the first of them '{}'", word));
 }
 
 bool MaterialLibraries::read_if_there(std::string_view name) {
@@ -232,24 +233,28 @@ void MaterialLibraries::texture(std::string_view rest, Description& to) {
 }
 
 std::optional<std::size_t> MaterialLibraries::picture(const std::string& material, const Description& of) {
-    const auto say = [&](const char* kind, std::string_view what) {
-        model_.note_one_of(kind,
-                           fmt::format("the texture '{}' of material '{}' {}", of.texture, material, what));
+    const auto say = [&](const char* kind, std::string_view of_one, std::string_view of_many,
+                         std::string_view rest = "") {
+        const std::string which = fmt::format("'{}' of material '{}'", of.texture, material);
+        model_.count(kind, fmt::format("the texture {} {}{}", which, of_one, rest),
+                     fmt::format("{{}} textures {}, the first of them {}{}", of_many, which, rest));
     };
     const auto found = find_named(of.texture_folder, of.texture);
     if (!found) {
-        say("missing texture", "is not there");
+        say("missing textures", "is not there", "are not there");
         return std::nullopt;
     }
     if (!source_.may_read(found->path)) {
-        say("outside texture", fmt::format("is outside the model's folder{}", k_outside_remedy));
+        say("outside textures", "is outside the model's folder", "are outside the model's folder",
+            k_outside_remedy);
         return std::nullopt;
     }
     const fs::path file = candela::canonical_path(found->path);
     const auto [known, is_new] = pictures_.try_emplace(file);
     if (!is_new) return known->second;
     if (found->is_renamed)
-        say("renamed texture", fmt::format("is read from '{}'", found->path.filename().string()));
+        say("renamed textures", "is read from", "are read from files with other names",
+            fmt::format(" '{}'", found->path.filename().string()));
     Picture picture{file};
     try {
         // A scene is UTF-8, and could not name it.
@@ -258,13 +263,14 @@ std::optional<std::size_t> MaterialLibraries::picture(const std::string& materia
             picture.file = fmt::format("texture_{}{}", model_.pictures.size(), file.extension().string());
             if (candela::first_invalid_byte(picture.file.string())) picture.file.replace_extension();
         }
-        const InspectedPicture inspected = inspect(picture, registry_);
-        picture.brightness = inspected.brightness;
-        if (!inspected.other_format.empty())
-            say("misnamed texture",
-                fmt::format("is read as {}, which its content says it is", inspected.other_format));
+        const ReadPicture read = read_picture(picture, registry_);
+        picture.brightness = brightness_of(read.pixels);
+        if (!read.other_format.empty())
+            say("misnamed textures",
+                fmt::format("is read as {}, which its content says it is", read.other_format),
+                "are read as what their content says they are");
     } catch (const candela::Error& problem) {
-        say("broken texture", fmt::format("is left out: {}", problem.what()));
+        say("broken textures", "is left out", "are left out", fmt::format(": {}", problem.what()));
         return std::nullopt;
     }
     model_.pictures.push_back(std::move(picture));

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,15 @@ struct Picture {
     double brightness = 1;       // the mean of its pixels' largest channels, linear
 };
 
+/// What a surface mirrors: light of a metal's colour, and that of what is not a metal.
+struct Metal {
+    double share = 0;  // of the metal, 0 to 1
+    Vector color{}, below{};
+
+    /// As a parameter: one number where it is grey.
+    std::vector<double> highlights() const;
+};
+
 struct Material {
     std::string name;  // may be empty
     std::string reflection = "phong";
@@ -28,12 +38,20 @@ struct Material {
     std::vector<std::pair<std::string, std::vector<double>>> values{};  // of the reflection model
     std::optional<std::size_t> picture{};                               // of Model::pictures
     bool clamps = false;                                                // it, at its edges
+    std::optional<std::size_t> cutout{};                                // of Model::cutouts
+    double cutout_level = 0.5;
+    Metal metal{};
 };
+
+/// From where triangles are seen: as the shape's parameter `sides` has it.
+enum class Sides { outside, front, both };
 
 /// The triangles of one material.
 struct Part {
     std::string selector;                   // as the shape's parameter `part` has it; empty: all
     std::optional<std::size_t> material{};  // of Model::materials
+    bool is_flat = false;                   // it has no normals, and is not smooth
+    Sides sides = Sides::outside;
 };
 
 struct Camera {
@@ -59,23 +77,23 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Part> parts;  // at least one
     std::vector<Picture> pictures;
+    std::vector<Picture> cutouts;  // greymaps of what is opaque
     std::optional<Camera> camera;
     std::vector<Light> lights;
     bool is_z_up = false;
     std::vector<std::string> notes;  // whole sentences without a full stop, each once
 
     void note(std::string sentence);
-    /// Notes a loss of a kind of which there may be many: the first as a sentence, the others by their
-    /// number, which count_notes() adds at the end.
-    void note_one_of(const std::string& kind, std::string sentence);
-    void count_notes();
+    /// One line for each kind of loss: `one` where it is called once, otherwise `many` with the count in
+    /// place of its {}.
+    void count(const std::string& kind, std::string one, std::string_view many);
 
   private:
-    struct Kind {
-        std::size_t note = 0;  // of `notes`
-        std::size_t more = 0;
+    struct Counted {
+        std::size_t note, count;
+        std::string many;
     };
-    std::map<std::string, Kind> kinds_;
+    std::map<std::string, Counted> counted_;
 };
 
 }  // namespace importing

@@ -51,8 +51,9 @@ Model read_obj(const Source& source, candela::Registry& registry) {
             part.material = model.materials.size();
             model.materials.push_back(libraries.material(name));
         } else if (name != "(none)") {
-            model.note_one_of("undescribed",
-                              fmt::format("the material '{}' is not in any material library", name));
+            model.count(
+                "undescribed", fmt::format("the material '{}' is not in any material library", name),
+                fmt::format("{{}} materials are not in any material library, the first of them '{}'", name));
         }
         model.parts.push_back(part);
     }

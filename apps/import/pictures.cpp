@@ -7,8 +7,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 import candela.color;
 import candela.diagnostics;
@@ -50,6 +55,41 @@ class MemoryFile {
     int descriptor_;
 };
 
+/// The reason without the file's name, which is another one to the user.
+std::string reason_of(const candela::Error& problem, const fs::path& file) {
+    std::string reason = problem.what();
+    const std::string begin = fmt::format("'{}' cannot be read as a picture: ", file.string());
+    return reason.starts_with(begin) ? reason.substr(begin.size()) : reason;
+}
+
+}  // namespace
+
+ReadPicture read_picture(const Picture& picture, candela::Registry& registry) {
+    std::optional<MemoryFile> memory;
+    if (!picture.content.empty()) memory.emplace(picture.content);
+    const fs::path file = memory ? memory->path() : picture.file;
+    std::optional<candela::DecodedPicture> decoded;
+    try {
+        decoded =
+            candela::read_by_plugin(file, registry, candela::ColorEncoding::srgb, /*with_opacity=*/true);
+    } catch (const candela::Error& problem) {
+        throw candela::Error(candela::ErrorCategory::failure, reason_of(problem, file));
+    }
+    const std::string_view format = candela::format_of_content(file);
+    if (!decoded)
+        throw candela::Error(candela::ErrorCategory::failure,
+                             fmt::format("no image plugin reads its format{}{}",
+                                         format.empty() ? "" : fmt::format(", {}", format),
+                                         candela::possible_formats(registry, candela::FormatUse::read)));
+    if (!decoded->is_encoded &&
+        !std::ranges::all_of(decoded->values, [](float value) { return std::isfinite(value); }))
+        throw candela::Error(candela::ErrorCategory::failure, "it has a pixel that is not finite");
+    ReadPicture result{.pixels = std::move(*decoded)};
+    if (!format.empty() && !candela::are_one_format(format, candela::extension_of(picture.file)))
+        result.other_format = format;
+    return result;
+}
+
 double brightness_of(const candela::DecodedPicture& picture) {
     // Every pixel of small pictures, some thousands of large ones.
     const std::size_t pixels = picture.values.size() / 3, step = std::max<std::size_t>(pixels / 65536, 1);
@@ -65,38 +105,85 @@ double brightness_of(const candela::DecodedPicture& picture) {
     return count > 0 ? sum / static_cast<double>(count) : 1;
 }
 
-/// The reason without the file's name, which is another one to the user.
-std::string reason_of(const candela::Error& problem, const fs::path& file) {
-    std::string reason = problem.what();
-    const std::string begin = fmt::format("'{}' cannot be read as a picture: ", file.string());
-    return reason.starts_with(begin) ? reason.substr(begin.size()) : reason;
+Means means_of(const candela::DecodedPicture& picture) {
+    Means means;
+    // Of large pictures some hundred thousand pixels are enough.
+    constexpr std::size_t k_enough = std::size_t{1} << 18;
+    const std::size_t all = picture.values.size() / 3, step = all / k_enough | 1;
+    const std::size_t pixels = (all + step - 1) / step;
+    for (std::size_t i = 0; i < all; i += step) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float value = picture.values[3 * i + c];
+            if (!std::isfinite(value)) continue;
+            means.stored[c] += static_cast<double>(value);
+            means.linear[c] +=
+                static_cast<double>(picture.is_encoded ? candela::srgb_to_linear(value) : value);
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        means.stored[c] /= static_cast<double>(pixels);
+        means.linear[c] /= static_cast<double>(pixels);
+    }
+    if (!picture.opacity.empty()) {
+        double sum = 0;
+        for (const float value : picture.opacity) sum += static_cast<double>(value);
+        means.opacity = sum / static_cast<double>(all);
+    }
+    return means;
 }
 
-}  // namespace
+bool OpacityMap::is_all(double level) const {
+    return std::ranges::all_of(bytes,
+                               [&](char byte) { return static_cast<unsigned char>(byte) >= 255 * level; });
+}
 
-InspectedPicture inspect(const Picture& picture, candela::Registry& registry) {
-    std::optional<MemoryFile> memory;
-    if (!picture.content.empty()) memory.emplace(picture.content);
-    const fs::path file = memory ? memory->path() : picture.file;
-    std::optional<candela::DecodedPicture> decoded;
-    try {
-        decoded = candela::read_by_plugin(file, registry, candela::ColorEncoding::srgb);
-    } catch (const candela::Error& problem) {
-        throw candela::Error(candela::ErrorCategory::failure, reason_of(problem, file));
+bool OpacityMap::is_cut_by(double level) const {
+    return !is_all(level) && std::ranges::any_of(bytes, [&](char byte) {
+        return static_cast<unsigned char>(byte) >= 255 * level;
+    });
+}
+
+std::string OpacityMap::pgm() const { return fmt::format("P5\n{} {}\n255\n", width, height) + bytes; }
+
+OpacityMap opacity_of(const candela::DecodedPicture& picture) {
+    OpacityMap map;
+    if (picture.opacity.empty()) return map;
+    // Outlines are cut along squares of this size, each of which is a few triangles.
+    constexpr int k_most = 256;
+    const int longest = std::max(picture.width, picture.height);
+    const auto scaled = [&](int size) {
+        return longest <= k_most ? size
+                                 : std::max(static_cast<int>(std::int64_t{size} * k_most / longest), 1);
+    };
+    map.width = scaled(picture.width);
+    map.height = scaled(picture.height);
+    const auto mean = [&](int x, int y) {
+        const auto begin = [](int i, int from, int to) {
+            return static_cast<std::size_t>(std::int64_t{i} * from / to);
+        };
+        double sum = 0;
+        std::size_t count = 0;
+        for (std::size_t j = begin(y, picture.height, map.height);
+             j < begin(y + 1, picture.height, map.height); ++j)
+            for (std::size_t i = begin(x, picture.width, map.width);
+                 i < begin(x + 1, picture.width, map.width); ++i, ++count) {
+                const float value = picture.opacity[j * static_cast<std::size_t>(picture.width) + i];
+                sum += value > 0 ? std::min(static_cast<double>(value), 1.0) : 0;
+            }
+        return sum / static_cast<double>(count);
+    };
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) map.bytes += static_cast<char>(std::lround(255 * mean(x, y)));
+    constexpr float k_transparent = 0.1f, k_opaque = 0.9f, k_few = 0.1f;
+    std::size_t transparent = 0, opaque = 0;
+    for (const float value : picture.opacity) {
+        if (value < k_transparent) ++transparent;
+        if (value > k_opaque) ++opaque;
     }
-    const std::string_view format = candela::format_of_content(file);
-    if (!decoded)
-        throw candela::Error(candela::ErrorCategory::failure,
-                             fmt::format("no image plugin reads its format{}{}",
-                                         format.empty() ? "" : fmt::format(", {}", format),
-                                         candela::possible_formats(registry, candela::FormatUse::read)));
-    if (!decoded->is_encoded &&
-        !std::ranges::all_of(decoded->values, [](float value) { return std::isfinite(value); }))
-        throw candela::Error(candela::ErrorCategory::failure, "it has a pixel that is not finite");
-    InspectedPicture result{.other_format = {}, .brightness = brightness_of(*decoded)};
-    if (!format.empty() && !candela::are_one_format(format, candela::extension_of(picture.file)))
-        result.other_format = format;
-    return result;
+    const auto pixels = static_cast<float>(picture.opacity.size());
+    map.is_clear_cut =
+        transparent > 0 && opaque > 0 && static_cast<float>(transparent + opaque) > (1 - k_few) * pixels;
+    return map;
 }
 
 }  // namespace importing

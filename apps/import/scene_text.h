@@ -13,6 +13,7 @@ namespace importing {
 struct Setting {
     std::string file;                   // the model's, as the scene names it
     std::vector<std::string> pictures;  // likewise, of Model::pictures
+    std::vector<std::string> cutouts;   // likewise, of Model::cutouts
     Camera camera;
     Vector look_at{};
     Vector room{};  // width, height, depth

@@ -7,6 +7,8 @@ namespace candela {
 
 ByteSink::~ByteSink() = default;
 PictureSink::~PictureSink() = default;
+
+std::span<float> PictureSink::allocate_opacity() { return {}; }
 ImageFormat::~ImageFormat() = default;
 
 void ImageFormat::write_layers(int, int, std::span<const PictureChannel>, const char*, ByteSink&) const {

@@ -338,7 +338,7 @@ class Compiler {
             multiply(solid.mesh.color, solid.surface.color);
         }
         if (object.encloses) {
-            solid.mesh.closed = false;  // seen from within, too
+            solid.mesh.closed = solid.mesh.one_sided;  // otherwise seen from within, too
         } else if (!solid.mesh.closed) {
             diagnostics_.warning(
                 object.place,

@@ -215,7 +215,7 @@ TEST_CASE("import says which libraries, materials and textures are not there, an
     write_file(folder / "two.obj", k_squares);
     CommandResult result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
     CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "the material 'left' is not in any material library; so is 1 more"));
+    CHECK(holds(result.err, "2 materials are not in any material library, the first of them 'left'"));
     write_file(folder / "two.mtl",
                "newmtl left\nmap_Kd -s 2 2 2 -clamp on no such.png\nnewmtl right side\nmap_Kd a.xyz\n");
     write_file(folder / "a.xyz", "what?");
@@ -295,7 +295,7 @@ TEST_CASE("import takes over a glTF file's camera, lights and metallic-roughness
     // A metal: no diffuse light, and highlights of its colour; alpha is the square of the roughness.
     CHECK(holds(result.out,
                 "kd        = 0.0\nks        = [1.0, 0.5, 0.25]\nroughness = 0.25\nior       = 100.0\n"));
-    CHECK(holds(result.err, "normal maps are left out"));
+    CHECK(holds(result.err, "a normal map is left out"));
     CHECK(candela(folder, {"render", "a.gltf", "-o", "a.ppm"}).exit_code == 0);
 }
 
@@ -361,7 +361,7 @@ TEST_CASE("textures of a glTF file that are broken, elsewhere or endless are lef
         const CommandResult result = candela(folder, {"render", "a.gltf", "-o", "a.ppm"});
         INFO(wrong.image << '\n' << result.err);
         CHECK(result.exit_code == 0);
-        CHECK(holds(result.err, "the texture of material 'm' is left out: "));
+        CHECK(holds(result.err, "a texture of material 'm' is left out: "));
         CHECK(holds(result.err, wrong.reason));
     }
 }

@@ -59,7 +59,7 @@ class WildShape final : public candela::Shape {
         layout.has_uv = (has & 2) != 0;
         layout.has_derivatives = (has & 4) != 0;
         layout.has_smooth_groups = (has & 8) != 0;
-        layout.closedness = static_cast<candela::Closedness>(bytes_.at_most(2));
+        layout.closedness = static_cast<candela::Closedness>(bytes_.at_most(3));
         return layout;
     }
 

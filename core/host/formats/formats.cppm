@@ -18,10 +18,11 @@ export namespace candela {
 
 /// As an image plugin has read it.
 struct DecodedPicture {
-    int width = 0;              ///< pixels, at least 1
-    int height = 0;             ///< pixels, at least 1
-    bool is_encoded = false;    ///< 0 .. 1, as PictureSink::allocate() says, not intensities
-    std::vector<float> values;  ///< red, green, blue, interleaved, rows from the top
+    int width = 0;                 ///< pixels, at least 1
+    int height = 0;                ///< pixels, at least 1
+    bool is_encoded = false;       ///< 0 .. 1, as PictureSink::allocate() says, not intensities
+    std::vector<float> values;     ///< red, green, blue, interleaved, rows from the top
+    std::vector<float> opacity{};  ///< of each pixel; empty: all are opaque, or nobody asked
 };
 
 /// The format that a picture's first 32 bytes tell, as an extension such as "png" or "jpg"; empty where they
@@ -39,7 +40,8 @@ CANDELA_API const PluginFile* reader_of(const std::filesystem::path& file, Regis
 /// Reads a picture by reader_of(); nothing if there is none. Throws Error (failure) for what the plugin
 /// cannot read, and if memory is short. Any thread.
 CANDELA_API std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file,
-                                                         Registry& registry, ColorEncoding encoding);
+                                                         Registry& registry, ColorEncoding encoding,
+                                                         bool with_opacity = false);
 
 /// " (possible: pnm, png)", and the package that has the other formats if its plugin is not installed. Throws
 /// Error like Registry::extensions(). Any thread.

@@ -26,6 +26,8 @@ namespace {
 
 class Decoder final : public PictureSink {
   public:
+    explicit Decoder(bool with_opacity) : with_opacity_(with_opacity) {}
+
     std::span<float> allocate(int width, int height, bool is_encoded) override {
         if (width < 1 || height < 1) throw Error(ErrorCategory::failure, "it has no pixels");
         const auto count = 3 * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
@@ -35,19 +37,25 @@ class Decoder final : public PictureSink {
         return picture_.values;
     }
 
+    std::span<float> allocate_opacity() override {
+        if (with_opacity_) picture_.opacity.assign(picture_.values.size() / 3, 1);
+        return picture_.opacity;
+    }
+
     DecodedPicture picture() && {
         if (picture_.values.empty()) throw Error(ErrorCategory::failure, "it has no pixels");
         return std::move(picture_);
     }
 
   private:
+    bool with_opacity_;
     DecodedPicture picture_;
 };
 
 }  // namespace
 
 std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file, Registry& registry,
-                                             ColorEncoding encoding) {
+                                             ColorEncoding encoding, bool with_opacity) {
     const PluginFile* const plugin = reader_of(file, registry);
     if (plugin == nullptr) return std::nullopt;
     std::error_code none;
@@ -57,7 +65,7 @@ std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file, 
     const std::string& name = plugin->manifest.name;
     const auto reader =
         registry.create<ImageFormat>(name, registry.parameters(PluginKind::image, name), encoding);
-    Decoder decoder;
+    Decoder decoder(with_opacity);
     try {
         reader->read(file.c_str(), decoder);
         return std::move(decoder).picture();

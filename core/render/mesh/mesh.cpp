@@ -335,9 +335,10 @@ PlacedShape place(const Shape& shape, const MeshRequest& request, const Transfor
     if (collected.closedness == Closedness::closed) {
         mesh.closed = true;
     } else {
-        const bool are_counted = collected.closedness == Closedness::open && collected.open_edges > 0;
+        const bool are_counted = collected.closedness != Closedness::unknown && collected.open_edges > 0;
         mesh.open_edges = are_counted ? collected.open_edges : count_open_edges(mesh);
-        mesh.closed = mesh.open_edges == 0;
+        mesh.one_sided = collected.closedness == Closedness::one_sided;
+        mesh.closed = mesh.open_edges == 0 || mesh.one_sided;
     }
     return {std::move(mesh), std::move(collected.authored_normal), std::move(collected.smooth_group),
             std::move(collected.warnings)};

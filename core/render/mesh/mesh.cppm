@@ -38,7 +38,8 @@ struct Mesh {
     AlignedVector<float> u, v;  // per vertex, or empty
     Vec3Arrays dpdu, dpdv;      // per vertex, or empty
     Vec3Arrays color;           // red, green, blue, 0 to 1; per vertex, or empty
-    bool closed = false;        // otherwise visible from both sides
+    bool closed = false;        // or one-sided; otherwise visible from both sides
+    bool one_sided = false;     // visible only from the front, even where it is open
     std::size_t open_edges = 0;
     Box bounds{};  // of the vertices
 

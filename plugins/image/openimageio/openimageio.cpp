@@ -224,8 +224,13 @@ class OpenImageIo final : public candela::ImageFormat, public candela::RowFormat
         constexpr OIIO::stride_t k_pixel = 3 * sizeof(float);
         if (!input->read_image(0, 0, 0, is_grey ? 1 : 3, OIIO::TypeFloat, pixels.data(), k_pixel))
             throw std::runtime_error(input->geterror());
-        if (!is_grey) return;
-        for (std::size_t i = 0; i < pixels.size(); i += 3) pixels[i + 1] = pixels[i + 2] = pixels[i];
+        if (is_grey)
+            for (std::size_t i = 0; i < pixels.size(); i += 3) pixels[i + 1] = pixels[i + 2] = pixels[i];
+        if (spec.alpha_channel < 0 || spec.alpha_channel >= spec.nchannels) return;
+        const std::span<float> opacity = sink.allocate_opacity();
+        if (!opacity.empty() && !input->read_image(0, 0, spec.alpha_channel, spec.alpha_channel + 1,
+                                                   OIIO::TypeFloat, opacity.data(), sizeof(float)))
+            throw std::runtime_error(input->geterror());
     }
 };
 

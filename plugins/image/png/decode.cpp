@@ -85,14 +85,16 @@ void require_signature(std::FILE* file) {
 // Deflate makes up to 1032 bytes of one, each of which is eight pixels of one bit.
 constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
 
-/// A row's samples of 8 or 16 bits as numbers from 0 to 1.
-void convert(std::span<const png_byte> row, int depth, std::size_t channels, float* to) {
+/// A row's samples of 8 or 16 bits as numbers from 0 to 1. Of grey and opacity, or colour and opacity, the
+/// last channel goes to `opacity`, unless that is null.
+void convert(std::span<const png_byte> row, int depth, std::size_t channels, float* to, float* opacity) {
     const std::size_t sample = depth == 16 ? 2 : 1;
     const auto value = [&](const png_byte* at) {
         return depth == 16 ? static_cast<float>(at[0] << 8 | at[1]) / 65535 : static_cast<float>(at[0]) / 255;
     };
     for (std::size_t x = 0; x < row.size(); x += channels * sample) {
         for (std::size_t c = 0; c < 3; ++c) *to++ = value(&row[x + (channels < 3 ? 0 : c * sample)]);
+        if (opacity != nullptr) *opacity++ = value(&row[x + (channels - 1) * sample]);
     }
 }
 
@@ -124,6 +126,7 @@ void read_png(const char* path, candela::PictureSink& sink) {
         row_size = libpng.get_rowbytes(png, info);
     });
     const std::span<float> pixels = sink.allocate(static_cast<int>(width), static_cast<int>(height), true);
+    const std::span<float> opacity = channels % 2 == 0 ? sink.allocate_opacity() : std::span<float>();
 
     // Interlaced rows are complete after the last pass.
     const bool is_interlaced = passes > 1;
@@ -132,7 +135,9 @@ void read_png(const char* path, candela::PictureSink& sink) {
         for (std::size_t y = 0; y < height; ++y) {
             png_byte* const row = &rows[is_interlaced ? y * row_size : 0];
             decoder.calls([&](png_structp png, png_infop) { libpng.read_row(png, row, nullptr); });
-            if (pass == passes) convert({row, row_size}, depth, channels, &pixels[3 * y * width]);
+            if (pass == passes)
+                convert({row, row_size}, depth, channels, &pixels[3 * y * width],
+                        opacity.empty() ? nullptr : &opacity[y * width]);
         }
     }
     decoder.calls([&](png_structp png, png_infop) { libpng.read_end(png, nullptr); });

@@ -9,9 +9,9 @@
 
 namespace mesh {
 
-Loaded::Loaded(Surface whole)
+Loaded::Loaded(Surface whole, bool keeps_sides)
     : surface_(std::move(whole)), corners_(surface_), open_(open_edges(surface_, corners_)) {
-    if (turn_outwards(surface_, corners_, open_)) corners_ = Corners(surface_);
+    if (!keeps_sides && turn_outwards(surface_, corners_, open_)) corners_ = Corners(surface_);
 }
 
 const TrianglesByMaterial& Loaded::by_material() const {
@@ -19,11 +19,13 @@ const TrianglesByMaterial& Loaded::by_material() const {
     return *by_material_;
 }
 
-std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin& origin, Reach reach) {
+std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin& origin, Reach reach,
+                                           bool keeps_sides) {
     static std::mutex mutex;
-    static std::map<std::tuple<std::string, std::array<double, 3>, Reach>, std::weak_ptr<SharedFile>> files;
+    static std::map<std::tuple<std::string, std::array<double, 3>, Reach, bool>, std::weak_ptr<SharedFile>>
+        files;
     const std::scoped_lock lock(mutex);
-    std::weak_ptr<SharedFile>& known = files[{file, origin.at, reach}];
+    std::weak_ptr<SharedFile>& known = files[{file, origin.at, reach, keeps_sides}];
     std::shared_ptr<SharedFile> shared = known.lock();
     if (shared == nullptr) {
         shared.reset(new SharedFile(file));

@@ -19,8 +19,8 @@ namespace mesh {
 /// A file's triangles, with what is asked of them as a whole.
 class Loaded {
   public:
-    /// Turns them outwards.
-    explicit Loaded(Surface whole);
+    /// Turns them outwards, unless `keeps_sides`.
+    Loaded(Surface whole, bool keeps_sides);
 
     const Surface& surface() const { return surface_; }
     const Corners& corners() const { return corners_; }
@@ -38,7 +38,8 @@ class Loaded {
 /// Owned by all shapes of a file.
 class SharedFile {
   public:
-    static std::shared_ptr<SharedFile> of(const std::string& file, const Origin& origin, Reach reach);
+    static std::shared_ptr<SharedFile> of(const std::string& file, const Origin& origin, Reach reach,
+                                          bool keeps_sides);
 
     /// What `read` returned last time, unless the file, or one that it names, has changed since. `read` may
     /// run on several threads at once.

@@ -17,6 +17,7 @@
 #include "candela/shape_plugin.h"
 #include "corners.h"
 #include "crease.h"
+#include "cutout.h"
 #include "derivatives.h"
 #include "file_bytes.h"
 #include "loaded.h"
@@ -37,7 +38,13 @@ struct MeshShape {
     const char* part;
     std::int32_t appearance_imported;
     const char* origin;
+    std::int32_t sides;  // Sides
+    const char* cutout;
+    float cutout_level;
+    std::int32_t cutout_clamps;
 };
+
+enum class Sides : std::int32_t { outside, front, both };
 
 enum class Format { obj, ply, stl, gltf };
 
@@ -124,7 +131,11 @@ class FileMesh final : public candela::Shape {
           part_(shape.part != nullptr ? shape.part : ""),
           appearance_imported_(shape.appearance_imported != 0),
           origin_(origin_of(shape)),
-          shared_(mesh::SharedFile::of(file_, origin_, reach_)) {}
+          sides_(static_cast<Sides>(shape.sides)),
+          cutout_(shape.cutout != nullptr ? shape.cutout : ""),
+          cutout_level_(shape.cutout_level),
+          cutout_clamps_(shape.cutout_clamps != 0),
+          shared_(mesh::SharedFile::of(file_, origin_, reach_, keeps_sides())) {}
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         try {
@@ -132,13 +143,16 @@ class FileMesh final : public candela::Shape {
                 const auto reading = [&](double part) { sink.progress(k_read * part); };
                 mesh::Surface surface = surface_of(file_, origin_, reach_, reading);
                 sink.progress(k_read);
-                return std::make_shared<const mesh::Loaded>(std::move(surface));
+                return std::make_shared<const mesh::Loaded>(std::move(surface), keeps_sides());
             };
             const bool is_shared = shared_.use_count() > 1;
             std::shared_ptr<const mesh::Loaded> whole = is_shared ? shared_->loaded(read) : read();
             sink.progress(k_oriented);
-            if (part_.empty()) return write(whole->surface(), whole->corners(), whole->open(), request, sink);
-            const mesh::Surface part = mesh::part_of(whole->surface(), whole->by_material(), part_);
+            if (part_.empty() && cutout_.empty())
+                return write(whole->surface(), whole->corners(), whole->open(), request, sink);
+            mesh::Surface part;
+            if (!part_.empty()) part = mesh::part_of(whole->surface(), whole->by_material(), part_);
+            if (!cutout_.empty()) part = cut_out(part_.empty() ? whole->surface() : part);
             whole.reset();
             const mesh::Corners corners(part);
             write(part, corners, mesh::open_edges(part, corners), request, sink);
@@ -148,6 +162,18 @@ class FileMesh final : public candela::Shape {
     }
 
   private:
+    bool keeps_sides() const { return sides_ != Sides::outside; }
+
+    mesh::Surface cut_out(const mesh::Surface& surface) const {
+        try {
+            const mesh::Array<char> bytes = mesh::read_file(cutout_);
+            const mesh::Opacity opacity = mesh::Opacity::read(mesh::text_of(bytes));
+            return mesh::cut_out(surface, opacity, cutout_level_, cutout_clamps_);
+        } catch (const mesh::BadFile& problem) {
+            throw std::runtime_error(fmt::format("the cut-out '{}' {}", cutout_, problem.what()));
+        }
+    }
+
     // What has been done after each step, for ten million triangles.
     static constexpr double k_read = 0.5, k_oriented = 0.8, k_split = 0.9;
 
@@ -168,7 +194,9 @@ class FileMesh final : public candela::Shape {
             .has_derivatives = request.derivatives,
             .has_color = request.color && uses_colors_ && !surface.color.empty(),
             .has_smooth_groups = !split.group.empty(),
-            .closedness = open.count == 0 ? candela::Closedness::closed : candela::Closedness::open,
+            .closedness = sides_ == Sides::front ? candela::Closedness::one_sided
+                          : open.count == 0      ? candela::Closedness::closed
+                                                 : candela::Closedness::open,
             .open_edges = open.count};
         const candela::MeshSpans to = sink.allocate(layout);
         copy(surface.position, split.source, layout.vertices, to.position);
@@ -215,8 +243,14 @@ class FileMesh final : public candela::Shape {
     std::string part_;
     bool appearance_imported_;
     mesh::Origin origin_;
+    Sides sides_;
+    std::string cutout_;
+    float cutout_level_;
+    bool cutout_clamps_;
     std::shared_ptr<mesh::SharedFile> shared_;
 };
+
+constexpr const char* k_sides[] = {"outside", "front", "both"};
 
 constexpr auto k_fields = fields(
     file(&MeshShape::file, "file", "OBJ, PLY, STL, glTF or GLB file, relative to the scene file"),
@@ -245,7 +279,20 @@ constexpr auto k_fields = fields(
                             "text of three numbers in double precision, for files far from their "
                             "own origin, such as \"500000.25 4500000.5 120\"; empty: the file's own",
                  .default_value = {.text = ""}},
-        .text = &MeshShape::origin});
+        .text = &MeshShape::origin},
+    choice(&MeshShape::sides, "sides", k_sides,
+           "outside: closed parts that the file winds inside out are turned round; front: none is, and "
+           "triangles are seen only from the side from which the file has their corners counter-clockwise; "
+           "both: none is"),
+    Field<MeshShape>{.spec = {.name = "cutout",
+                              .type = candela::ParamType::file,
+                              .meaning = "a greymap (binary PGM) of how opaque the surface is, placed as a "
+                                         "texture is: only what is opaque is there",
+                              .default_value = {.text = ""}},
+                     .text = &MeshShape::cutout},
+    real(&MeshShape::cutout_level, "cutout_level", 0.5f, "how opaque that is at least").range(0, 1),
+    boolean(&MeshShape::cutout_clamps, "cutout_clamps", false,
+            "whether the greymap goes on at its edges as it is there, instead of repeating"));
 
 }  // namespace
 

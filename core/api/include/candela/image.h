@@ -45,6 +45,9 @@ class CANDELA_API PictureSink {
     /// `is_encoded`: the values are sRGB-encoded, 0 to 1; otherwise they are intensities. May throw if the
     /// picture is too large.
     virtual std::span<float> allocate(int width, int height, bool is_encoded) = 0;
+    /// Called after allocate() by plugins of formats with opacity: memory for how opaque each pixel is, 0 to
+    /// 1, filled with 1; empty where nobody asks for it.
+    virtual std::span<float> allocate_opacity();
 };
 
 /// Writes, and optionally reads, one or more file formats. Any thread.

@@ -25,9 +25,10 @@ struct MeshRequest {
 
 /// What a shape knows about its surface.
 enum class Closedness : int {
-    unknown,  // the host finds out
-    closed,   // every edge is shared by two triangles that agree on which side is outside
-    open,     // visible from both sides
+    unknown,    // the host finds out
+    closed,     // every edge is shared by two triangles that agree on which side is outside
+    open,       // visible from both sides
+    one_sided,  // visible only from the front, open or not: a room that is looked into over its walls
 };
 
 /// The arrays that a shape asks for.
