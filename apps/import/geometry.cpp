@@ -112,6 +112,7 @@ class Look {
         grow(0, position.x);
         grow(1, position.y);
         grow(2, position.z);
+        result.mesh = std::move(placed.mesh);
         return result;
     }
 

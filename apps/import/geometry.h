@@ -6,11 +6,13 @@
 #include "import/framing.h"
 #include "import/readers.h"
 
+import candela.mesh;
 import candela.registry;
 
 namespace importing {
 
 struct Geometry {
+    candela::Mesh mesh;
     Bounds bounds;  // in the scene, once the model has been moved
     bool has_colors = false, has_uv = false, is_closed = false;
     /// The point of the file's coordinates that becomes the scene's origin, as the shape's parameter `origin`

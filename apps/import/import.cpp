@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <new>
+#include <optional>
 
 #include "import/framing.h"
 #include "import/geometry.h"
@@ -12,6 +15,10 @@
 #include "import/vectors.h"
 
 import candela.diagnostics;
+import candela.math;
+import candela.mesh;
+import candela.parameters;
+import candela.shape;
 import candela.text;
 
 namespace fs = std::filesystem;
@@ -92,6 +99,26 @@ void tint_metals(Model& model, const Source& source, candela::Registry& registry
         model.count("metals of vertices", "the highlights of a metal have the mean colour of its vertices",
                     "the highlights of {} metals have the mean colours of their vertices");
     }
+}
+
+/// A single-sided plane that faces away would be a picture of nothing.
+void show_backs_alone(Model& model, const candela::Mesh& mesh, const Vector& to_observer) {
+    if (std::ranges::any_of(model.parts, [](const Part& part) { return part.sides != Sides::front; })) return;
+    const auto vertex = [&](std::uint32_t index) {
+        const candela::Vec3 p = mesh.position.span()[index];
+        return Vector{p.x, p.y, p.z};
+    };
+    double front = 0, back = 0;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const Vector a = vertex(mesh.indices[3 * t]);
+        const double area =
+            dot(cross(vertex(mesh.indices[3 * t + 1]) - a, vertex(mesh.indices[3 * t + 2]) - a), to_observer);
+        (area > 0 ? front : back) += std::abs(area);
+    }
+    constexpr double k_hardly_any = 0.01;
+    if (front > k_hardly_any * back) return;
+    for (Part& part : model.parts) part.sides = Sides::both;
+    model.note("its triangles are single-sided and face away from the observer, so both sides are drawn");
 }
 
 void write_cutouts(const Request& request, Model& model, Setting& setting) {
@@ -203,6 +230,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     const Vector to_center = bounds.center() - setting.camera.position;
     const double least_ahead = std::max(0.1 * bounds.radius(), 1e-3 * length(setting.camera.position));
     const double ahead = std::max(dot(to_center, unit(setting.camera.towards)), least_ahead);
+    show_backs_alone(model, geometry.mesh, -1 * unit(setting.camera.towards));
     setting.look_at = setting.camera.position + ahead * unit(setting.camera.towards);
     if (!model.camera) setting.look_at = bounds.center();
     setting.lights = model.lights;

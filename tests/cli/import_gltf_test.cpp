@@ -322,6 +322,16 @@ TEST_CASE("materials that are not double-sided are seen from the front alone") {
     CHECK_FALSE(holds(imported.result.err, "inside out"));
 }
 
+TEST_CASE("a single-sided plane that faces away from the observer is drawn all the same") {
+    File file;
+    file.material() = {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
+    CHECK(holds(import(file).scene, "sides               = \"front\""));
+    file.json["nodes"][0]["rotation"] = {0, 1, 0, 0};
+    const Imported turned = import(file);
+    CHECK(holds(turned.result.err, "face away from the observer, so both sides are drawn"));
+    CHECK(turned.middle() != turned.at(0, 0));
+}
+
 TEST_CASE("what is left out of materials is said in one line for each kind, with a count") {
     File file;
     const Json map = file.texture(plain_png({128, 128, 255, 255}));
