@@ -71,9 +71,12 @@ bool is_for_want_of_memory(std::string_view message) {
 
 constexpr std::string_view k_no_address_space =
     "there is not enough memory to load it; ulimit -v limits the address space";
+constexpr std::string_view k_no_threads =
+    "it needs more threads than can be started; raise the limit on processes (ulimit -u)";
 
 boost::dll::shared_library open_library(const fs::path& library) {
     if (lacks_address_space(library)) refuse(library, std::string(k_no_address_space));
+    if (lacks_threads(library)) refuse(library, std::string(k_no_threads));
     try {
         return boost::dll::shared_library(
             library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
@@ -85,6 +88,9 @@ boost::dll::shared_library open_library(const fs::path& library) {
                                         missing));
         if (is_address_space_scarce() && is_for_want_of_memory(message))
             refuse(library, fmt::format("{} ({})", k_no_address_space, message));
+        // Of the system's errors, a thread that cannot be started has this one.
+        if (message.find("Resource temporarily unavailable") != std::string::npos)
+            refuse(library, std::string(k_no_threads));
         refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it", message));
     }
 }

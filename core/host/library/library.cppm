@@ -31,6 +31,10 @@ CANDELA_API bool is_address_space_scarce();
 /// a word; so a child process tries it first. Any thread.
 CANDELA_API bool lacks_address_space(const std::filesystem::path& library);
 
+/// Whether few threads can be started (ulimit -u, or a container's limit) and the library starts some while
+/// it is loaded. Such a library may wait for ever for a thread that failed to start. Any thread.
+CANDELA_API bool lacks_threads(const std::filesystem::path& library);
+
 /// Rethrows a plugin's exception as an Error that names the plugin; call it in a catch block.
 [[noreturn]] CANDELA_API void rethrow_as_plugin_error(PluginKind kind, std::string_view name);
 
