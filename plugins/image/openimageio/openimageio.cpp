@@ -2,12 +2,15 @@
 #include <OpenImageIO/imageio.h>
 
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,6 +31,14 @@ bool has_rows(std::string_view extension) {
     return extension == "tif" || extension == "tiff" || extension == "exr";
 }
 
+/// The most bytes that a file may have here (ulimit -f), those in memory included.
+std::uint64_t file_size_limit() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return std::numeric_limits<std::uint64_t>::max();
+    return limit.rlim_cur;
+}
+
 /// A file in memory with a path, which cannot be left behind.
 class MemoryFile {
   public:
@@ -39,6 +50,23 @@ class MemoryFile {
     ~MemoryFile() { ::close(descriptor_); }
 
     std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+    /// Writers ignore some of the errors that they are told of, such as those of their last bytes.
+    void require_whole(const OIIO::ImageSpec& spec) const {
+        struct stat status{};
+        if (::fstat(descriptor_, &status) != 0)
+            throw std::runtime_error("the file in memory cannot be read back");
+        // A number at an even offset may be what did not fit.
+        if (static_cast<std::uint64_t>(status.st_size) + 1 >= file_size_limit())
+            throw std::runtime_error("the file would exceed the limit on file sizes (ulimit -f)");
+        const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path());
+        std::vector<std::byte> row(spec.scanline_bytes());
+        const bool is_whole =
+            input != nullptr && input->spec().width == spec.width && input->spec().height == spec.height &&
+            input->spec().nchannels == spec.nchannels && input->spec().format == spec.format &&
+            (spec.tile_width > 0 || input->read_scanline(spec.height - 1, 0, spec.format, row.data()));
+        if (!is_whole) throw std::runtime_error("the file in memory is not whole");
+    }
 
     void send(candela::ByteSink& sink) const {
         std::vector<std::byte> buffer(1 << 16);
@@ -73,12 +101,12 @@ const void* pixels_of(const candela::PictureView& picture) {
                                                       : static_cast<const void*>(picture.bytes.data());
 }
 
-/// A file that the host writes, as OpenImageIO writes it.
-class SinkProxy final : public OIIO::Filesystem::IOProxy {
+/// A file as OpenImageIO writes it. Libraries in C call this; what goes wrong is thrown when they have
+/// returned, whether or not they care.
+class WriteProxy : public OIIO::Filesystem::IOProxy {
   public:
-    explicit SinkProxy(candela::RandomAccessSink& sink) : IOProxy("picture", Write), sink_(sink) {}
+    WriteProxy() : IOProxy("picture", Write) {}
 
-    const char* proxytype() const override { return "sink"; }
     void close() override {}
     std::int64_t tell() override { return position_; }
     bool seek(std::int64_t offset) override {
@@ -91,9 +119,8 @@ class SinkProxy final : public OIIO::Filesystem::IOProxy {
         return written;
     }
     std::size_t pwrite(const void* bytes, std::size_t size, std::int64_t offset) override {
-        // Libraries in C call this; what went wrong is thrown when they have returned.
         try {
-            sink_.write_at(static_cast<std::uint64_t>(offset), {static_cast<const std::byte*>(bytes), size});
+            put(static_cast<std::uint64_t>(offset), {static_cast<const std::byte*>(bytes), size});
         } catch (...) {
             if (!problem_) problem_ = std::current_exception();
             return 0;
@@ -107,24 +134,85 @@ class SinkProxy final : public OIIO::Filesystem::IOProxy {
         if (problem_) std::rethrow_exception(problem_);
     }
 
+  protected:
+    virtual void put(std::uint64_t offset, std::span<const std::byte> bytes) = 0;
+
   private:
-    candela::RandomAccessSink& sink_;
     std::int64_t position_ = 0;
     std::size_t size_ = 0;
     std::exception_ptr problem_;
 };
 
+/// A file that the host writes.
+class SinkProxy final : public WriteProxy {
+  public:
+    explicit SinkProxy(candela::RandomAccessSink& sink) : sink_(sink) {}
+    const char* proxytype() const override { return "sink"; }
+
+  private:
+    void put(std::uint64_t offset, std::span<const std::byte> bytes) override {
+        sink_.write_at(offset, bytes);
+    }
+
+    candela::RandomAccessSink& sink_;
+};
+
+/// A file that the host gets when it is whole.
+class MemoryProxy final : public WriteProxy {
+  public:
+    const char* proxytype() const override { return "memory"; }
+
+    void send(candela::ByteSink& sink) const {
+        std::size_t left = size();
+        for (const Block& block : blocks_) {
+            const std::size_t some = std::min(left, k_block);
+            sink.write(std::span(*block).first(some));
+            left -= some;
+        }
+    }
+
+  private:
+    static constexpr std::size_t k_block = 1 << 20;
+    using Block = std::unique_ptr<std::array<std::byte, k_block>>;
+
+    void put(std::uint64_t offset, std::span<const std::byte> bytes) override {
+        while (!bytes.empty()) {
+            const std::size_t at = offset % k_block, some = std::min(bytes.size(), k_block - at);
+            while (blocks_.size() <= offset / k_block)
+                blocks_.push_back(std::make_unique<std::array<std::byte, k_block>>());
+            std::ranges::copy(bytes.first(some),
+                              blocks_[offset / k_block]->begin() + static_cast<std::ptrdiff_t>(at));
+            offset += some;
+            bytes = bytes.subspan(some);
+        }
+    }
+
+    std::vector<Block> blocks_;
+};
+
 /// Where the bytes go that a writer makes.
 enum class Way {
-    memory,  // all at once: some of OpenImageIO's writers insist on a file of their own
-    direct   // as they are made, if the sink allows that; a writer must never read them back
+    memory,  // all at once: many writers go back to what they have written
+    file,    // likewise, through a file in memory: the writer reads back what it has written
+    direct   // as they are made, if the sink allows that
 };
+
+/// Has the writer write to the proxy.
+template <class WritePixels>
+void write_through(WriteProxy& proxy, OIIO::ImageOutput& output, const OIIO::ImageSpec& spec,
+                   const WritePixels& write_pixels) {
+    const bool is_written =
+        output.set_ioproxy(&proxy) && output.open("picture", spec) && write_pixels(output) && output.close();
+    proxy.throw_problem();
+    if (!is_written) throw std::runtime_error(output.geterror());
+}
 
 /// Sends a file of the extension's format, with the pixels that `write_pixels` writes.
 template <class WritePixels>
 void write_file(OIIO::ImageSpec& spec, const char* extension, candela::ByteSink& sink, Way way,
                 const WritePixels& write_pixels) {
-    std::optional<SinkProxy> proxy;  // outlives the writer
+    std::optional<SinkProxy> direct;  // proxies outlive the writer
+    MemoryProxy memory;
     const std::unique_ptr<OIIO::ImageOutput> output =
         OIIO::ImageOutput::create(std::string("picture.") + extension);
     if (output == nullptr) throw std::runtime_error(OIIO::geterror());
@@ -134,16 +222,17 @@ void write_file(OIIO::ImageSpec& spec, const char* extension, candela::ByteSink&
     spec.attribute("CompressionQuality", 95);
     auto* const random_access = dynamic_cast<candela::RandomAccessSink*>(&sink);
     if (random_access != nullptr && way == Way::direct) {
-        proxy.emplace(*random_access);
-        const bool is_written = output->set_ioproxy(&*proxy) && output->open("picture", spec) &&
-                                write_pixels(*output) && output->close();
-        proxy->throw_problem();
-        if (!is_written) throw std::runtime_error(output->geterror());
-        return;
+        direct.emplace(*random_access);
+        return write_through(*direct, *output, spec, write_pixels);
+    }
+    if (way != Way::file && output->supports("ioproxy")) {
+        write_through(memory, *output, spec, write_pixels);
+        return memory.send(sink);
     }
     const MemoryFile file;
     if (!output->open(file.path(), spec) || !write_pixels(*output) || !output->close())
         throw std::runtime_error(output->geterror());
+    file.require_whole(spec);
     file.send(sink);
 }
 
@@ -174,7 +263,7 @@ class OpenImageIo final : public candela::ImageFormat, public candela::RowFormat
         const bool is_exr = std::string_view(extension) == "exr";
         // It is in the Exif data of a TIFF, for which libtiff reads back what it has written.
         if (has_tiles && !is_exr) spec.erase_attribute("oiio:ColorSpace");
-        const Way way = has_tiles || is_exr ? Way::direct : Way::memory;
+        const Way way = has_tiles || is_exr ? Way::direct : Way::file;
         // So many rows at once that all cores have something to compress.
         const auto tile_rows = std::max<std::size_t>(k_at_once / (spec.scanline_bytes(true) * k_tile), 1);
         const int at_once = k_tile * static_cast<int>(std::min<std::size_t>(tile_rows, 1024));
