@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "completion.h"
@@ -20,6 +22,7 @@
 #include "reporting.h"
 #include "temporary_folder.h"
 #include "terminal.h"
+#include "usual_options.h"
 #include "wrapping.h"
 
 import candela.files;
@@ -30,12 +33,25 @@ namespace po = boost::program_options;
 using candela::Error;
 using candela::ErrorCategory;
 
+namespace {
+
+/// A flag that says the same however often it is given: once by a person, and once by a program for them.
+class RepeatableFlag : public po::untyped_value {
+  public:
+    RepeatableFlag() : untyped_value(true) {}
+    void xparse(boost::any& value, const std::vector<std::string>& /*words*/) const override {
+        value = std::string();
+    }
+};
+
+}  // namespace
+
 CommandLine::CommandLine(std::string usage, std::string explanation)
     : usage_(std::move(usage)),
       explanation_(std::move(explanation)),
       visible_("Options", static_cast<unsigned>(output_width() - 1),
                static_cast<unsigned>(output_width() / 2)) {
-    options()("help,h", "this help")("quiet,q", "print nothing on stderr but errors");
+    options()("help,h", "this help")("quiet,q", new RepeatableFlag, "print nothing on stderr but errors");
     hidden_.add_options()("help-as", po::value<std::string>());  // "man": for building manual pages
 }
 
@@ -60,16 +76,19 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
         complete(arguments);
         return false;
     }
+    std::vector<std::string> known;
+    for (const auto& option : visible_.options()) known.push_back("--" + option->long_name());
+    if (means_height(arguments) && std::ranges::find(known, "--height") != known.end())
+        throw Error(ErrorCategory::bad_request, "-h is --help; did you mean '--height'?");
     try {
         read(arguments, Unknown::refused);
         po::notify(values_);
     } catch (const po::unknown_option& problem) {
-        std::vector<std::string> known;
-        for (const auto& option : visible_.options()) known.push_back("--" + option->long_name());
         // --widht=100 is given with its value.
         const std::string given = problem.get_option_name();
-        const std::string name = given.substr(0, given.find('='));
-        const std::string meant = candela::suggestion(name, known);
+        const bool is_short = given.size() > 1 && given[0] == '-' && given[1] != '-';
+        const std::string name = is_short ? given.substr(0, 2) : given.substr(0, given.find('='));
+        const std::string meant = suggested_option(name, known);
         throw Error(ErrorCategory::bad_request,
                     fmt::format("unknown option '{}'; {}", name, meant.empty() ? "--help shows all" : meant));
     } catch (const po::too_many_positional_options_error&) {
@@ -100,6 +119,27 @@ void add_plugin_options(CommandLine& line) {
         "allow-untrusted-plugins", "also load plugins that other users can modify");
 }
 
+namespace {
+
+/// A folder that is not there may come to be, but a file among them is a mistake.
+void require_folders_in_path() {
+    const char* const list = std::getenv("CANDELA_PLUGIN_PATH");
+    for (std::string_view rest = list != nullptr ? list : ""; !rest.empty();) {
+        const std::size_t end = std::min(rest.find(':'), rest.size());
+        const std::filesystem::path folder = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        std::error_code problem;
+        const auto status = std::filesystem::status(folder, problem);
+        if (!std::filesystem::exists(status) || std::filesystem::is_directory(status)) continue;
+        throw Error(ErrorCategory::failure,
+                    fmt::format("CANDELA_PLUGIN_PATH names '{}', which is not a folder; it lists folders of "
+                                "plugins, separated by colons",
+                                folder.string()));
+    }
+}
+
+}  // namespace
+
 candela::Registry registry_from(const CommandLine& line) {
     std::vector<std::filesystem::path> first;
     for (const std::string& directory : line.all("plugin-dir")) {
@@ -113,6 +153,7 @@ candela::Registry registry_from(const CommandLine& line) {
         }
         first.emplace_back(directory);
     }
+    require_folders_in_path();
     const auto trust = line.has("allow-untrusted-plugins") ? candela::PluginTrust::any
                                                            : candela::PluginTrust::own_and_system;
     return candela::Registry(candela::plugin_search_path(first), trust, first.size(), report_replaced);

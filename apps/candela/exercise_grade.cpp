@@ -173,12 +173,18 @@ std::string percent(double share) {
     return value > 0 && value < 0.1 ? "< 0.1 %" : fmt::format("{:.{}f} %", value, value < 10 ? 1 : 0);
 }
 
+/// Of another value: "by up to 40 % of", "by more than 1000 times".
+std::string multiple(double share) {
+    if (share < 10) return fmt::format("by up to {} of", percent(share));
+    return share < 1000 ? fmt::format("by up to {:.0f} times", share) : "by more than 1000 times";
+}
+
 /// "specular: 3.9 % of the points differ, by up to 100 % of the largest value".
 std::string term_text(const Json& term) {
     const std::string text = fmt::format("{}: {} of the points differ", term["term"].get<std::string>(),
                                          percent(term["share"].get<double>()));
     if (!term["largest"].is_number()) return text + "; some are not numbers";
-    return text + fmt::format(", by up to {} of the largest value", percent(term["largest"].get<double>()));
+    return text + fmt::format(", {} the largest value", multiple(term["largest"].get<double>()));
 }
 
 /// What became of it, in a line.

@@ -122,7 +122,7 @@ int run_plot(const std::vector<std::string>& arguments) {
         "candela plot MODEL... [options]",
         "Draws what reflection models reflect of light from one direction, as a polar diagram in "
         "the plane of\nincidence (SVG), or as a table (CSV). MODEL: reflection/ggx, or with values of "
-        "its parameters\nreflection/ggx:roughness=0.3,f0=0.9. Several are drawn over one another. Of lights "
+        "its parameters\nreflection/ggx:roughness=0.3,ior=1.8. Several are drawn over one another. Of lights "
         "(light/spot), "
         "what they send\nis drawn over the angle with their axis and over the distance.");
     line.positional("model", -1);

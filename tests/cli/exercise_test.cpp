@@ -405,3 +405,13 @@ TEST_CASE("exercise: what there is no exercise about is said, with what there is
     CHECK(run_candela({"exercise", "grade", "/nonexistent"}).exit_code == 1);
     CHECK(run_candela({"exercise", "new", "phnog", "--blank", "reflect"}).exit_code == 1);
 }
+
+TEST_CASE("exercise: what is off by thousands of times is called that, and not thousands of per cent") {
+    const fs::path file = answer(scratch_directory() / "one.answer",
+                                 replaced(k_phong, "m.kd * s.color", "70000.0 * m.kd * s.color"));
+    const CommandResult result = run_candela({"exercise", "grade", file.string()});
+    INFO(result.out);
+    CHECK(result.exit_code == 4);
+    CHECK(result.out.find(", by more than 1000 times the largest value") != std::string::npos);
+    CHECK(result.out.find("000 %") == std::string::npos);
+}

@@ -11,6 +11,7 @@ const byId = (id) => document.getElementById(id);
 function percent(share) {
     if (Number.isNaN(share)) return "no number";
     if (share > 0 && share < 0.001) return "< 0.1 %";
+    if (share >= 10) return share < 1000 ? `${share.toFixed(0)} times` : "> 1000 times";
     return `${(100 * share).toFixed(share > 0 && share < 0.1 ? 1 : 0)} %`;
 }
 

@@ -140,8 +140,11 @@ class Checker {
     void report_if_inside(const std::string& what, Vec3 point, const SourcePlace& place) {
         for (const std::size_t i : tree_.at(point)) {
             if (surfaces_[i].empty() || is_hollow(i) || !body(i).contains(point)) continue;
-            diagnostics_.error(place, fmt::format("{} is inside object {}{}", what, scene_.objects[i].label,
-                                                  at(scene_.objects[i].place)));
+            diagnostics_.error(
+                place,
+                fmt::format("{} is inside object {}{}", what, scene_.objects[i].label,
+                            at(scene_.objects[i].place)),
+                "move one of them; if the object is a room or a shade, write in it: encloses = true");
         }
     }
 

@@ -15,6 +15,7 @@ module candela.scene;
 
 import :models;
 import :tables;
+import :vocabulary;
 import candela.diagnostics;
 import candela.parameters;
 import candela.registry;
@@ -103,6 +104,7 @@ void ModelChooser::read_shading_table() {
     if (plugin == nullptr || table == nullptr || request_.shading) return;
     TableContext context = tables_.context_of("shading");
     context.help = {Help::Topic::plugin, plugin->manifest.id()};
+    context.lists_keys = false;
     report_unknown_keys(*table, names_in(plugin->manifest.parameters, {"model"}), context,
                         tables_.diagnostics());
     shading_parameters_ = tables_.read_plugin(*table, *plugin, context);
@@ -140,7 +142,9 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
     const TableNode& material = entry != nullptr ? *entry->node.table() : k_empty;
     const TableContext context{fmt::format("[object.material] of {}", label),
                                {Help::Topic::plugin, plugin->manifest.id()},
-                               entry != nullptr ? entry->key_place : place};
+                               entry != nullptr ? entry->key_place : place,
+                               "",
+                               hints_for("material", tables_.registry())};
     report_unknown_material_keys(material, *plugin, context);
     return {model->name, tables_.read_plugin(material, *plugin, context)};
 }

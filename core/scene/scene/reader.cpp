@@ -22,6 +22,7 @@ import :merge;
 import :models;
 import :reading;
 import :tables;
+import :vocabulary;
 import candela.color;
 import candela.diagnostics;
 import candela.math;
@@ -41,6 +42,7 @@ class Reader {
     Reader(const SceneRequest& request, const MergedDocument& document, Registry& registry,
            Diagnostics& diagnostics)
         : tables_(document, registry, diagnostics),
+          registry_(registry),
           request_(request),
           diagnostics_(diagnostics),
           files_(document.files) {}
@@ -49,7 +51,10 @@ class Reader {
         read_version();
         std::vector<std::string> keys = names_in(top_schema().parameters);
         for (const TableSchema& schema : scene_schema()) keys.push_back(schema.name);
-        report_unknown_keys(tables_.root(), keys, {"the scene", {}, tables_.whole()}, diagnostics_);
+        report_unknown_keys(
+            tables_.root(), keys,
+            {.where = "the scene", .help = {}, .place = tables_.whole(), .hint = hints_for("", registry_)},
+            diagnostics_);
         draft_.files = files_;
         read_room();
         draft_.has_room = tables_.has_valid("room", {"height", "width", "depth"});
@@ -229,6 +234,7 @@ class Reader {
             tables_.known(kind, text(own, "type"), table.find("type")->node.place);
         if (plugin == nullptr) return std::nullopt;
         context.help = {Help::Topic::plugin, plugin->manifest.id()};
+        context.hint = hints_for(table_name, registry_);
         const std::vector<std::string> keys = names_in(
             plugin->manifest.parameters, names_in(schema_of(table_name).parameters, std::move(more_keys)));
         report_unknown_keys(table, keys, context, diagnostics_);
@@ -301,6 +307,7 @@ class Reader {
     }
 
     SceneTables tables_;
+    Registry& registry_;
     const SceneRequest& request_;
     Diagnostics& diagnostics_;
     const std::vector<std::filesystem::path>& files_;

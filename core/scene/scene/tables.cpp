@@ -17,6 +17,7 @@ module;
 module candela.scene;
 
 import :tables;
+import :vocabulary;
 import candela.diagnostics;
 import candela.math;
 import candela.parameters;
@@ -72,7 +73,11 @@ const TableNode* SceneTables::single(const std::string& name) {
 
 TableContext SceneTables::context_of(const std::string& name) const {
     const TableNode::Entry* const entry = root_.find(name);
-    return {schema_of(name).title, {}, entry != nullptr ? entry->key_place : whole_};
+    return {.where = schema_of(name).title,
+            .help = {},
+            .place = entry != nullptr ? entry->key_place : whole_,
+            .hint = hints_for(name, registry_),
+            .lists_keys = true};
 }
 
 ParamSet SceneTables::read_plain(const std::string& name) {

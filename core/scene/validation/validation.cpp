@@ -5,6 +5,7 @@ module;
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +14,7 @@ module;
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -153,6 +155,85 @@ std::string joined(const std::string& a, const std::string& b) {
     return a.empty() || b.empty() ? a + b : a + "  " + b;
 }
 
+std::string triple_text(Vec3 v) { return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v.x, v.y, v.z); }
+
+/// The colour that a string names, as on the web.
+std::optional<Vec3> color_called(std::string_view text) {
+    if (text.starts_with('#') && (text.size() == 7 || text.size() == 4)) {
+        const std::size_t digits = (text.size() - 1) / 3;
+        std::array<float, 3> channels{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            unsigned value = 0;
+            const char* const begin = text.data() + 1 + i * digits;
+            const auto [end, problem] = std::from_chars(begin, begin + digits, value, 16);
+            if (problem != std::errc() || end != begin + digits) return std::nullopt;
+            channels[i] = static_cast<float>(digits == 1 ? 17 * value : value);
+        }
+        return Vec3{channels[0], channels[1], channels[2]};
+    }
+    // CSS Color Module Level 4, the most usual ones.
+    struct Name {
+        std::string_view name;
+        Vec3 color;
+    };
+    static constexpr auto k_names = std::to_array<Name>({
+        {"black", {0, 0, 0}},
+        {"blue", {0, 0, 255}},
+        {"brown", {165, 42, 42}},
+        {"cyan", {0, 255, 255}},
+        {"gold", {255, 215, 0}},
+        {"gray", {128, 128, 128}},
+        {"green", {0, 128, 0}},
+        {"grey", {128, 128, 128}},
+        {"magenta", {255, 0, 255}},
+        {"orange", {255, 165, 0}},
+        {"pink", {255, 192, 203}},
+        {"purple", {128, 0, 128}},
+        {"red", {255, 0, 0}},
+        {"white", {255, 255, 255}},
+        {"yellow", {255, 255, 0}},
+    });
+    const auto found = std::ranges::find_if(k_names, [&](const Name& each) {
+        return std::ranges::equal(each.name, text, [](char a, char b) { return a == b || a == (b | 0x20); });
+    });
+    return found != k_names.end() ? std::optional(found->color) : std::nullopt;
+}
+
+/// A colour that is written in another way, as it is to be written; empty where that is not known.
+std::string color_hint(const Node& node) {
+    constexpr std::string_view k_channels = "three integers 0 to 255";
+    if (const auto* const text = std::get_if<std::string>(&node.value)) {
+        const auto color = color_called(*text);
+        return fmt::format("write {}", color ? triple_text(*color) : std::string(k_channels));
+    }
+    std::array<double, 3> values{};
+    if (const auto grey = number(node, false)) {
+        values.fill(*grey);
+    } else {
+        const ArrayNode* const array = node.array();
+        // Four are with alpha.
+        if (array == nullptr || array->size() < 3 || array->size() > 4) return "";
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto value = number((*array)[i], false);
+            if (!value) return "";
+            values[i] = *value;
+        }
+    }
+    if (!std::ranges::all_of(values, [](double v) { return v >= 0 && v <= 255; })) return "";
+    const bool are_fractions = std::ranges::all_of(values, [](double v) { return v <= 1; });
+    const auto channel = [&](double v) { return static_cast<float>(are_fractions ? 255 * v : v); };
+    return fmt::format("did you mean {}?",
+                       triple_text({channel(values[0]), channel(values[1]), channel(values[2])}));
+}
+
+/// Not a value of an animation's, between those of its keys.
+bool is_written_as_list(const Node& node, const Diagnostics& diagnostics) {
+    if (node.place.line == 0) return true;
+    const std::string text = as_written(node, diagnostics);
+    const std::size_t second = text.find_first_not_of(" \t", 1);
+    return text.starts_with('[') && second != std::string::npos && text[second] >= '0' && text[second] <= '9';
+}
+
 /// Checks that a file exists; returns its absolute path.
 std::optional<std::string> existing_file(const std::string& written, const SourcePlace& place,
                                          Diagnostics& diagnostics) {
@@ -180,7 +261,8 @@ std::optional<Value> typed_value(const Node& node, const Parameter& parameter, D
     if (!value) {
         diagnostics.error(node.place,
                           fmt::format("'{}' is {}; expected {}", parameter.name,
-                                      found(node, parameter, diagnostics), constraint_text(parameter)));
+                                      found(node, parameter, diagnostics), constraint_text(parameter)),
+                          parameter.type == ParamType::color ? color_hint(node) : "");
     }
     return value;
 }
@@ -201,6 +283,12 @@ std::optional<Value> valid_value(const Node& node, const Parameter& p, Diagnosti
             diagnostics.warning(node.place,
                                 fmt::format("'{}': 256 counts as 255, the largest 8-bit number", p.name));
             color = {std::min(color.x, 255.0f), std::min(color.y, 255.0f), std::min(color.z, 255.0f)};
+        }
+        if (std::max({color.x, color.y, color.z}) == 1 && is_written_as_list(node, diagnostics)) {
+            diagnostics.warning(
+                node.place,
+                fmt::format("'{}': {} is almost black, as channels are 0 to 255", p.name, triple_text(color)),
+                fmt::format("did you mean {}?", triple_text(255.0f * color)));
         }
     }
     if (p.type == ParamType::file) {
@@ -253,11 +341,13 @@ ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, 
 
 void report_unknown_keys(const TableNode& table, std::span<const std::string> known,
                          const TableContext& context, Diagnostics& diagnostics) {
-    const std::string note = context.note.empty() ? "" : fmt::format("({})", context.note);
+    std::string note = context.note.empty() ? "" : fmt::format("({})", context.note);
+    if (context.lists_keys) note = joined(fmt::format("(known: {})", fmt::join(known, ", ")), note);
     for (const TableNode::Entry& entry : table.entries) {
         if (std::ranges::find(known, entry.key) != known.end()) continue;
+        const std::string meant = context.hint ? context.hint(entry.key) : "";
         diagnostics.error(entry.key_place, fmt::format("unknown key '{}' in {}", entry.key, context.where),
-                          joined(suggestion(entry.key, known), note), context.help);
+                          joined(meant.empty() ? suggestion(entry.key, known) : meant, note), context.help);
     }
 }
 

@@ -3,6 +3,7 @@ module;
 
 #include "candela/api.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,9 @@ struct TableContext {
     Help help;           // where its keys are explained
     SourcePlace place;   // of the table itself, for missing keys
     std::string note{};  // said with every unknown key; may be empty
+    /// What an unknown key is called here, or where it belongs; null, or empty if that is not known.
+    std::function<std::string(const std::string& key)> hint{};
+    bool lists_keys = false;  // whether the known keys are said with an unknown one
 };
 
 /// The values of the keys in `schema`, with its defaults for missing ones. Reports wrong types, values out of

@@ -1,0 +1,200 @@
+// What somebody types who knows other programs, and what is said to them.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A scene with one more line in one of its tables, which is named by what comes before it.
+std::string scene_with(const std::string& table, const std::string& line) {
+    std::string text =
+        "version = 1\n[room]\nwidth = 20\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
+        "0]\n[image]\nwidth = 8\n"
+        "height = 8\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[light]]\n"
+        "type = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"ball\"\ntype = "
+        "\"cube\"\n[object.material]\nks = 0.2\n";
+    if (table.empty()) return line + "\n" + text;
+    const std::size_t at = text.find(table + "\n") + table.size() + 1;
+    return text.insert(at, line + "\n");
+}
+
+CommandResult checked(const std::string& text) {
+    return run_candela({"check", "-"}, {.input = text, .environment = {}, .directory = scratch_directory()});
+}
+
+struct Said {
+    std::string table, line, hint;
+};
+
+}  // namespace
+
+TEST_CASE("a key that another program has is answered by the one that is meant, or by its table") {
+    for (const Said& said : {
+             Said{"", "camera = 1", "the camera is the table [observer]"},
+             Said{"", "lights = 1", "write a [[light]] for each"},
+             Said{"", "objects = 1", "write an [[object]] for each"},
+             Said{"", "material = 1", "[object.material]"},
+             Said{"", "ambient = 1", "type = \"ambient\""},
+             Said{"", "fov = 40", "'fov' belongs in [observer]"},
+             Said{"", "background = [1,2,3]", "'background' belongs in [image]"},
+             Said{"", "resolution = [800, 600]", "[image] has width and height"},
+             Said{"[observer]", "target = [0,0,0]", "did you mean 'look_at'?"},
+             Said{"[observer]", "lookat = [0,0,0]", "did you mean 'look_at'?"},
+             Said{"[observer]", "eye = [0,0,0]", "did you mean 'position'?"},
+             Said{"[observer]", "pos = [0,0,0]", "did you mean 'position'?"},
+             Said{"[observer]", "fovy = 40", "did you mean 'fov'?"},
+             Said{"[observer]", "samples = 4", "'samples' belongs in [image]"},
+             Said{"[observer]", "lens = 4", "(known: position, look_at, up, projection, fov, height)"},
+             Said{"[image]", "size = [8, 8]", "write width and height"},
+             Said{"[image]", "spp = 4", "did you mean 'samples'?"},
+             Said{"[image]", "fov = 4", "'fov' belongs in [observer]"},
+             Said{"[image]", "quality = 4", "(known: width, height, samples, background"},
+             Said{"[room]", "size = 4", "(known: height, width, depth)"},
+             Said{"[[light]]", "pos = [0,0,0]", "did you mean 'position'?"},
+             Said{"[[light]]", "power = 4", "did you mean 'intensity'?"},
+             Said{"[[light]]", "colour = [1,2,3]", "did you mean 'color'?"},
+             Said{"[[object]]", "texture = \"a.png\"", "did you mean 'color_texture'?"},
+             Said{"[[object]]", "normal_texture = \"a.png\"", "the only texture is that of the colour"},
+             Said{"[[object]]", "diffuse = 0.5", "'kd' in [object.material]"},
+             Said{"[[object]]", "specular = 0.5", "ks in [object.material]"},
+             Said{"[[object]]", "ka = 0.5", "'ka' belongs in [object.material]"},
+             Said{"[[object]]", "kd = 0.5", "'kd' belongs in [object.material]"},
+             Said{"[[object]]", "shininess = 5", "'shininess' belongs in [object.material]"},
+             Said{"[[object]]", "roughness = 0.5", "'roughness' belongs in [object.material]"},
+             Said{"[[object]]", "radius = 1", "an object's size is its 'scale'"},
+             Said{"[[object]]", "translate = [0,0,0]", "did you mean 'position'?"},
+             Said{"[object.material]", "color = [1,2,3]", "'color' belongs in [[object]]"},
+             Said{"[object.material]", "color_texture = \"a.png\"", "'color_texture' belongs in [[object]]"},
+             Said{"[object.material]", "position = [0,0,0]", "'position' belongs in [[object]]"},
+             Said{"[object.material]", "reflection = \"ggx\"", "'reflection' belongs in [[object]]"},
+             Said{"[object.material]", "diffuse = 0.5", "did you mean 'kd'?"},
+             Said{"[object.material]", "specular = 0.5", "did you mean 'ks'?"},
+             Said{"[object.material]", "roughness = 0.5", "has no parameter 'roughness', which"},
+         }) {
+        const CommandResult result = checked(scene_with(said.table, said.line));
+        INFO(said.table << ' ' << said.line << ": " << result.err);
+        CHECK(result.exit_code == 3);
+        CHECK(holds(result.err, said.hint));
+    }
+}
+
+TEST_CASE("a colour in another notation is answered by the three integers that it is") {
+    for (const Said& said :
+         {Said{"[[object]]", "color = [0.5, 0.2, 0.1]", "did you mean [128, 51, 26]?"},
+          Said{"[[object]]", "color = [1.0, 0.0, 0.0]", "did you mean [255, 0, 0]?"},
+          Said{"[[object]]", "color = [255.0, 128.0, 0.0]", "did you mean [255, 128, 0]?"},
+          Said{"[[object]]", "color = [0.5, 0.2, 0.1, 1.0]", "did you mean [128, 51, 26]?"},
+          Said{"[[object]]", "color = 128", "did you mean [128, 128, 128]?"},
+          Said{"[[object]]", "color = \"#ff8000\"", "write [255, 128, 0]"},
+          Said{"[[object]]", "color = \"#f80\"", "write [255, 136, 0]"},
+          Said{"[[object]]", "color = \"red\"", "write [255, 0, 0]"},
+          Said{"[[object]]", "color = \"crimsonish\"", "write three integers 0 to 255"},
+          Said{"[[light]]", "color = [1.0, 0.9, 0.8]", "did you mean [255, 230, 204]?"},
+          Said{"[image]", "background = \"White\"", "write [255, 255, 255]"}}) {
+        const CommandResult result = checked(scene_with(said.table, said.line));
+        INFO(said.line << ": " << result.err);
+        CHECK(result.exit_code == 3);
+        CHECK(holds(result.err, said.hint));
+    }
+}
+
+TEST_CASE("a colour of zeros and ones is a warning that says what it would be in 0 to 255") {
+    for (const Said& said : {Said{"[[object]]", "color = [1, 1, 1]", "did you mean [255, 255, 255]?"},
+                             Said{"[[object]]", "color = [1, 0, 0]", "did you mean [255, 0, 0]?"},
+                             Said{"[[light]]", "color = [1, 1, 1]", "did you mean [255, 255, 255]?"},
+                             Said{"[image]", "background = [0, 1, 1]", "did you mean [0, 255, 255]?"}}) {
+        const CommandResult result = checked(scene_with(said.table, said.line));
+        INFO(said.line << ": " << result.err);
+        CHECK(result.exit_code == 0);
+        CHECK(holds(result.err, "is almost black"));
+        CHECK(holds(result.err, said.hint));
+    }
+    for (const char* const fine : {"color = [0, 0, 0]", "color = [2, 1, 1]", "color = [255, 1, 0]"})
+        CHECK_FALSE(holds(checked(scene_with("[[object]]", fine)).err, "almost black"));
+    // Frames between two keys are nobody's words.
+    const CommandResult film =
+        checked(scene_with("[[object]]", "color = [2, 2, 2]") +
+                "[animation]\nframes = 4\nfps = 1\n[[animation.track]]\n"
+                "path = \"object.ball.color\"\nkeys = [[0, [0, 0, 0]], [3, [3, 3, 3]]]\n");
+    INFO(film.err);
+    CHECK(film.exit_code == 0);
+    CHECK_FALSE(holds(film.err, "almost black"));
+}
+
+TEST_CASE("a light or an observer inside an object may be meant so, and is told how") {
+    const CommandResult light = checked(scene_with("[[object]]", "position = [1, 1, 3]"));
+    CHECK(light.exit_code == 3);
+    CHECK(holds(light.err, "is inside object 'ball'"));
+    CHECK(holds(light.err, "encloses = true"));
+    const CommandResult observer = checked(scene_with("[[object]]", "position = [0, 0, 4]"));
+    CHECK(holds(observer.err, "the observer is inside object 'ball'"));
+    CHECK(holds(observer.err, "encloses = true"));
+}
+
+TEST_CASE("options of other programs are answered by those of the verb") {
+    struct Typed {
+        std::vector<std::string> words;
+        std::string hint;
+    };
+    for (const Typed& typed : {
+             Typed{{"render", "--size", "800x600"}, "write --width 800 --height 600"},
+             Typed{{"render", "--size=800x600"}, "write --width 800 --height 600"},
+             Typed{{"render", "--resolution", "800x600"}, "write --width 800 --height 600"},
+             Typed{{"render", "-s", "800x600"}, "write --width 800 --height 600"},
+             Typed{{"render", "-w", "800"}, "did you mean '--width'?"},
+             Typed{{"render", "-h", "600"}, "did you mean '--height'?"},
+             Typed{{"render", "-h600"}, "did you mean '--height'?"},
+             Typed{{"render", "-w", "800", "-h", "600"}, "-h is --help"},
+             Typed{{"render", "--samples-per-pixel", "4"}, "did you mean '--samples'?"},
+             Typed{{"render", "--spp", "4"}, "did you mean '--samples'?"},
+             Typed{{"render", "--outptu", "a.png"}, "did you mean '--output'?"},
+             Typed{{"render", "--out", "a.png"}, "did you mean '--output'?"},
+             Typed{{"render", "--jobs", "4"}, "did you mean '--threads'?"},
+             Typed{{"render", "-j4"}, "did you mean '--threads'?"},
+             Typed{{"render", "--format", "png"}, "extension"},
+         }) {
+        const CommandResult result =
+            run_candela(typed.words, {.input = "", .environment = {}, .directory = scratch_directory()});
+        INFO(typed.words[1] << ": " << result.err);
+        CHECK(result.exit_code == 2);
+        CHECK(holds(result.err, typed.hint));
+    }
+    CHECK(run_candela({"render", "-h"}).exit_code == 0);
+}
+
+TEST_CASE("--quiet may be said twice, by a person and by a program for them") {
+    const fs::path d = scratch_directory();
+    const CommandResult result = run_candela({"render", "-o", "a.png", "-q", "--quiet", "-q"},
+                                             {.input = "", .environment = {}, .directory = d});
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(result.err.empty());
+}
+
+TEST_CASE("the models in the help of candela plot can be plotted as they are printed") {
+    std::string help =
+        run_candela({"plot", "--help"}, {.input = "", .environment = {{"COLUMNS", "500"}}, .directory = {}})
+            .out;
+    int plotted = 0;
+    for (const std::string kind : {"reflection/", "light/"}) {
+        for (std::size_t at = help.find(kind); at != std::string::npos; at = help.find(kind, at + 1)) {
+            std::string model = help.substr(at, help.find_first_of(" ),\n", at) - at);
+            // A list of values has commas in it; a sentence ends after its last digit.
+            if (const auto colon = model.find(':'); colon != std::string::npos)
+                model = help.substr(at, help.find(' ', at) - at);
+            model.erase(model.find_last_not_of(".,:") + 1);
+            const CommandResult result = run_candela({"plot", model});
+            INFO(model << ": " << result.err);
+            CHECK(result.exit_code == 0);
+            ++plotted;
+        }
+    }
+    CHECK(plotted >= 3);
+}
