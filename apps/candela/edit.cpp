@@ -48,7 +48,7 @@ int run_edit(const std::vector<std::string>& arguments) {
 
     candela::Diagnostics diagnostics;
     const auto texts = candela::edited_files(request, changes, registry, diagnostics);
-    request.unsaved = texts;
+    for (const candela::TextChange& text : texts) request.unsaved[text.file] = text.after;
     request.ask = nullptr;
     // What only triangles tell: whether a light is inside an object, for one.
     if (!diagnostics.has_errors()) {
@@ -59,10 +59,10 @@ int run_edit(const std::vector<std::string>& arguments) {
     report(diagnostics);
     if (diagnostics.has_errors()) return static_cast<int>(exit_code_of(diagnostics));
     std::string lines;
-    for (const auto& [file, text] : texts)
-        lines += fmt::format("{}: changed\n", file.lexically_proximate(fs::current_path()).string());
+    for (const candela::TextChange& text : texts)
+        lines += fmt::format("{}: changed\n", text.file.lexically_proximate(fs::current_path()).string());
     if (texts.empty()) lines = "Nothing is changed: the files say this already.\n";
-    for (const auto& [file, text] : texts) candela::write_text_file(file, text);
+    candela::replace_texts(texts);
     say_afterwards([&] { return lines; });
     return 0;
 }

@@ -174,7 +174,7 @@ TEST_CASE("a picture that cannot be is an error before anything is rendered, and
     CHECK(run_candela({"render", "-o", (directory / "noextension").string()}).exit_code == 2);
     const CommandResult gone = run_candela({"render", "-o", (directory / "gone" / "a.png").string()});
     CHECK(gone.exit_code == 1);
-    CHECK(holds(gone.err, "No such file or directory"));
+    CHECK(holds(gone.err, "there is no folder"));
     fs::create_directory(directory / "dir.png");
     CHECK(holds(run_candela({"render", "-o", (directory / "dir.png").string()}).err, "is a directory"));
 }

@@ -1,6 +1,13 @@
 // candela edit: what it writes, and what it says where it writes nothing.
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <catch2/catch_test_macros.hpp>
+#include <csignal>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -36,7 +43,43 @@ Edited edit(const std::vector<std::string>& options) {
     return edited;
 }
 
+/// Lets a traced program run to its first call of fsync, does something, and lets it go on; false if it ends
+/// before that.
+bool act_before_sync(pid_t program, const std::function<void()>& act) {
+    int status = 0;
+    if (::waitpid(program, &status, 0) != program || !WIFSTOPPED(status)) return false;
+    if (::ptrace(PTRACE_SETOPTIONS, program, nullptr, PTRACE_O_TRACESYSGOOD) != 0) return false;
+    for (;;) {
+        if (::ptrace(PTRACE_SYSCALL, program, nullptr, nullptr) != 0) return false;
+        if (::waitpid(program, &status, 0) != program || !WIFSTOPPED(status)) return false;
+        __ptrace_syscall_info call{};
+        if (::ptrace(PTRACE_GET_SYSCALL_INFO, program, sizeof call, &call) <= 0) return false;
+        if (call.op != PTRACE_SYSCALL_INFO_ENTRY || call.entry.nr != SYS_fsync) continue;
+        act();
+        return ::ptrace(PTRACE_DETACH, program, nullptr, nullptr) == 0;
+    }
+}
+
 }  // namespace
+
+TEST_CASE("candela edit does not overwrite what somebody has saved since it read the file") {
+    const fs::path folder = scratch_directory();
+    const fs::path file = write_file(folder / "scene.toml", k_scene);
+    const std::string theirs = k_scene + "# Theirs.\n";
+    CommandSetup setup{.input = "", .environment = {}, .directory = folder};
+    setup.prepare = [] {
+        if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) ::_exit(125);
+    };
+    RunningProgram program({CANDELA_TEST_COMMAND, "edit", "scene.toml", "--change", "image.width=9"}, setup);
+    if (!act_before_sync(program.pid(), [&] { write_file(file, theirs); }))
+        SKIP("no program can be traced here");
+    const CommandResult result = program.wait();
+    INFO(result.err);
+    CHECK(result.exit_code == 1);
+    CHECK(holds(result.err, "scene.toml' was saved by another program meanwhile; not overwriting it"));
+    CHECK(read_file(file) == theirs);
+    CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
+}
 
 TEST_CASE("candela edit writes values into the file, and says its name") {
     const Edited edited = edit({"--change", "light.key.intensity=0.5", "--change=observer.position=[0,1,4]"});
@@ -95,4 +138,26 @@ TEST_CASE(
     INFO(result.err);
     CHECK(result.exit_code == 0);
     CHECK(read_file(file) == mark + "image = { width = 200, height = 50, samples = 4 }\n" + k_scene);
+}
+
+TEST_CASE("any number of objects, and of changes, is edited in one go") {
+    const fs::path folder = scratch_directory();
+    std::string scene = k_scene;
+    std::vector<std::string> words{"edit", "scene.toml"};
+    for (int i = 0; i < 300; ++i) {
+        const std::string name = "s" + std::to_string(i);
+        scene += "[[object]]\nname = \"" + name + "\"\ntype = \"sphere\"\nradius = 0.01\nposition = [" +
+                 std::to_string(-4 + 0.025 * i) + ", 2, 0]\n";
+        words.push_back("--change=object." + name + ".color=[" + std::to_string(i % 250) + ",9,9]");
+        words.push_back("--change=object." + name + ".radius=0.011");
+    }
+    const fs::path file = write_file(folder / "scene.toml", scene);
+    const CommandResult result = run_candela(words, {.input = "", .environment = {}, .directory = folder});
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    const std::string text = read_file(file);
+    CHECK(holds(text,
+                "name = \"s7\"\ntype = \"sphere\"\nradius = 0.011\nposition = [-3.825000, 2, 0]\ncolor = [7, "
+                "9, 9]\n"));
+    CHECK(holds(text, "color = [49, 9, 9]\n"));
 }

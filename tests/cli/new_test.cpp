@@ -92,7 +92,7 @@ TEST_CASE("new where no file can be is an error, and one name is enough") {
     const fs::path directory = scratch_directory();
     const CommandResult gone = run_candela({"new", "gone/scene.toml"}, in(directory));
     CHECK(gone.exit_code == 1);
-    CHECK(holds(gone.err, "No such file or directory"));
+    CHECK(holds(gone.err, "there is no folder"));
     fs::create_directory(directory / "directory");
     CHECK(run_candela({"new", "directory"}, in(directory)).exit_code == 1);
     const CommandResult forced = run_candela({"new", "directory", "--force"}, in(directory));

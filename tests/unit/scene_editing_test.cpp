@@ -39,7 +39,7 @@ std::string file_with(const fs::path& file, const Changes& changes) {
     INFO(diagnostics_text(diagnostics, false));
     REQUIRE_FALSE(diagnostics.has_errors());
     REQUIRE(texts.size() == 1);
-    return texts.begin()->second;
+    return texts.front().after;
 }
 
 std::string text_with(const std::string& text, const Changes& changes) {
@@ -147,8 +147,12 @@ TEST_CASE("a value in an included file is changed there") {
         candela::edited_files(request, settings_of({{"light.fill.intensity", "0.5"}, {"image.width", "64"}}),
                               test_registry(), diagnostics);
     REQUIRE(texts.size() == 2);
-    CHECK(texts.at(fs::canonical(included)) == light + "intensity = 0.5\n");
-    CHECK(texts.at(fs::canonical(file)).ends_with("\n[image]\nwidth = 64\n"));
+    const auto of = [&](const fs::path& path) {
+        return *std::ranges::find(texts, fs::canonical(path), &candela::TextChange::file);
+    };
+    CHECK(of(included).before == light);
+    CHECK(of(included).after == light + "intensity = 0.5\n");
+    CHECK(of(file).after.ends_with("\n[image]\nwidth = 64\n"));
     // Nothing has been written.
     CHECK(std::ifstream(included).peek() == '[');
 }
@@ -210,7 +214,7 @@ TEST_CASE("whatever the scene, a change in its file does what it does beside it,
         INFO(diagnostics_text(diagnostics, false) << text);
         REQUIRE(texts.size() == 1);
         ++changed;
-        std::istringstream before(text), after(texts.begin()->second);
+        std::istringstream before(text), after(texts.front().after);
         std::vector<std::string> old_lines, new_lines;
         for (std::string line; std::getline(before, line);) old_lines.push_back(line);
         for (std::string line; std::getline(after, line);) new_lines.push_back(line);

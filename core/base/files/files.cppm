@@ -31,11 +31,12 @@ enum class Durability : bool { durable, fast };
 /// A file being written atomically: nobody ever sees a partial file, and a failure, a kill or a crash of the
 /// machine leaves the previous contents. It has no name until it is complete, synced and closed, if the file
 /// system supports that; otherwise it is a temporary file in the same folder whose name begins with
-/// ".candela-". Symbolic links are followed; the new file has the permissions of the old one. "-", standard
-/// output, and anything that is not a regular file (a pipe, a device) is written to directly. With
-/// `Existing::kept`, there is an error if the file exists, also if it was made meanwhile. With
-/// `Links::not_followed`, a symbolic link is replaced by the file, and anything else that is not a regular
-/// file is an error. All members throw Error (failure). One thread at a time.
+/// ".candela-". Symbolic links are followed; the new file may be read, written and executed by whoever might
+/// do so with the old one, but is never set-user-ID, set-group-ID or sticky. "-", standard output, and
+/// anything that is not a regular file (a pipe, a device) is written to directly. With `Existing::kept`,
+/// there is an error if the file exists, also if it was made meanwhile. With `Links::not_followed`, a symbolic
+/// link is replaced by the file, and anything else that is not a regular file is an error. All members throw
+/// Error (failure). One thread at a time.
 class CANDELA_API OutputFile {
   public:
     explicit OutputFile(const std::filesystem::path& path, Existing existing = Existing::replaced,
@@ -51,7 +52,10 @@ class CANDELA_API OutputFile {
     bool is_random_access() const noexcept { return !target_.empty(); }
     /// Writes somewhere in the file, also beyond its end.
     void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
-    /// Moves the complete file to its destination. Call it once, after the last write().
+    /// Everything that may fail for want of space, after the last write(): the file is complete on the disk,
+    /// under a temporary name. Of several files, the first can be put in place when all are complete.
+    void complete();
+    /// Moves the complete file to its destination. Call it once, after the last write(), or complete().
     void finish(Durability durability = Durability::durable);
 
   private:
@@ -59,8 +63,10 @@ class CANDELA_API OutputFile {
 
     void sync();
     void close();
+    bool give_permissions();
+    void name_beside();
     void put_in_place(Durability durability);
-    void replace(bool is_there);
+    void rename_to_target();
     [[noreturn]] void fail_as_existing() const;
 
     std::string shown_;             // the path as given, for messages
@@ -118,6 +124,16 @@ CANDELA_API void write_text_file(const std::filesystem::path& path, std::string_
 /// Makes the folder `owned`, relative to `parent` and chosen by Candela, and the folders that both are in. No
 /// part of `owned` may be a symbolic link. Throws Error (failure).
 CANDELA_API void make_owned_folder(const std::filesystem::path& parent, const std::filesystem::path& owned);
+
+/// A file's text as it was read, and the one that is to replace it.
+struct TextChange {
+    std::filesystem::path file;
+    std::string before, after;
+};
+
+/// Replaces texts, all of them or none: if a file no longer holds what was read, another program has saved it
+/// meanwhile, and nothing is written. Throws Error (failure).
+CANDELA_API void replace_texts(std::span<const TextChange> changes);
 
 /// Removes the temporary files that exist at this moment; they will not be finished. For signal handlers
 /// (async-signal-safe). A program that never calls it leaves them behind only if a signal ends the process.

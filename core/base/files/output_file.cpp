@@ -16,6 +16,7 @@ module;
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 module candela.files;
 
@@ -27,6 +28,17 @@ namespace candela {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Where the folder is missing, "No such file or directory" would sound as if the file were to exist already.
+void require_folder_of(const std::string& shown) {
+    const fs::path folder = fs::path(shown).parent_path();
+    struct stat status{};
+    if (folder.empty() || ::stat(folder.c_str(), &status) == 0 || errno != ENOENT) return;
+    throw Error(ErrorCategory::failure,
+                fmt::format("'{}' cannot be written: there is no folder '{}'; make it first, or give another "
+                            "name",
+                            shown, folder.string()));
+}
 
 [[noreturn]] void fail(const std::string& shown, const char* what, int problem = errno) {
     throw Error(ErrorCategory::failure, fmt::format("'{}' {}: {}", shown, what, std::strerror(problem)));
@@ -119,6 +131,7 @@ OutputFile::OutputFile(const fs::path& path, Existing existing, Links links)
         return;
     }
     if (is_there && existing_ == Existing::kept) fail_as_existing();
+    if (!is_there) require_folder_of(shown_);
     target_ = links_ == Links::followed ? behind_links(path) : path;
     // Nobody may read the new version of a private file while it is being written; see put_in_place().
     const mode_t mode = is_there ? 0600 : 0666;
@@ -173,34 +186,55 @@ void OutputFile::fail_as_existing() const {
     throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and is not to be replaced", shown_));
 }
 
-void OutputFile::put_in_place(Durability durability) {
+/// Whether there is a file that will be replaced, of which the new one gets the permissions.
+bool OutputFile::give_permissions() {
     struct stat before{};
     const bool is_there = found(target_, links_, before);
     if (is_there && existing_ == Existing::kept) fail_as_existing();
-    if (is_there && ::fchmod(descriptor_, before.st_mode & 07777) != 0) {
+    // What set-user-ID allowed a program to do, its replacement has not earned.
+    if (is_there && ::fchmod(descriptor_, before.st_mode & 0777) != 0)
         fail(shown_, "cannot be given its rights");
-    }
-    if (durability == Durability::durable) sync();
-    replace(is_there);
+    return is_there;
 }
 
-void OutputFile::replace(bool is_there) {
-    if (beside_ == nullptr) {
+void OutputFile::name_beside() {
+    if (beside_ != nullptr) return close();
+    const Handle handle(descriptor_);
+    if (!handle.is_open()) fail(shown_, "cannot be put in its place");
+    close();
+    beside_ = std::make_unique<NameBeside>(directory_of(target_));
+    if (!handle.name(beside_->c_str())) fail(shown_, "cannot be put in its place");
+}
+
+void OutputFile::complete() {
+    if (target_.empty() || descriptor_ < 0) return;
+    give_permissions();
+    sync();
+    name_beside();
+}
+
+void OutputFile::put_in_place(Durability durability) {
+    if (descriptor_ < 0) return rename_to_target();
+    const bool is_there = give_permissions();
+    if (durability == Durability::durable) sync();
+    if (beside_ == nullptr && (!is_there || existing_ == Existing::kept)) {
         const Handle handle(descriptor_);
         if (!handle.is_open()) fail(shown_, "cannot be put in its place");
         close();
-        if (!is_there || existing_ == Existing::kept) {
-            if (handle.name(target_.c_str())) return;
-            if (errno != EEXIST) fail(shown_, "cannot be put in its place");
-            if (existing_ == Existing::kept) fail_as_existing();
-        }
-        // Only an unused name can be given: between this and the renaming, a kill leaves a (complete) file
-        // beside the old one.
+        if (handle.name(target_.c_str())) return;
+        if (errno != EEXIST) fail(shown_, "cannot be put in its place");
+        if (existing_ == Existing::kept) fail_as_existing();
         beside_ = std::make_unique<NameBeside>(directory_of(target_));
         if (!handle.name(beside_->c_str())) fail(shown_, "cannot be put in its place");
     } else {
-        close();
+        // Only an unused name can be given: between this and the renaming, a kill leaves a (complete) file
+        // beside the old one.
+        name_beside();
     }
+    rename_to_target();
+}
+
+void OutputFile::rename_to_target() {
     if (existing_ == Existing::kept) {
         if (::link(beside_->c_str(), target_.c_str()) == 0) return;
         if (errno == EEXIST) fail_as_existing();
@@ -213,6 +247,24 @@ void write_text_file(const fs::path& path, std::string_view text, Existing exist
     OutputFile file(path, existing);
     file.write(text);
     file.finish();
+}
+
+void replace_texts(std::span<const TextChange> changes) {
+    std::vector<std::unique_ptr<OutputFile>> files;
+    for (const TextChange& change : changes) {
+        files.push_back(std::make_unique<OutputFile>(change.file));
+        files.back()->write(change.after);
+        files.back()->complete();
+    }
+    for (const TextChange& change : changes) {
+        if (read_text_file(change.file) != change.before)
+            throw Error(
+                ErrorCategory::failure,
+                fmt::format("'{}' was saved by another program meanwhile; not overwriting it. Run the "
+                            "command again to change the new version",
+                            change.file.string()));
+    }
+    for (const auto& file : files) file->finish();
 }
 
 }  // namespace candela

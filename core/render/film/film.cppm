@@ -92,6 +92,10 @@ CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
                                const std::filesystem::path& path, Registry& registry,
                                Existing existing = Existing::replaced, Links links = Links::followed);
 
+/// Same, into a file that the caller finishes.
+CANDELA_API void write_picture(const Film& film, const PictureFormat& format, OutputFile& file,
+                               Registry& registry);
+
 /// Whether write_rows() has no need of the whole picture in memory.
 CANDELA_API bool can_write_rows(const PictureFormat& format, Registry& registry);
 

@@ -93,12 +93,11 @@ std::unique_ptr<ImageFormat> writer_of(const PictureFormat& format, Registry& re
     return registry.create<ImageFormat>(format.plugin, format.parameters, encoding);
 }
 
-/// A file of what `call` makes the format's plugin write.
+/// Has the format's plugin write what `call` makes it write.
 template <class Call>
-void write(const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing,
-           ColorEncoding encoding, const Call& call, Links links = Links::followed) {
+void write(const PictureFormat& format, OutputFile& file, Registry& registry, ColorEncoding encoding,
+           const Call& call) {
     const auto writer = writer_of(format, registry, encoding);
-    OutputFile file(path, existing, links);
     FileSink stream(file);
     RegularFileSink regular(file);
     ByteSink& sink = file.is_random_access() ? static_cast<ByteSink&>(regular) : stream;
@@ -107,6 +106,14 @@ void write(const PictureFormat& format, const fs::path& path, Registry& registry
     } catch (...) {
         rethrow_as_plugin_error(PluginKind::image, format.plugin);
     }
+}
+
+/// A file of that.
+template <class Call>
+void write(const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing,
+           ColorEncoding encoding, const Call& call) {
+    OutputFile file(path, existing);
+    write(format, file, registry, encoding, call);
     file.finish();
 }
 
@@ -147,10 +154,15 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
 
 void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry,
                    Existing existing, Links links) {
-    const auto call = [&](const ImageFormat& writer, ByteSink& sink) {
+    OutputFile file(path, existing, links);
+    write_picture(film, format, file, registry);
+    file.finish();
+}
+
+void write_picture(const Film& film, const PictureFormat& format, OutputFile& file, Registry& registry) {
+    write(format, file, registry, film.view().encoding, [&](const ImageFormat& writer, ByteSink& sink) {
         writer.write(film.view(), format.extension.c_str(), sink);
-    };
-    write(format, path, registry, existing, film.view().encoding, call, links);
+    });
 }
 
 bool can_write_rows(const PictureFormat& format, Registry& registry) {

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 class Editor {
   public:
     Editor(const MergedDocument& document, Diagnostics& diagnostics)
-        : document_(document), diagnostics_(diagnostics) {}
+        : document_(document), diagnostics_(diagnostics), index_(document.root) {}
 
     /// The scene with this change is valid: its path leads somewhere.
     void change(const Setting& setting) {
@@ -42,7 +42,7 @@ class Editor {
         std::size_t next = 0;
         if (parts[0] == "light" || parts[0] == "object") {
             const ArrayNode& all = *document_.root.find(parts[0])->node.array();
-            const Node& element = all[*index_of(all, parts[1])];
+            const Node& element = all[*index_.find(parts[0], parts[1])];
             place = {.holder = &element, .table = element.table()};
             next = 2;
         }
@@ -51,8 +51,8 @@ class Editor {
         write(place, parts.back(), toml_text(*value));
     }
 
-    std::map<fs::path, std::string> texts() {
-        std::map<fs::path, std::string> result;
+    std::vector<TextChange> texts() {
+        std::vector<TextChange> result;
         for (const auto& [where, entries] : additions_) {
             const auto& [file, holder] = where;
             edits_[file].push_back(insertion(
@@ -64,9 +64,9 @@ class Editor {
             edits_[file].push_back(new_table(text_of(file), name, entries));
         }
         for (const auto& [file, edits] : edits_) {
-            std::string text = edited(text_of(file), edits);
-            if (text == text_of(file)) continue;
-            result[canonical_path(file)] = std::move(text);
+            const std::string& before = text_of(file).text();
+            std::string after = edited(before, edits);
+            if (after != before) result.push_back({canonical_path(file), before, std::move(after)});
         }
         return result;
     }
@@ -79,12 +79,12 @@ class Editor {
         std::string key{};                 // from the holder on, with a dot at its end
     };
 
-    const std::string& text_of(const std::string& file) {
-        const auto [found, is_new] = texts_.try_emplace(file);
-        if (is_new) {
+    const SourceText& text_of(const std::string& file) {
+        auto found = texts_.find(file);
+        if (found == texts_.end()) {
             auto text = read_text_file(file);
             if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file));
-            found->second = *std::move(text);
+            found = texts_.emplace(file, *std::move(text)).first;
         }
         return found->second;
     }
@@ -125,7 +125,8 @@ class Editor {
 
     const MergedDocument& document_;
     Diagnostics& diagnostics_;
-    std::map<std::string, std::string> texts_;            // of files, by the names that diagnostics show
+    ElementIndex index_;
+    std::map<std::string, SourceText> texts_;             // of files, by the names that diagnostics show
     std::map<std::string, std::vector<TextEdit>> edits_;  // likewise
     std::map<std::pair<std::string, const Node*>, Entries> additions_;  // to a file's table, or to the file
     std::map<std::string, Entries> new_tables_;
@@ -134,11 +135,12 @@ class Editor {
 /// The last one for each path. Names and indices of the same light or object count as the same.
 std::vector<Setting> last_ones(const std::vector<Setting>& changes, const MergedDocument& document) {
     std::map<std::vector<std::string>, std::size_t> last;
+    const ElementIndex elements(document.root);
     for (std::size_t i = 0; i < changes.size(); ++i) {
         std::vector<std::string> parts = parts_of(changes[i].path);
         const TableNode::Entry* const entry = document.root.find(parts[0]);
         if ((parts[0] == "light" || parts[0] == "object") && entry != nullptr)
-            parts[1] = std::to_string(*index_of(*entry->node.array(), parts[1]));
+            parts[1] = std::to_string(*elements.find(parts[0], parts[1]));
         last[std::move(parts)] = i;
     }
     std::set<std::size_t> in_order;
@@ -157,8 +159,8 @@ std::optional<std::string> text_of_scene(const SceneRequest& request, Registry& 
 
 }  // namespace
 
-std::map<fs::path, std::string> edited_files(const SceneRequest& request, const std::vector<Setting>& changes,
-                                             Registry& registry, Diagnostics& diagnostics) {
+std::vector<TextChange> edited_files(const SceneRequest& request, const std::vector<Setting>& changes,
+                                     Registry& registry, Diagnostics& diagnostics) {
     SceneRequest wanted = request;
     wanted.ask = nullptr;
     wanted.settings.insert(wanted.settings.end(), changes.begin(), changes.end());
@@ -172,11 +174,11 @@ std::map<fs::path, std::string> edited_files(const SceneRequest& request, const 
     if (!document) throw Error(ErrorCategory::failure, "a file of the scene is being changed");
     Editor editor(*document, diagnostics);
     for (const Setting& change : last_ones(changes, *document)) editor.change(change);
-    std::map<fs::path, std::string> texts = editor.texts();
+    std::vector<TextChange> texts = editor.texts();
 
     SceneRequest saved = request;
     saved.ask = nullptr;
-    saved.unsaved = texts;
+    for (const TextChange& text : texts) saved.unsaved[text.file] = text.after;
     Diagnostics found;
     if (text_of_scene(saved, registry, found) != goal) {
         throw Error(

@@ -409,10 +409,12 @@ std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagn
     merged.files = gatherer.files();
     report_too_many(merged.root, diagnostics);
     if (diagnostics.has_errors()) return std::nullopt;
+    ElementIndex index(merged.root);
     for (const Setting& setting : request.settings) {
         const SourcePlace place{setting.origin, 0, 0, 0};
         if (auto value = parse_value(setting.value, place, diagnostics))
-            set_value(merged.root, setting.path, *std::move(value), place, diagnostics);
+            set_value(merged.root, setting.path, *std::move(value), place, diagnostics, &index);
+        if (setting.path.ends_with("name")) index = ElementIndex(merged.root);
     }
     return merged;
 }

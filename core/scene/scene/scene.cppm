@@ -19,6 +19,7 @@ export import :content;
 export import :request;
 export import :schema;
 import candela.diagnostics;
+import candela.files;
 import candela.registry;
 
 export namespace candela {
@@ -68,15 +69,14 @@ CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registr
 /// objects.
 CANDELA_API std::string scene_text(const Scene& scene);
 
-/// The texts of a scene's files with `changes` written into them, by path, of those that differ: values are
+/// The texts of a scene's files with `changes` written into them, of those that differ: values are
 /// replaced where they stand or added to their tables; comments, order and everything else stay. The files
 /// are not touched. Reports what is wrong with the scene or the changes, and then returns nothing. Throws
 /// Error (bad_request) if a file that has the changes would not make the scene that `request` with them in
 /// its settings is: if a setting or an object's own model prevails, for one.
-CANDELA_API std::map<std::filesystem::path, std::string> edited_files(const SceneRequest& request,
-                                                                      const std::vector<Setting>& changes,
-                                                                      Registry& registry,
-                                                                      Diagnostics& diagnostics);
+CANDELA_API std::vector<TextChange> edited_files(const SceneRequest& request,
+                                                 const std::vector<Setting>& changes, Registry& registry,
+                                                 Diagnostics& diagnostics);
 
 /// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection
 /// (R12, R14).

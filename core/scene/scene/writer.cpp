@@ -6,6 +6,7 @@ module;
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,10 +77,9 @@ bool is_plain(const Model& model) { return model.parameters == ParamSet(model.pa
 
 /// The model that most objects have, so that few need to name one.
 const Model& most_common(const std::vector<Object>& objects, Model Object::* model) {
-    const auto count = [&](const Object& object) {
-        return std::ranges::count_if(
-            objects, [&](const Object& o) { return (o.*model).name == (object.*model).name; });
-    };
+    std::map<std::string_view, std::size_t> counts;
+    for (const Object& object : objects) ++counts[(object.*model).name];
+    const auto count = [&](const Object& object) { return counts.at((object.*model).name); };
     return (*std::ranges::max_element(objects, {}, count)).*model;
 }
 

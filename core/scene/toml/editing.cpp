@@ -22,18 +22,9 @@ namespace candela {
 
 namespace {
 
-/// Where a line and a column are, which count from 1, in characters. A byte order mark is no column.
-std::size_t offset_of(std::string_view text, const SourcePlace& place) {
-    constexpr std::string_view k_mark = "\xef\xbb\xbf";
-    std::size_t at = text.starts_with(k_mark) ? k_mark.size() : 0;
-    for (int line = 1; line < place.line; ++line) at = std::min(text.find('\n', at), text.size() - 1) + 1;
-    for (int column = 1; column < place.column; ++column) at += first_character(text.substr(at)).size();
-    return at;
-}
-
-char character_at(std::string_view text, const SourcePlace& place) {
-    const std::size_t at = offset_of(text, place);
-    return at < text.size() ? text[at] : '\0';
+char character_at(const SourceText& source, const SourcePlace& place) {
+    const std::size_t at = source.offset_of(place);
+    return at < source.text().size() ? source.text()[at] : '\0';
 }
 
 /// The end of the string that begins with the quote at `begin`.
@@ -84,11 +75,7 @@ std::size_t end_of_line(std::string_view text, std::size_t at) {
     return end > at && text[end - 1] == '\r' ? end - 1 : end;
 }
 
-std::string_view line_break_of(std::string_view text) {
-    return text.find("\r\n") != std::string_view::npos ? "\r\n" : "\n";
-}
-
-bool is_array_of_tables(std::string_view text, const Node& node) {
+bool is_array_of_tables(const SourceText& text, const Node& node) {
     const ArrayNode* const array = node.array();
     return array != nullptr && !array->empty() && array->front().table() != nullptr &&
            character_at(text, array->front().place) == '[';
@@ -99,17 +86,17 @@ struct LastEntry {
 };
 
 /// The last entry that is written in a table's own lines, and not under a header of its own.
-LastEntry last_entry(std::string_view text, const TableNode& table) {
+LastEntry last_entry(const SourceText& text, const TableNode& table) {
     LastEntry last;
     for (const TableNode::Entry& entry : table.entries) {
-        LastEntry found{offset_of(text, entry.key_place), 0};
+        LastEntry found{text.offset_of(entry.key_place), 0};
         const TableNode* const inner = entry.node.table();
         if (inner != nullptr && character_at(text, entry.node.place) == '[') continue;
         if (is_array_of_tables(text, entry.node)) continue;
         if (inner != nullptr && character_at(text, entry.node.place) != '{') {
             found = last_entry(text, *inner);
         } else {
-            found.end = end_of_value(text, offset_of(text, entry.node.place));
+            found.end = end_of_value(text.text(), text.offset_of(entry.node.place));
         }
         if (found.end > last.end) last = found;
     }
@@ -137,33 +124,57 @@ TextEdit insertion_into_braces(std::string_view text, std::size_t begin, const E
     return {at, at, (is_empty ? "" : ", ") + joined(entries, ", ")};
 }
 
+/// No column of the first line.
+constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
+
 }  // namespace
 
-bool has_lines_of_its_own(std::string_view text, const Node& table) {
+SourceText::SourceText(std::string text)
+    : text_(std::move(text)),
+      line_break_(text_.find("\r\n") != std::string::npos ? "\r\n" : "\n"),
+      line_begins_{text_.starts_with(k_byte_order_mark) ? k_byte_order_mark.size() : 0} {
+    for (std::size_t at = text_.find('\n'); at != std::string::npos; at = text_.find('\n', at + 1))
+        line_begins_.push_back(at + 1);
+}
+
+std::size_t SourceText::offset_of(const SourcePlace& place) const {
+    const auto line = static_cast<std::size_t>(std::max(place.line, 1) - 1);
+    std::size_t at = line < line_begins_.size() ? line_begins_[line] : text_.size();
+    const std::string_view text = text_;
+    for (int column = 1; column < place.column; ++column) at += first_character(text.substr(at)).size();
+    return at;
+}
+
+bool has_lines_of_its_own(const SourceText& text, const Node& table) {
     const char first = character_at(text, table.place);
     return first == '[' || first == '{';
 }
 
-TextEdit replacement(std::string_view text, const Node& value, const std::string& by) {
-    const std::size_t begin = offset_of(text, value.place);
-    return {begin, end_of_value(text, begin), by};
+TextEdit replacement(const SourceText& text, const Node& value, const std::string& by) {
+    const std::size_t begin = text.offset_of(value.place);
+    return {begin, end_of_value(text.text(), begin), by};
 }
 
-TextEdit insertion(std::string_view text, const TableNode& table, const SourcePlace* header,
+TextEdit insertion(const SourceText& source, const TableNode& table, const SourcePlace* header,
                    const Entries& entries) {
-    if (header != nullptr && character_at(text, *header) == '{')
-        return insertion_into_braces(text, offset_of(text, *header), entries);
-    const std::string line_break(line_break_of(text));
-    const LastEntry last = last_entry(text, table);
-    if (last.end == 0 && header == nullptr) return {0, 0, joined(entries, line_break) + line_break};
-    const std::size_t line_end = end_of_line(text, last.end > 0 ? last.end : offset_of(text, *header));
+    const std::string_view text = source.text();
+    if (header != nullptr && character_at(source, *header) == '{')
+        return insertion_into_braces(text, source.offset_of(*header), entries);
+    const std::string line_break(source.line_break());
+    const LastEntry last = last_entry(source, table);
+    if (last.end == 0 && header == nullptr) {
+        const std::size_t begin = source.offset_of({});
+        return {begin, begin, joined(entries, line_break) + line_break};
+    }
+    const std::size_t line_end = end_of_line(text, last.end > 0 ? last.end : source.offset_of(*header));
     const std::string before =
         line_break + std::string(indentation_at(text, last.end > 0 ? last.begin : line_end));
     return {line_end, line_end, before + joined(entries, before)};
 }
 
-TextEdit new_table(std::string_view text, const std::string& name, const Entries& entries) {
-    const std::string line_break(line_break_of(text));
+TextEdit new_table(const SourceText& source, const std::string& name, const Entries& entries) {
+    const std::string& text = source.text();
+    const std::string line_break(source.line_break());
     const std::string before = text.empty() || text.ends_with('\n') ? "" : line_break;
     return {text.size(), text.size(),
             fmt::format("{0}{1}[{2}]{1}{3}{1}", before, line_break, name, joined(entries, line_break))};

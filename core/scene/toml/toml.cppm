@@ -104,22 +104,37 @@ struct TextEdit {
     std::string text;
 };
 
-// Edits of the text that a document was parsed from.
+/// The text that a document was parsed from, to be edited.
+class CANDELA_API SourceText {
+  public:
+    explicit SourceText(std::string text);
+
+    const std::string& text() const noexcept { return text_; }
+    /// "\r\n" if there is one, else "\n".
+    std::string_view line_break() const noexcept { return line_break_; }
+    /// Where a line and a column are, which count from 1, in characters.
+    std::size_t offset_of(const SourcePlace& place) const;
+
+  private:
+    std::string text_;
+    std::string_view line_break_;
+    std::vector<std::size_t> line_begins_;
+};
 
 /// Whether a table has a header or braces, instead of being made by dotted keys in the lines of another.
-CANDELA_API bool has_lines_of_its_own(std::string_view text, const Node& table);
+CANDELA_API bool has_lines_of_its_own(const SourceText& text, const Node& table);
 
-CANDELA_API TextEdit replacement(std::string_view text, const Node& value, const std::string& by);
+CANDELA_API TextEdit replacement(const SourceText& text, const Node& value, const std::string& by);
 
 /// Keys, which may be dotted, and values as TOML.
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 /// Adds entries after the last one of a table, or of the document, which has no header.
-CANDELA_API TextEdit insertion(std::string_view text, const TableNode& table, const SourcePlace* header,
+CANDELA_API TextEdit insertion(const SourceText& text, const TableNode& table, const SourcePlace* header,
                                const Entries& entries);
 
 /// Adds a table at the end.
-CANDELA_API TextEdit new_table(std::string_view text, const std::string& name, const Entries& entries);
+CANDELA_API TextEdit new_table(const SourceText& text, const std::string& name, const Entries& entries);
 
 /// Applies edits, those at one place in their order. Throws Error (bad_request) if two overlap.
 CANDELA_API std::string edited(std::string_view text, const std::vector<TextEdit>& edits);
