@@ -16,9 +16,9 @@
 #include "frame_record.h"
 #include "frame_writer.h"
 #include "output_folder.h"
+#include "outputs.h"
 #include "reporting.h"
 #include "stopwatch.h"
-#include "task_journal.h"
 #include "temporary_folder.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -52,8 +52,7 @@ class FrameRenderer {
     bool render(int frame, const fs::path& file, bool is_forced) {
         candela::Diagnostics known;  // reported when all frames were checked
         const candela::SceneDraft draft = frames_.draft(frame, known);
-        require_no_input(file.string(), candela::input_files(draft), "the files that the scene is made from",
-                         "give the frames another name");
+        require_no_scene_file(file.string(), candela::input_files(draft), "the frames");
         const std::string inputs = fingerprints_.of(draft);
         if (!is_forced && is_up_to_date(file, inputs, candela::Links::not_followed)) return false;
         const candela::CompiledScene* const scene = compiler_.compile(draft, known, threads_);
@@ -125,7 +124,7 @@ int animate(const CommandLine& line) {
     if (frames) numbers = checked_frames_from(line, *frames, registry, diagnostics, threads);
     report(diagnostics);
     if (!frames || diagnostics.has_errors()) return static_cast<int>(exit_code_of(diagnostics));
-    require_no_input_among(outputs, *frames, numbers.front());
+    require_no_input_among(outputs, *frames, numbers);
 
     std::optional<TemporaryFolder> temporary;
     std::optional<FramePattern> pattern = outputs.frames;
@@ -173,8 +172,7 @@ int run_animate(const std::vector<std::string>& arguments) {
     line.options()("resume", "leave alone frames that are up to date (the default)")(
         "force", "render all frames again")("threads", po::value<int>()->value_name("N"),
                                             "threads to use; default: all cores");
-    add_journal_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
-    return with_journal(line, [&] { return animate(line); });
+    return animate(line);
 }

@@ -4,6 +4,7 @@
 
 #include "compiling.h"
 #include "film_encoding.h"
+#include "outputs.h"
 #include "picture_format.h"
 
 namespace po = boost::program_options;
@@ -65,10 +66,11 @@ std::vector<int> checked_frames_from(const CommandLine& line, candela::SceneFram
     return numbers;
 }
 
-void require_no_input_among(const AnimationOutputs& outputs, candela::SceneFrames& frames, int frame) {
+void require_no_input_among(const AnimationOutputs& outputs, candela::SceneFrames& frames,
+                            const std::vector<int>& numbers) {
     candela::Diagnostics known;
-    const auto inputs = candela::input_files(frames.draft(frame, known));
-    for (const fs::path& film : outputs.films)
-        require_no_input(film.string(), inputs, "the files that the scene is made from",
-                         "give the film another name");
+    const auto inputs = candela::input_files(frames.draft(numbers.front(), known));
+    for (std::size_t i = 0; outputs.frames && i < numbers.size(); ++i)
+        require_no_scene_file(outputs.frames->file_of(numbers[i]).string(), inputs, "the frames");
+    for (const fs::path& film : outputs.films) require_no_scene_file(film.string(), inputs, "the film");
 }

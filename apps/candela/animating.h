@@ -37,5 +37,7 @@ std::vector<int> checked_frames_from(const CommandLine& line, candela::SceneFram
                                      candela::Registry& registry, candela::Diagnostics& diagnostics,
                                      int threads);
 
-/// Throws candela::Error (bad_request) where a film would replace a file that the scene is made from.
-void require_no_input_among(const AnimationOutputs& outputs, candela::SceneFrames& frames, int frame);
+/// Throws candela::Error (bad_request) where a film, or one of these frames, would replace a file that the
+/// scene is made from.
+void require_no_input_among(const AnimationOutputs& outputs, candela::SceneFrames& frames,
+                            const std::vector<int>& numbers);

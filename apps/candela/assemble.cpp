@@ -18,7 +18,6 @@
 #include "picture_parts.h"
 #include "reporting.h"
 #include "stopwatch.h"
-#include "task_journal.h"
 #include "terminal.h"
 #include "verbs.h"
 
@@ -186,7 +185,6 @@ int run_assemble(const std::vector<std::string>& arguments) {
                                                             "threads to use; default: all cores");
     add_format_option(line);
     add_plugin_options(line);
-    add_journal_option(line);
     if (!line.parse(arguments)) return 0;
-    return with_journal(line, [&] { return assemble(line); });
+    return assemble(line);
 }

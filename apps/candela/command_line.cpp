@@ -325,20 +325,3 @@ std::vector<std::string> words_of(const std::string& list) {
     }
     return words;
 }
-
-void require_no_terminal(const std::string& output, const std::string& what) {
-    if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("-o - would print {} on this terminal; send it to a file or a pipe", what));
-    }
-}
-
-void require_no_input(const std::string& output, const std::vector<std::filesystem::path>& inputs,
-                      const std::string& inputs_are, const std::string& remedy) {
-    for (const std::filesystem::path& input : inputs) {
-        std::error_code problem;
-        if (std::filesystem::equivalent(input, output, problem))
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("'{}' is one of {}; {}", output, inputs_are, remedy));
-    }
-}

@@ -78,11 +78,3 @@ int count_from(const CommandLine& line, const std::string& option, int most);
 
 /// What --threads says; 0 where it is not given. Throws Error (bad_request).
 int threads_from(const CommandLine& line);
-
-/// Throws Error (bad_request) where `output` is "-", standard output, and that is a terminal.
-void require_no_terminal(const std::string& output, const std::string& what = "a PNG");
-
-/// Throws Error (bad_request) where `output` is the file of one of `inputs`, by whatever path: "'a.png' is
-/// one of `inputs_are`; `remedy`".
-void require_no_input(const std::string& output, const std::vector<std::filesystem::path>& inputs,
-                      const std::string& inputs_are, const std::string& remedy);

@@ -19,6 +19,7 @@
 #include "contact_sheet.h"
 #include "exit_code.h"
 #include "json/json.h"
+#include "outputs.h"
 #include "picture_comparison/differences.h"
 #include "picture_format.h"
 #include "reporting.h"
@@ -171,9 +172,7 @@ class PaneRenderer {
     std::optional<candela::Film> film(const std::vector<Variant>& variants, const std::string& label) {
         candela::Diagnostics diagnostics;
         const auto draft = candela::draft_scene(varied(request_, variants), registry_, diagnostics);
-        if (draft && output_ != "-")
-            require_no_input(output_, candela::input_files(*draft), "the files that the scene is made from",
-                             "give the sheet another name");
+        if (draft) require_no_scene_file(output_, candela::input_files(*draft), "the sheet");
         const auto compiled = draft ? compile_scene(*draft, registry_, diagnostics) : std::nullopt;
         if (has_news(diagnostics) || !compiled) report(diagnostics);
         if (!compiled) {
@@ -231,6 +230,7 @@ int run_compare(const std::vector<std::string>& arguments) {
         "json", "print on standard output what is where, and the differences");
     add_scene_options(line);
     add_format_option(line);
+    add_no_clobber_option(line);
     if (!line.parse(arguments)) return 0;
 
     const std::vector<Axis> axes = axes_from(line);
@@ -251,6 +251,8 @@ int run_compare(const std::vector<std::string>& arguments) {
     if (output == "-" && line.has("json"))
         throw Error(ErrorCategory::bad_request, "standard output is either the sheet or JSON");
     require_no_terminal(output);
+    const candela::Existing existing = existing_from(line);
+    require_free(output, existing);
     const auto wanted_columns = columns_from(line, all.size());
     candela::Registry registry = registry_from(line);
     const candela::PictureFormat format = picture_format_from(line, output, registry);
@@ -279,7 +281,7 @@ int run_compare(const std::vector<std::string>& arguments) {
                        format.pixels, renderer.encoding());
     for (std::size_t i = 0; i < panes.size(); ++i)
         sheet.put(static_cast<int>(i), panes[i].film, panes[i].label);
-    candela::write_picture(sheet.film(), format, output, registry);
+    candela::write_picture(sheet.film(), format, output, registry, existing);
     if (line.has("json")) std::cout << json_of(panes, columns) << '\n';
     say_afterwards([&] {
         return fmt::format("{}: {} pictures of {} x {}\n", output == "-" ? "sheet" : output, panes.size(),

@@ -20,6 +20,7 @@
 #include "exercise/exercise_page.h"
 #include "exercises.h"
 #include "named_model.h"
+#include "outputs.h"
 #include "reporting.h"
 
 import candela.arrays;
@@ -248,6 +249,7 @@ int run_exercise_new(const std::vector<std::string>& arguments) {
     line.options()("blank", po::value<std::string>()->value_name("FUNCTION"),
                    "the function of the kernel: reflect, reflect_ambient, or any other")(
         "output,o", po::value<std::string>()->value_name("FILE"), "the page; default: MODEL-FUNCTION.html");
+    add_no_clobber_option(line);
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> models = line.all("model");
@@ -266,8 +268,10 @@ int run_exercise_new(const std::vector<std::string>& arguments) {
             : fmt::format("{}-{}.html", exercise.plugin->manifest.name,
                           exercise.function.substr(
                               std::string(exercise.plugin->descriptor->kernel.prefix).size() + 1));
+    const candela::Existing existing = existing_from(line);
+    require_free(output, existing);
     const std::string page = page_for(exercise, registry);
-    candela::write_text_file(output, page);
+    candela::write_text_file(output, page, existing);
     say_afterwards([&] { return fmt::format("{}: {}\n", output, candela::size_text(page.size())); });
     return 0;
 }

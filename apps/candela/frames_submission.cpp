@@ -58,7 +58,7 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
     std::vector<int> numbers;
     if (frames) numbers = checked_frames_from(line, *frames, registry, diagnostics, 0);
     if (!frames || diagnostics.has_errors()) return std::nullopt;
-    require_no_input_among(outputs, *frames, numbers.front());
+    require_no_input_among(outputs, *frames, numbers);
 
     const FramePattern& pattern = *outputs.frames;
     Submission job{.plan = {},
@@ -70,10 +70,7 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
     job.plan.output = pattern.text();
     Words common = with(common_words(line, "animate", has_asked), {"--output=" + pattern.text()});
     if (const int step = line.get<int>("step"); step > 1) common.push_back(fmt::format("--step={}", step));
-    const auto frames_words = [&](int first, int last, const std::string& task) {
-        return Words{fmt::format("--frames={}..{}", first, last),
-                     "--journal=" + job.folder.journal_of(task).string()};
-    };
+    const auto frames_word = [](int first, int last) { return fmt::format("--frames={}..{}", first, last); };
     const std::size_t chunk = frames_per_task(line, numbers.size());
     InputFingerprints fingerprints(registry, format);
     for (std::size_t begin = 0; begin < numbers.size(); begin += chunk) {
@@ -84,18 +81,16 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
             task.files.push_back(
                 {pattern.file_of(numbers[i]), fingerprints.of(frames->draft(numbers[i], known))});
         }
-        Words words = with(common, {fmt::format("--threads={}", threads)});
-        for (const std::string& word : frames_words(numbers[begin], numbers[end - 1], task.name))
-            words.push_back(word);
-        job.commands.push_back(std::move(words));
+        const Words words = with(
+            common, {fmt::format("--threads={}", threads), frames_word(numbers[begin], numbers[end - 1])});
+        job.commands.push_back(as_task(words, job.folder, task.name));
         job.plan.tasks.push_back(std::move(task));
     }
     job.plan.results = outputs.films;
     if (!outputs.films.empty()) {
-        job.last = common;
+        job.last = as_task(common, job.folder, k_last_task);
         for (const fs::path& film : outputs.films) job.last.push_back("--output=" + film.string());
-        for (const std::string& word : frames_words(numbers.front(), numbers.back(), k_last_task))
-            job.last.push_back(word);
+        job.last.push_back(frames_word(numbers.front(), numbers.back()));
     }
     return job;
 }

@@ -10,6 +10,7 @@
 #include "exit_code.h"
 #include "generating.h"
 #include "json/json.h"
+#include "outputs.h"
 #include "reporting.h"
 #include "targets.h"
 #include "terminal.h"
@@ -33,8 +34,7 @@ namespace {
 
 /// For what makes programs anew when something changes.
 void write_inputs(const SceneToExport& scene, const std::string& file) {
-    require_no_input(file, scene.inputs, "the files that the scene is made from",
-                     "give --inputs another name");
+    require_no_scene_file(file, scene.inputs, "--inputs");
     Json names = Json::array();
     for (const fs::path& input : scene.inputs) names.push_back(fs::absolute(input).string());
     candela::write_text_file(file, json_text(names, 2) + "\n");

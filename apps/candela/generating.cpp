@@ -9,6 +9,7 @@
 
 #include "compiling.h"
 #include "output_folder.h"
+#include "outputs.h"
 #include "reporting.h"
 
 namespace po = boost::program_options;

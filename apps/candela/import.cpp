@@ -11,7 +11,9 @@
 #include <system_error>
 
 #include "command_line.h"
+#include "import/model_parts.h"
 #include "output_folder.h"
+#include "outputs.h"
 #include "reporting.h"
 #include "verbs.h"
 
@@ -39,6 +41,30 @@ std::string name_in(const fs::path& folder, const fs::path& file) {
     return relative.empty() ? fs::absolute(file).string() : relative.generic_string();
 }
 
+/// Neither the model nor what it consists of.
+void require_no_part_of(const fs::path& model, const fs::path& output) {
+    require_no_scene_file(output.string(), {model}, "the scene");
+    std::error_code problem;
+    if (fs::exists(output, problem) && importing::is_part_of(model, output))
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is a part of the model '{}'; give the scene another name",
+                                output.string(), model.string()));
+}
+
+/// Pictures that are there may be somebody's, unless they are the same.
+void require_place_for(const std::map<std::string, std::string>& pictures, const fs::path& folder,
+                       const fs::path& model, bool is_forced) {
+    for (const auto& [name, content] : pictures) {
+        const fs::path file = folder / name;
+        require_no_part_of(model, file);
+        std::error_code problem;
+        if (!is_forced && fs::exists(fs::symlink_status(file, problem)) &&
+            candela::read_text_file(file, content.size()) != content)
+            throw Error(ErrorCategory::failure,
+                        fmt::format("'{}' is there already; --force replaces it", file.string()));
+    }
+}
+
 }  // namespace
 
 int run_import(const std::vector<std::string>& arguments) {
@@ -53,7 +79,7 @@ int run_import(const std::vector<std::string>& arguments) {
     line.positional("file", 1);
     line.options()("output,o", po::value<std::string>()->value_name("FILE"),
                    "the scene; default: the model's name with .toml; - prints it")(
-        "force", "replace an existing scene")(
+        "force", "replace an existing scene, and its pictures")(
         "up", po::value<std::string>()->value_name("AXIS"),
         "which axis points up in the file: y or z; default: z in STL files, "
         "y in others")("allow-outside",
@@ -66,15 +92,17 @@ int run_import(const std::vector<std::string>& arguments) {
     const std::string output =
         line.has("output") ? line.get<std::string>("output") : file.stem().string() + ".toml";
     const bool is_printed = output == "-";
+    const bool is_forced = line.has("force");
     std::error_code problem;
-    if (!is_printed && !line.has("force") && fs::exists(fs::symlink_status(output, problem)))
+    if (!is_printed && !is_forced && fs::exists(fs::symlink_status(output, problem)))
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' is there already; --force replaces it", output));
     const fs::path parent = fs::path(output).parent_path();
     const fs::path folder = is_printed || parent.empty() ? fs::path(".") : parent;
-    if (!is_printed)
-        require_no_input(output, {file}, "the files that the scene is made from",
-                         "give the scene another name");
+    if (!is_printed) {
+        require_free(output, candela::Existing::replaced);
+        require_no_part_of(file, output);
+    }
 
     // Pictures that the file contains come to lie beside the scene.
     const std::string pictures_folder = fs::path(output).stem().string() + "_textures";
@@ -104,12 +132,13 @@ int run_import(const std::vector<std::string>& arguments) {
         return 0;
     }
     if (!pictures.empty()) {
+        require_place_for(pictures, folder / pictures_folder, file, is_forced);
         OutputFolder beside(folder / pictures_folder, candela::Links::not_followed);
         for (const auto& [name, content] : pictures) beside.write(name, content);
         beside.finish();
     }
     candela::write_text_file(output, imported.scene,
-                             line.has("force") ? candela::Existing::replaced : candela::Existing::kept);
+                             is_forced ? candela::Existing::replaced : candela::Existing::kept);
     say_afterwards([&] {
         const auto counted = [](std::size_t count, const char* what) {
             return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");

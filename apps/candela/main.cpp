@@ -13,6 +13,7 @@
 #include "manual.h"
 #include "reporting.h"
 #include "signals.h"
+#include "task_journal.h"
 #include "verbs.h"
 #include "wrapping.h"
 
@@ -90,6 +91,8 @@ int run(const std::vector<std::string>& arguments) {
         return 0;
     }
     std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+    if (name == k_task && rest.size() > 1)
+        return with_journal(rest.front(), [&] { return run({rest.begin() + 1, rest.end()}); });
     if (name == "--help" || name == "-h" || (name == "help" && rest.empty())) {
         std::cout << help();
         return 0;

@@ -11,6 +11,7 @@
 #include "compiling.h"
 #include "exit_code.h"
 #include "frame_record.h"
+#include "outputs.h"
 #include "picture_format.h"
 #include "picture_parts.h"
 #include "reporting.h"
@@ -98,8 +99,7 @@ int render_part(const CommandLine& line) {
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
     if (draft) {
-        require_no_input(output, candela::input_files(*draft), "the files that the scene is made from",
-                         "give the picture another name");
+        require_no_scene_file(output, candela::input_files(*draft), "the picture");
     }
     const auto scene = draft ? compile_scene(*draft, registry, diagnostics, threads) : std::nullopt;
     report(diagnostics);

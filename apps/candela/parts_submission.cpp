@@ -7,6 +7,7 @@
 
 #include "compiling.h"
 #include "frame_record.h"
+#include "outputs.h"
 #include "picture_format.h"
 #include "picture_parts.h"
 #include "submission.h"
@@ -47,8 +48,7 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
         candela::draft_scene(repeatable_request_from(line, registry, has_asked), registry, diagnostics);
     // For what only triangles tell: each task compiles the scene again.
     if (!draft || !compile_scene(*draft, registry, diagnostics)) return std::nullopt;
-    require_no_input(picture.string(), candela::input_files(*draft), "the files that the scene is made from",
-                     "give the picture another name");
+    require_no_scene_file(picture.string(), candela::input_files(*draft), "the picture");
 
     const int parts = count_from(line, "parts", 1'000'000);
     const std::string inputs = InputFingerprints(registry, format).of(*draft);
@@ -69,12 +69,10 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
         const PartNumber part{i, parts};
         static_cast<void>(rows_of(part, draft->scene.image.height));  // there are so many
         job.plan.tasks.push_back({part.name(), {{file_of_part(picture, part), inputs}}});
-        job.commands.push_back(common);
+        job.commands.push_back(as_task(common, job.folder, part.name()));
         job.commands.back().push_back(fmt::format("--part={}/{}", i, parts));
-        job.commands.back().push_back("--journal=" + job.folder.journal_of(part.name()).string());
     }
-    job.last = {job.commands.front().front(), "assemble", picture.string(), "--quiet",
-                "--journal=" + job.folder.journal_of(k_last_task).string()};
+    job.last = as_task({common.front(), "assemble", picture.string(), "--quiet"}, job.folder, k_last_task);
     for (const std::string& word : format_words_from(line)) job.last.push_back(word);
     for (const std::string& folder : line.all("plugin-dir")) job.last.push_back("--plugin-dir=" + folder);
     if (line.has("allow-untrusted-plugins")) job.last.emplace_back("--allow-untrusted-plugins");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -12,6 +13,7 @@
 #include "light_curves.h"
 #include "lobe.h"
 #include "lobe_text.h"
+#include "outputs.h"
 #include "reporting.h"
 #include "verbs.h"
 
@@ -91,18 +93,36 @@ void match_to_first(std::vector<NamedModel>& models, const std::string& paramete
     }
 }
 
-/// A diagram, or the table where there is no file for one.
-void write(const std::string& output, const std::string& extension, const std::function<std::string()>& svg,
+/// Where a diagram goes.
+struct DiagramFile {
+    std::string name;  // empty: its table goes to standard output
+    std::string extension;
+    candela::Existing existing;
+};
+
+void write(const DiagramFile& output, const std::function<std::string()>& svg,
            const std::function<std::string()>& csv) {
-    if (output.empty()) {
+    if (output.name.empty()) {
         std::cout << csv();
     } else {
-        candela::write_text_file(output, extension == "svg" ? svg() : csv());
+        candela::write_text_file(output.name, output.extension == "svg" ? svg() : csv(), output.existing);
     }
 }
 
-void plot_lights(const CommandLine& line, const std::vector<NamedModel>& models, const std::string& output,
-                 const std::string& extension, candela::Registry& registry) {
+/// A model may read a file, such as one of measured values.
+void require_no_value(const std::string& output, const std::vector<NamedModel>& models) {
+    std::vector<std::filesystem::path> files;
+    for (const NamedModel& model : models) {
+        for (const auto& [name, value] : model.values) {
+            const bool is_quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+            files.emplace_back(is_quoted ? value.substr(1, value.size() - 2) : value);
+        }
+    }
+    require_no_input(output, files, "the files that the models read", "give the diagram another name");
+}
+
+void plot_lights(const CommandLine& line, const std::vector<NamedModel>& models, const DiagramFile& output,
+                 candela::Registry& registry) {
     for (const char* const option : {"match", "log"}) {
         if (line.has(option))
             throw Error(ErrorCategory::bad_request,
@@ -110,9 +130,7 @@ void plot_lights(const CommandLine& line, const std::vector<NamedModel>& models,
     }
     std::vector<LightCurves> lights;
     for (const NamedModel& model : models) lights.push_back(light_curves_of(model, registry));
-    write(
-        output, extension, [&] { return light_curves_svg(lights); },
-        [&] { return light_curves_csv(lights); });
+    write(output, [&] { return light_curves_svg(lights); }, [&] { return light_curves_csv(lights); });
 }
 
 }  // namespace
@@ -134,30 +152,31 @@ int run_plot(const std::vector<std::string>& arguments) {
         "between the light and the surface's normal")("log", "a logarithmic radius, over four decades")(
         "match", po::value<std::string>()->value_name("NAME"),
         "find the value of this parameter with which each model is nearest to the first one");
+    add_no_clobber_option(line);
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
 
-    const std::string output = line.has("output") ? line.get<std::string>("output") : "";
-    const std::string extension = candela::extension_of(output);
-    if (!output.empty() && extension != "svg" && extension != "csv") {
+    const std::string file = line.has("output") ? line.get<std::string>("output") : "";
+    const DiagramFile output{file, candela::extension_of(file), existing_from(line)};
+    if (!file.empty() && output.extension != "svg" && output.extension != "csv") {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' is neither .svg nor .csv; a diagram can be either", output));
+                    fmt::format("'{}' is neither .svg nor .csv; a diagram can be either", file));
     }
+    require_free(file, output.existing);
     const double incidence = incidence_from(line);
     std::vector<NamedModel> models = models_from(line);
     candela::Registry registry = registry_from(line);
     for (const std::string& value : line.all("set")) set_where_known(models, value, registry);
+    require_no_value(file, models);
     if (models.front().kind == candela::PluginKind::light) {
-        plot_lights(line, models, output, extension, registry);
+        plot_lights(line, models, output, registry);
         return 0;
     }
     if (line.has("match")) match_to_first(models, line.get<std::string>("match"), incidence, registry);
-    if (line.has("match") && output.empty()) return 0;
+    if (line.has("match") && file.empty()) return 0;
     std::vector<Lobe> lobes;
     for (const NamedModel& model : models) lobes.push_back(lobe_of(model, incidence, registry));
     const auto scale = line.has("log") ? RadialScale::logarithmic : RadialScale::linear;
-    write(
-        output, extension, [&] { return lobes_svg(lobes, incidence, scale); },
-        [&] { return lobes_csv(lobes); });
+    write(output, [&] { return lobes_svg(lobes, incidence, scale); }, [&] { return lobes_csv(lobes); });
     return 0;
 }

@@ -3,19 +3,20 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "command_line.h"
 #include "compiling.h"
 #include "exit_code.h"
+#include "outputs.h"
 #include "part_rendering.h"
 #include "picture_format.h"
 #include "reporting.h"
 #include "stopwatch.h"
-#include "task_journal.h"
+#include "temporary_folder.h"
 #include "terminal.h"
 #include "terms/terms.h"
 #include "verbs.h"
@@ -34,13 +35,6 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// For --no-clobber: better to know before rendering.
-void require_no_file(const std::string& output) {
-    std::error_code problem;
-    if (output != "-" && fs::is_regular_file(output, problem))
-        throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and --no-clobber was given", output));
-}
-
 /// The terms that --terms names.
 std::vector<NamedTerm> terms_asked_for(const CommandLine& line, const candela::Scene& scene) {
     if (!line.has("terms")) return {};
@@ -50,21 +44,50 @@ std::vector<NamedTerm> terms_asked_for(const CommandLine& line, const candela::S
     return terms_from(words_of(line.get<std::string>("terms")), scene, "--terms");
 }
 
+/// Where a picture goes, and its terms.
+struct PictureFiles {
+    fs::path picture;
+    std::vector<fs::path> terms;
+    const candela::PictureFormat& format;
+    candela::Existing existing;
+};
+
+/// Writes the picture and its terms, all of them or none.
+void write_pictures(const candela::Film& film, const std::vector<NamedTerm>& terms, TermRenderer& renderer,
+                    const PictureFiles& files, int threads, candela::Registry& registry) {
+    candela::OutputFile picture(files.picture, files.existing);
+    // A pixel takes its encoder some three nanoseconds.
+    candela::with_threads(
+        threads, [&] { candela::write_picture(film, files.format, picture, registry); },
+        3e-6 * film.width() * film.height());
+    std::vector<std::unique_ptr<candela::OutputFile>> others;
+    for (std::size_t i = 0; i < files.terms.size(); ++i) {
+        others.push_back(std::make_unique<candela::OutputFile>(files.terms[i], files.existing,
+                                                               candela::Links::not_followed));
+        candela::write_picture(renderer.picture(terms[i], files.format.pixels), files.format, *others.back(),
+                               registry);
+        others.back()->complete();
+    }
+    if (others.empty()) return picture.finish();
+    picture.complete();
+    const WithoutInterruption during_this;
+    for (const auto& other : others) other->finish();
+    picture.finish();
+}
+
 int render_picture(const CommandLine& line) {
     const Stopwatch total;
     const auto output = line.get<std::string>("output");
     require_no_terminal(output);
-    const auto existing = line.has("no-clobber") ? candela::Existing::kept : candela::Existing::replaced;
-    if (existing == candela::Existing::kept) require_no_file(output);
+    const candela::Existing existing = existing_from(line);
+    require_free(output, existing);
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
     const candela::PictureFormat format = picture_format_from(line, output, registry);
 
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
-    if (draft && output != "-")
-        require_no_input(output, candela::input_files(*draft), "the files that the scene is made from",
-                         "give the picture another name");
+    if (draft) require_no_scene_file(output, candela::input_files(*draft), "the picture");
     std::vector<NamedTerm> terms;
     std::vector<fs::path> term_files;
     if (draft && draft->is_complete) {
@@ -72,9 +95,8 @@ int render_picture(const CommandLine& line) {
         if (!format.has_layers) term_files = files_of(terms, output);
     }
     for (const fs::path& file : term_files) {
-        if (existing == candela::Existing::kept) require_no_file(file.string());
-        require_no_input(file.string(), candela::input_files(*draft), "the files that the scene is made from",
-                         "give the picture another name");
+        require_free(file.string(), existing);
+        require_no_scene_file(file.string(), candela::input_files(*draft), "the picture");
     }
     const double read_ms = total.milliseconds();
     const Stopwatch compiling;
@@ -112,14 +134,8 @@ int render_picture(const CommandLine& line) {
     if (format.has_layers && !terms.empty()) {
         write_with_layers(film, terms, term_renderer, format, output, registry, existing);
     } else {
-        // A pixel takes its encoder some three nanoseconds.
-        candela::with_threads(
-            threads, [&] { candela::write_picture(film, format, output, registry, existing); },
-            3e-6 * film.width() * film.height());
+        write_pictures(film, terms, term_renderer, {output, term_files, format, existing}, threads, registry);
     }
-    for (std::size_t i = 0; i < term_files.size(); ++i)
-        candela::write_picture(term_renderer.picture(terms[i], format.pixels), format, term_files[i],
-                               registry, existing, candela::Links::not_followed);
     const double write_ms = writing.milliseconds();
 
     say_afterwards([&] {
@@ -166,8 +182,8 @@ int run_render(const std::vector<std::string>& arguments) {
         "(docs/terms.md); layers of an .exr, or files beside the picture")(
         "part", po::value<std::string>()->value_name("K/N"),
         "only the K-th of N bands of rows, into the folder FILE.parts; candela assemble puts them together")(
-        "no-clobber", "do not replace a picture that exists")("verbose", "print how long each stage took");
-    add_journal_option(line);
+        "verbose", "print how long each stage took");
+    add_no_clobber_option(line);
     if (!line.parse(arguments)) return 0;
-    return with_journal(line, [&] { return line.has("part") ? render_part(line) : render_picture(line); });
+    return line.has("part") ? render_part(line) : render_picture(line);
 }

@@ -9,6 +9,7 @@
 #include "import/import.h"
 #include "picture_format.h"
 #include "shell_words.h"
+#include "task_journal.h"
 
 import candela.text;
 
@@ -53,6 +54,11 @@ Words common_words(const CommandLine& line, const char* verb, bool has_asked) {
     if (has_asked) words.emplace_back("--defaults");
     words.emplace_back("--quiet");
     return words;
+}
+
+Words as_task(Words command, const JobFolder& folder, const std::string& task) {
+    command.insert(command.begin() + 1, {k_task, folder.journal_of(task).string()});
+    return command;
 }
 
 candela::SceneRequest repeatable_request_from(const CommandLine& line, candela::Registry& registry,

@@ -37,6 +37,9 @@ void require_plain_words(const Submission& job);
 /// task.
 Words common_words(const CommandLine& line, const char* verb, bool has_asked);
 
+/// The command as one that keeps the journal of a job's task.
+Words as_task(Words command, const JobFolder& folder, const std::string& task);
+
 /// The request for a scene that tasks will read again; `has_asked` is set where a person is asked. Throws
 /// candela::Error (bad_request) if it can only be read once.
 candela::SceneRequest repeatable_request_from(const CommandLine& line, candela::Registry& registry,

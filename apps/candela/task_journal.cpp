@@ -13,6 +13,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
+#include <cstddef>
 #include <ctime>
 #include <mutex>
 #include <string_view>
@@ -28,11 +29,12 @@
 import candela.diagnostics;
 import candela.files;
 
-namespace po = boost::program_options;
 namespace fs = std::filesystem;
 using std::chrono::seconds;
 
 namespace {
+
+constexpr std::size_t k_longest_journal = 1'000'000;  // bytes
 
 constexpr seconds k_between_signs_of_life{5}, k_longest_silence{60};
 constexpr std::size_t k_largest_journal = std::size_t{1} << 20, k_longest_failure = std::size_t{1} << 16;
@@ -125,6 +127,16 @@ void make_folder_of_journal(const fs::path& file) {
         JobFolder(folder).make();
     else
         make_folder(folder);
+}
+
+void require_no_other_file(const fs::path& file) {
+    std::error_code problem;
+    if (!fs::exists(fs::symlink_status(file, problem))) return;
+    const auto text = candela::read_text_file(file, k_longest_journal);
+    const Json entry = text ? json_or_discarded(*text) : Json();
+    if (entry.is_object() && entry.contains("state")) return;
+    throw candela::Error(candela::ErrorCategory::bad_request,
+                         fmt::format("'{}' is not the journal of a task; not overwriting it", file.string()));
 }
 
 /// A process says that it works on a task.
@@ -234,15 +246,9 @@ void write_failure(const fs::path& file, const std::string& why) {
     write(file, entry);
 }
 
-void add_journal_option(CommandLine& line) {
-    line.options()(
-        "journal", po::value<std::string>()->value_name("FILE"),
-        "keep a file that says that this runs, and in the end how it went; candela status reads it");
-}
-
-int with_journal(const CommandLine& line, const std::function<int()>& work) {
-    if (!line.has("journal")) return work();
-    const Journal journal(line.get<std::string>("journal"));
+int with_journal(const fs::path& file, const std::function<int()>& work) {
+    require_no_other_file(file);
+    const Journal journal(file);
     try {
         const int code = work();
         if (code == 0) {

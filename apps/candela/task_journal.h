@@ -6,8 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "command_line.h"
-
 /// What is known of a task that was begun.
 struct JournalEntry {
     enum class State {
@@ -30,9 +28,11 @@ std::optional<JournalEntry> read_journal(const std::filesystem::path& file);
 /// Writes down that a task failed whose process could not do so itself. Throws candela::Error (failure).
 void write_failure(const std::filesystem::path& file, const std::string& why);
 
-/// Adds --journal.
-void add_journal_option(CommandLine& line);
+/// The first word of a task's command, which its journal and then the verb follow. Users have no such option:
+/// it writes a file that is not checked against the verb's inputs.
+inline constexpr const char* k_task = "--task";
 
-/// Does a verb's work, and keeps the journal that --journal names meanwhile: its file says every few seconds
-/// that the process lives, and in the end how it went. Returns and throws what `work` does.
-int with_journal(const CommandLine& line, const std::function<int()>& work);
+/// Does a task's work, and keeps its journal meanwhile: the file says every few seconds that the process
+/// lives, and in the end how it went. Returns and throws what `work` does; throws candela::Error
+/// (bad_request) where the file is something else than a journal.
+int with_journal(const std::filesystem::path& file, const std::function<int()>& work);

@@ -83,11 +83,12 @@ void require_heat_map_format(const fs::path& file) {
                             meant.empty() ? "" : "; " + meant, fmt::join(lossless_extensions(), ", ")));
 }
 
-void write_heat_map(const fs::path& file, const Picture& a, const Picture& b, double maximum) {
+void write_heat_map(const fs::path& file, const Picture& a, const Picture& b, double maximum,
+                    candela::Existing existing) {
     // Heat, its colours in floats and in bytes, and the file.
     candela::require_memory(a.pixels() * (4 + 12 + 3 + 3), "the heat-map");
     const auto bytes = encoded(candela::extension_of(file), a.width, a.height, heat_colors(a, b, maximum));
-    candela::OutputFile output(file);
+    candela::OutputFile output(file, existing);
     output.write(std::as_bytes(std::span(bytes)));
     output.finish();
 }

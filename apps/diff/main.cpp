@@ -12,6 +12,7 @@
 
 #include "command_line.h"
 #include "heat_map.h"
+#include "outputs.h"
 #include "picture_comparison/comparison.h"
 #include "picture_comparison/perception.h"
 #include "picture_file.h"
@@ -74,12 +75,12 @@ void require_same_size(const std::string& a_name, const Picture& a, const std::s
                             dimensions_text(a), b_name, dimensions_text(b)));
 }
 
-void write_ppm(const std::string& file, const Picture& picture) {
+void write_ppm(const std::string& file, const Picture& picture, candela::Existing existing) {
     std::string text = fmt::format("P6\n{} {}\n255\n", picture.width, picture.height);
     text.reserve(text.size() + picture.values.size());
     for (std::size_t i = 0; i < picture.values.size(); ++i)
         text += static_cast<char>(std::lround(255 * std::clamp(picture.normalized(i), 0.0f, 1.0f)));
-    candela::write_text_file(file, text);
+    candela::write_text_file(file, text, existing);
 }
 
 int verdict(double tolerance, const DifferenceStatistics& statistics) {
@@ -108,6 +109,7 @@ int run(const std::vector<std::string>& arguments) {
         "exit with code 4 if a channel of a pixel away from edges differs by more than N levels")(
         "json", "print the statistics as JSON")("decoded", po::value<std::string>()->value_name("FILE"),
                                                 "write what was read of B as a PPM of 8 bits");
+    add_no_clobber_option(line);
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> names = line.all("picture");
@@ -118,15 +120,17 @@ int run(const std::vector<std::string>& arguments) {
     if (line.has("output")) require_heat_map_format(line.get<std::string>("output"));
     std::vector<std::filesystem::path> inputs(names.begin(), names.end());
     if (line.has("mask")) inputs.emplace_back(line.get<std::string>("mask"));
+    const candela::Existing existing = existing_from(line);
     for (const char* const flag : {"output", "decoded"}) {
-        if (line.has(flag))
-            require_no_input(line.get<std::string>(flag), inputs, "the pictures that are compared",
-                             fmt::format("give --{} another name", flag));
+        if (!line.has(flag)) continue;
+        require_free(line.get<std::string>(flag), existing);
+        require_no_input(line.get<std::string>(flag), inputs, "the pictures that are compared",
+                         fmt::format("give --{} another name", flag));
     }
 
     candela::Registry registry = registry_from(line);
     const Picture a = read_picture(names[0], registry), b = read_picture(names[1], registry);
-    if (line.has("decoded")) write_ppm(line.get<std::string>("decoded"), b);
+    if (line.has("decoded")) write_ppm(line.get<std::string>("decoded"), b, existing);
     require_same_size(names[0], a, names[1], b);
     std::optional<Picture> mask;
     if (line.has("mask")) {
@@ -143,7 +147,7 @@ int run(const std::vector<std::string>& arguments) {
     if (line.has("output")) {
         const double maximum =
             std::max(differences.interior.maximum, differences.edges ? differences.edges->maximum : 0);
-        write_heat_map(line.get<std::string>("output"), a, b, maximum);
+        write_heat_map(line.get<std::string>("output"), a, b, maximum, existing);
     }
     if (line.has("json")) {
         std::cout << to_json(comparison) << '\n';

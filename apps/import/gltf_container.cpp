@@ -150,6 +150,19 @@ std::string_view Container::view(std::size_t index) {
     return bytes.substr(first, size);
 }
 
+std::vector<fs::path> Container::named_files(bool with_images) const {
+    std::vector<fs::path> files;
+    for (const char* const kind : {"buffers", "images"}) {
+        if (kind == std::string_view("images") && !with_images) break;
+        for (const Json& entry : array_of(json_, kind)) {
+            const std::string uri = text(entry, "uri");
+            if (!uri.empty() && !uri.starts_with("data:"))
+                files.push_back(fs::absolute(file_).parent_path() / decoded_percents(uri));
+        }
+    }
+    return files;
+}
+
 Picture Container::picture(std::size_t image) {
     const Json& from = array_of(json_, "images").at(image);
     const std::string uri = text(from, "uri");

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "import/gltf_json.h"
 #include "import/model.h"
@@ -22,6 +23,9 @@ class Container {
     /// An image: a file in the model's folder or below it, or what the file has of it. Throws candela::Error
     /// (failure).
     Picture picture(std::size_t image);
+
+    /// The files that its buffers, and its images, name, whether or not they exist.
+    std::vector<std::filesystem::path> named_files(bool with_images) const;
 
   private:
     std::string_view buffer(std::size_t index);

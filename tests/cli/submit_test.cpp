@@ -235,8 +235,8 @@ TEST_CASE("a task is running while its process is there, and failed when that ha
     const fs::path directory = with_scene();
     REQUIRE(candela(directory, {"submit", "scene.toml", "--engine", "print", "--chunk", "12"}).exit_code ==
             0);
-    RunningProgram task({CANDELA_TEST_COMMAND, "animate", "scene.toml", "--journal",
-                         directory / k_job / "0..11.json", "--width", "3000", "--height", "3000"},
+    RunningProgram task({CANDELA_TEST_COMMAND, "--task", directory / k_job / "0..11.json", "animate",
+                         "scene.toml", "--width", "3000", "--height", "3000"},
                         {.input = "", .environment = {}, .directory = directory});
     wait_until([&] { return fs::exists(directory / k_job / "0..11.json"); });
     task.send(SIGSTOP);

@@ -155,8 +155,8 @@ def with_slurm(job):
 
     killed = 0
     while killed < max(arguments.kills // 10, 1) or job.status()["failed"] == 0:
-        wait_until("a task is running", lambda: processes([command, "--journal", "--quiet"]))
-        running = processes([command, "--journal", "--quiet"])
+        wait_until("a task is running", lambda: processes([command, "--task", "--quiet"]))
+        running = processes([command, "--task", "--quiet"])
         killed += kill([chance.choice(running)] if running else [])
         time.sleep(0.5)
     say(f"{killed} tasks are killed with SIGKILL, and status calls some failed; {done()} of {tasks} tasks are done")

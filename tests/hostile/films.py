@@ -32,7 +32,7 @@ keys = [[0.0, 1.0], [0.2, 3.0]]
 
 COMMANDS = [line.split() for line in (
     "animate scene.toml -o f/%04d.png --frames 0..2 --step 1 --threads 1",
-    "animate scene.toml -o f/%02d.ppm --frames 1 --force --set light.l.intensity=3 --journal j.json",
+    "animate scene.toml -o f/%02d.ppm --frames 1 --force --set light.l.intensity=3",
     "render scene.toml -o p.tif --part 1/4 --frame 2",
     "render scene.toml -o p.png --part 3/3 --width 24 --height 12 --samples 4",
     "assemble p.tif --keep-parts --threads 2",
@@ -40,6 +40,7 @@ COMMANDS = [line.split() for line in (
     "submit scene.toml -o f/%04d.png --engine slurm --dry-run --slurm=--partition=render --threads 2 --jobs 2",
     "submit scene.toml -o p.tif --parts 4 --engine print --width 20",
     "submit scene.toml -o p.exr --parts 2 --engine slurm --dry-run --frame 1",
+    "--task j.json animate scene.toml -o f/%02d.ppm --frames 0 --threads 1",
     "status f --json", "status . --quiet")]
 WORDS = [b"%04d", b"%d", b"%%", b"%s", b"%n", b"%099d", b"..", b"0..2", b"2..0", b"-1..1", b"1/4", b"4/1", b"0/0", b"-1/2", b"1/", b"/1",
          b"1/9999999999", b"--part", b"--parts", b"--frames", b"--step", b"--chunk", b"--jobs", b"-o", b"=", b".png", b".tif", b".exr",
@@ -71,7 +72,7 @@ def argument_of(word: str, chance) -> str:
         mutant = mutant.replace(b"../", b"").lstrip(b"/")
     for film in (b".mp4", b".webm", b".gif"):
         mutant = mutant.replace(film, b".png")
-    if mutant.startswith((b"--output=/", b"--journal=/", b"-o/")):
+    if mutant.startswith((b"--output=/", b"-o/")):
         return word
     return mutant.decode("utf-8", "surrogateescape")
 

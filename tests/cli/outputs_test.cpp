@@ -1,0 +1,258 @@
+// No verb writes over what it reads, whatever the name of its output.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/expect.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* k_rest =
+    "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\nmodel = \"phong\"\n[reflection]\n"
+    "model = \"phong\"\n[animation]\nframes = 2\n[[animation.track]]\npath = \"object.mesh.rotation\"\n"
+    "keys = [[0, [0, 0, 0]], [1, [0, 9, 0]]]\n";
+
+/// Its inputs have names that a picture may have, too.
+fs::path folder_with_scene() {
+    const fs::path d = scratch_directory();
+    for (const std::string environment : {"", "environment = \"sky.ppm\"\n"})
+        write_file(d / (environment.empty() ? "plain.ppm" : "scene.ppm"),
+                   std::string("include = [\"part.ppm\"]\nversion = 1\n") + k_rest +
+                       "[image]\nwidth = 8\nheight = 8\n" + environment +
+                       "[[object]]\nname = \"mesh\"\ntype = \"mesh\"\nfile = \"model.gltf\"\n"
+                       "color_texture = \"texture.ppm\"\n");
+    write_file(d / "part.ppm", "[[light]]\ntype = \"ambient\"\n");
+    for (const char* const name : {"sky.ppm", "texture.ppm", "texture.normal.ppm", "frame1.ppm"})
+        write_file(d / name, "P6\n1 1\n255\nabc");
+    write_file(
+        d / "model.gltf",
+        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+    "textures": [{"source": 0}], "images": [{"uri": "pic%20ture.ppm"}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+    "buffers": [{"byteLength": 60, "uri": "buffer.ppm"}]})");
+    std::string buffer(60, '\0');
+    buffer.replace(12, 4, std::string("\0\0\x80\x3f", 4));
+    buffer.replace(28, 4, std::string("\0\0\x80\x3f", 4));
+    write_file(d / "buffer.ppm", buffer);
+    write_file(d / "pic ture.ppm", "P6\n1 1\n255\nabc");
+    write_file(d / "model.obj",
+               "mtllib my library.ppm\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+    write_file(d / "my library.ppm", "newmtl a\nKd 1 0 0\nmap_Kd -s 1 1 1 wood.ppm\n");
+    write_file(d / "wood.ppm", "P6\n1 1\n255\nabc");
+    fs::create_directory(d / "sub");
+    return d;
+}
+
+CommandResult in(const fs::path& directory, const std::vector<std::string>& words) {
+    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
+}
+
+std::map<std::string, std::string> contents_of(const fs::path& directory) {
+    std::map<std::string, std::string> contents;
+    for (const auto& entry : fs::directory_iterator(directory))
+        if (entry.is_regular_file()) contents[entry.path().filename().string()] = read_file(entry.path());
+    return contents;
+}
+
+/// What is not as it was, or was not there.
+std::string changes_in(const fs::path& directory, const std::map<std::string, std::string>& before) {
+    const std::map<std::string, std::string> after = contents_of(directory);
+    std::string changes;
+    for (const auto& [name, content] : after)
+        if (!before.contains(name) || before.at(name) != content) changes += name + "; ";
+    for (const auto& [name, content] : before)
+        if (!after.contains(name)) changes += "no " + name + "; ";
+    return changes;
+}
+
+/// Other names of a file.
+std::vector<std::string> spellings_of(const fs::path& directory, const std::string& name) {
+    fs::create_symlink(name, directory / ("soft-" + name));
+    fs::create_hard_link(directory / name, directory / ("hard-" + name));
+    return {name, "./" + name, "sub/../" + name, (directory / name).string(), "soft-" + name, "hard-" + name};
+}
+
+struct Attempt {
+    std::vector<std::string> words;  // "OUTPUT" stands for the file's name
+    std::vector<std::string> inputs;
+};
+
+std::vector<std::string> with_output(std::vector<std::string> words, const std::string& name) {
+    for (std::string& word : words)
+        if (const auto at = word.find("OUTPUT"); at != std::string::npos) word.replace(at, 6, name);
+    return words;
+}
+
+}  // namespace
+
+TEST_CASE("no verb writes over a file that it reads, by whatever name or link") {
+    const fs::path d = folder_with_scene();
+    const std::vector<std::string> scene{"scene.ppm", "part.ppm", "sky.ppm", "texture.ppm", "buffer.ppm"};
+    const std::vector<std::string> obj{"my library.ppm", "wood.ppm", "model.obj"},
+        gltf{"buffer.ppm", "pic ture.ppm", "model.gltf"};
+    std::map<std::string, std::vector<std::string>> names;
+    for (const auto& inputs : {scene, obj, gltf, {"plain.ppm"}})
+        for (const std::string& input : inputs)
+            if (!names.contains(input)) names[input] = spellings_of(d, input);
+    const std::map<std::string, std::string> before = contents_of(d);
+    for (const Attempt& attempt : {
+             Attempt{{"render", "scene.ppm", "-o", "OUTPUT"}, scene},
+             Attempt{{"render", "scene.ppm", "-o", "OUTPUT", "--part", "1/2"}, scene},
+             Attempt{{"compare", "scene.ppm", "-o", "OUTPUT", "--reflection", "phong,lambert"}, scene},
+             Attempt{{"submit", "scene.ppm", "-o", "OUTPUT", "--parts", "2", "--engine", "print"}, scene},
+             Attempt{{"generate", "plain.ppm", "--target", "webgl", "-o", "page", "--inputs", "OUTPUT"},
+                     {"plain.ppm", "part.ppm", "texture.ppm", "buffer.ppm"}},
+             Attempt{{"diff", "texture.ppm", "sky.ppm", "-o", "OUTPUT"}, {"texture.ppm", "sky.ppm"}},
+             Attempt{{"diff", "texture.ppm", "sky.ppm", "--decoded", "OUTPUT"}, {"texture.ppm", "sky.ppm"}},
+             Attempt{{"diff", "texture.ppm", "sky.ppm", "--mask", "part.ppm", "-o", "OUTPUT"}, {"part.ppm"}},
+             Attempt{{"import", "model.obj", "-o", "OUTPUT", "--force"}, obj},
+             Attempt{{"import", "model.gltf", "-o", "OUTPUT", "--force"}, gltf},
+         }) {
+        for (const std::string& input : attempt.inputs) {
+            for (const std::string& name : names.at(input)) {
+                const CommandResult result = in(d, with_output(attempt.words, name));
+                INFO(attempt.words[0] << ' ' << name << ": " << result.err);
+                CHECK(result.exit_code == 2);
+                CHECK(result.err.find(" another name") != std::string::npos);
+                CHECK(changes_in(d, before) == "");
+            }
+        }
+    }
+}
+
+TEST_CASE("files that a verb names itself, such as terms and frames, are no inputs either") {
+    const fs::path d = folder_with_scene();
+    const std::map<std::string, std::string> before = contents_of(d);
+    const std::string set = "object.mesh.color_texture=";
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"render", "scene.ppm", "-o", "texture.ppm", "--terms", "normal", "--set",
+              set + "texture.normal.ppm"},
+             {"animate", "scene.ppm", "-o", "frame%d.ppm", "--set", set + "frame1.ppm"},
+             {"submit", "scene.ppm", "-o", "frame%d.ppm", "--engine", "print", "--set",
+              set + "frame1.ppm"}}) {
+        const CommandResult result = in(d, words);
+        INFO(words[0] << ": " << result.err);
+        CHECK(result.exit_code == 2);
+        CHECK(result.err.find("is one of the files that the scene is made from") != std::string::npos);
+        CHECK(changes_in(d, before) == "");
+    }
+}
+
+TEST_CASE("a task's journal is not an option of users, and replaces nothing but a journal") {
+    const fs::path d = folder_with_scene();
+    const std::map<std::string, std::string> before = contents_of(d);
+    for (const std::string verb : {"render", "animate", "assemble"})
+        expect(in(d, {verb, "scene.ppm", "--journal", "scene.ppm"}), 2, {"unknown option '--journal'"});
+    expect(in(d, {"--task", "scene.ppm", "render", "scene.ppm", "-o", "picture.png"}), 2,
+           {"'scene.ppm' is not the journal of a task"});
+    CHECK(changes_in(d, before) == "");
+    CHECK(in(d, {"--task", "journal", "render", "-o", "picture.png"}).exit_code == 0);
+    CHECK(in(d, {"--task", "journal", "render", "-o", "picture.png"}).exit_code == 0);
+}
+
+TEST_CASE("--no-clobber keeps whatever file is there, before any work is done") {
+    const fs::path d = folder_with_scene();
+    for (const char* const name : {"mine.png", "mine.svg", "mine.html", "mine.ppm"})
+        write_file(d / name, "mine");
+    const std::map<std::string, std::string> before = contents_of(d);
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"render", "-o", "mine.png"},
+             {"render", "-o", "other.exr", "-o", "mine.png"},
+             {"compare", "-o", "mine.png", "--reflection", "phong,lambert"},
+             {"diff", "texture.ppm", "sky.ppm", "-o", "mine.ppm"},
+             {"diff", "texture.ppm", "sky.ppm", "--decoded", "mine.ppm"},
+             {"plot", "reflection/phong", "-o", "mine.svg"},
+             {"exercise", "new", "reflection/phong", "--blank", "reflect", "-o", "mine.html"}}) {
+        std::vector<std::string> all = words;
+        all.emplace_back("--no-clobber");
+        const CommandResult result = in(d, all);
+        INFO(words[0] << ": " << result.err);
+        CHECK(result.exit_code != 0);
+        CHECK(changes_in(d, before) == "");
+    }
+}
+
+TEST_CASE("import keeps pictures that are there already, unless they are the same or --force is given") {
+    const fs::path d = scratch_directory();
+    const std::string picture =
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
+    write_file(
+        d / "m.gltf",
+        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+    "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" +
+            picture + R"("}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+    "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"}]})");
+    REQUIRE(in(d, {"import", "m.gltf"}).exit_code == 0);
+    REQUIRE(fs::exists(d / "m_textures"));
+    const fs::path texture = *fs::directory_iterator(d / "m_textures");
+    const std::string content = read_file(texture);
+    fs::remove(d / "m.toml");
+    CHECK(in(d, {"import", "m.gltf"}).exit_code == 0);
+    fs::remove(d / "m.toml");
+    write_file(texture, "mine");
+    expect(in(d, {"import", "m.gltf"}), 1, {"is there already; --force replaces it"});
+    CHECK(read_file(texture) == "mine");
+    CHECK_FALSE(fs::exists(d / "m.toml"));
+    CHECK(in(d, {"import", "m.gltf", "--force"}).exit_code == 0);
+    CHECK(read_file(texture) == content);
+}
+
+TEST_CASE("a folder that does not exist is called that, before any work is done") {
+    const fs::path d = folder_with_scene();
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"render", "-o", "gone/a.png"},
+             {"compare", "-o", "gone/a.png", "--reflection", "phong,lambert"},
+             {"plot", "reflection/phong", "-o", "gone/a.svg"},
+             {"import", "model.obj", "-o", "gone/a.toml"},
+             {"new", "gone/a.toml"}})
+        expect(in(d, words), 1, {"cannot be written: there is no folder 'gone'"});
+    CHECK_FALSE(fs::exists(d / "gone"));
+}
+
+TEST_CASE("where one of the terms cannot be written, neither is the picture, nor any other") {
+    const fs::path d = scratch_directory();
+    fs::create_directory(d / "a.specular.png");
+    expect(in(d, {"render", "-o", "a.png", "--terms", "diffuse,specular"}), 1, {"is a directory"});
+    CHECK(std::distance(fs::directory_iterator(d), {}) == 1);
+    fs::remove(d / "a.specular.png");
+    write_file(d / "a.png", "old");
+    CHECK(in(d, {"render", "-o", "a.png", "--terms", "diffuse,specular"}).exit_code == 0);
+    CHECK(std::distance(fs::directory_iterator(d), {}) == 3);
+    CHECK(read_file(d / "a.png") != "old");
+}
+
+TEST_CASE(
+    "a file that replaces another may be run by whoever could run that, but with no rights of its owner") {
+    const fs::path d = scratch_directory();
+    const fs::path file = write_file(d / "a.png", "old");
+    fs::permissions(file, fs::perms::owner_all | fs::perms::group_exec | fs::perms::set_uid |
+                              fs::perms::set_gid | fs::perms::sticky_bit);
+    REQUIRE(in(d, {"render", "-o", "a.png"}).exit_code == 0);
+    CHECK(fs::status(file).permissions() == (fs::perms::owner_all | fs::perms::group_exec));
+}
+
+TEST_CASE("CANDELA_PLUGIN_PATH with a file in it is a message, not silence") {
+    const fs::path d = scratch_directory();
+    write_file(d / "file", "");
+    const auto with = [&](const std::string& path) {
+        return run_candela({"list"},
+                           {.input = "", .environment = {{"CANDELA_PLUGIN_PATH", path}}, .directory = d});
+    };
+    expect(with((d / "file").string()), 1, {"CANDELA_PLUGIN_PATH names '", "which is not a folder"});
+    expect(with(d.string() + ":" + (d / "file").string()), 1, {"which is not a folder"});
+    CHECK(with(d.string() + "::" + (d / "gone").string()).exit_code == 0);
+}
