@@ -34,9 +34,9 @@ enum class Durability : bool { durable, fast };
 /// ".candela-". Symbolic links are followed; the new file may be read, written and executed by whoever might
 /// do so with the old one, but is never set-user-ID, set-group-ID or sticky. "-", standard output, and
 /// anything that is not a regular file (a pipe, a device) is written to directly. With `Existing::kept`,
-/// there is an error if the file exists, also if it was made meanwhile. With `Links::not_followed`, a symbolic
-/// link is replaced by the file, and anything else that is not a regular file is an error. All members throw
-/// Error (failure). One thread at a time.
+/// there is an error if the file exists, also if it was made meanwhile. With `Links::not_followed`, a
+/// symbolic link is replaced by the file, and anything else that is not a regular file is an error. All
+/// members throw Error (failure). One thread at a time.
 class CANDELA_API OutputFile {
   public:
     explicit OutputFile(const std::filesystem::path& path, Existing existing = Existing::replaced,
