@@ -144,6 +144,8 @@ ComputedAnswer computed_answer(const std::filesystem::path& library, const std::
 }
 
 void compute_answer(const char* library) {
+    // Whatever the kit has open is not for it.
+    static_cast<void>(::close_range(k_descriptor + 1, ~0U, 0));
     struct stat status{};
     if (::fstat(k_descriptor, &status) != 0) ::_exit(k_cannot_be_loaded);
     const auto bytes = static_cast<std::size_t>(status.st_size);

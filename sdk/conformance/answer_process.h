@@ -25,8 +25,8 @@ struct ComputedAnswer {
     std::vector<float> numbers;  // of all calls, array by array
 };
 
-inline constexpr int k_cannot_be_loaded = 126;  // exit codes of that process
-inline constexpr int k_cannot_be_confined = 125;
+/// The exit code of a process that cannot load the library; see also k_cannot_be_confined.
+inline constexpr int k_cannot_be_loaded = 126;
 
 /// Has the calls' numbers computed by the library that an answer has become, for all points of `in`.
 ComputedAnswer computed_answer(const std::filesystem::path& library, const std::vector<AnswerCall>& calls,

@@ -42,20 +42,19 @@ constexpr __u32 k_architecture = AUDIT_ARCH_AARCH64;
 #endif
 
 constexpr rlim_t k_mib = rlim_t{1024} * 1024;
-constexpr int k_cannot = 125;  // k_cannot_be_confined of answer_process.h
 
 void limit(int what, rlim_t soft, rlim_t hard) {
     rlimit now{};
     ::getrlimit(static_cast<__rlimit_resource>(what), &now);
     const rlimit wanted{.rlim_cur = std::min(soft, now.rlim_max), .rlim_max = std::min(hard, now.rlim_max)};
-    if (::setrlimit(static_cast<__rlimit_resource>(what), &wanted) != 0) ::_exit(k_cannot);
+    if (::setrlimit(static_cast<__rlimit_resource>(what), &wanted) != 0) ::_exit(k_cannot_be_confined);
 }
 
 /// Of this process, in bytes.
 rlim_t size_of_address_space() {
     unsigned long pages = 0;
     std::FILE* const file = std::fopen("/proc/self/statm", "r");
-    if (file == nullptr || std::fscanf(file, "%lu", &pages) != 1) ::_exit(k_cannot);
+    if (file == nullptr || std::fscanf(file, "%lu", &pages) != 1) ::_exit(k_cannot_be_confined);
     std::fclose(file);
     return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
@@ -122,5 +121,5 @@ void confine(std::size_t room, unsigned seconds) {
     const sock_fprog all = {static_cast<unsigned short>(program.size()), program.data()};
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
         ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &all) != 0)
-        ::_exit(k_cannot);
+        ::_exit(k_cannot_be_confined);
 }

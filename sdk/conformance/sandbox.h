@@ -3,6 +3,9 @@
 
 #include <cstddef>
 
+/// The exit code of a process that confine() has ended.
+inline constexpr int k_cannot_be_confined = 125;
+
 /// For this process and all that it starts, compilers: processor time, size of files and memory. They are
 /// limits on accidents; what may be in a text at all is decided before it comes here.
 void limit_compiling();

@@ -79,6 +79,7 @@ class Checker {
     Type call(Expression& expression);
     Type conditional(Expression& expression);
     Type variable(const Expression& expression) const;
+    [[noreturn]] void refuse_unknown(const Expression& variable) const;
     const Signature* fitting(const Expression& call, const std::vector<Signature>& overloads) const;
     Type called(Expression& call, const std::vector<Signature>& overloads);
     std::optional<std::int64_t> value_of(const Expression& expression) const;

@@ -109,6 +109,11 @@ Type Checker::variable(const Expression& expression) const {
                                       name)};
         return seen_[*number].type;
     }
+    refuse_unknown(expression);
+}
+
+void Checker::refuse_unknown(const Expression& expression) const {
+    const std::string& name = expression.text;
     if (builtin_functions().contains(name) || declared_.functions.contains(name))
         throw Refusal{expression.place,
                       fmt::format("'{}' is a function; it is called with arguments in ()", name)};
@@ -185,11 +190,12 @@ Type Checker::member(Expression& expression) {
     if (components_of(of) > 0) return swizzle(expression, of);
     if (of.kind != Type::Kind::structure)
         throw Refusal{expression.place, fmt::format("{} has no members", text_of(of))};
+    const std::vector<Variable>& members =
+        declared_.structures[static_cast<std::size_t>(of.structure)].members;
+    const auto found = std::ranges::find(members, expression.text, &Variable::name);
+    if (found != members.end()) return found->type.type;
     std::vector<std::string> names;
-    for (const Variable& each : declared_.structures[static_cast<std::size_t>(of.structure)].members) {
-        if (each.name == expression.text) return each.type.type;
-        names.push_back(each.name);
-    }
+    for (const Variable& each : members) names.push_back(each.name);
     const std::string meant = suggestion(expression.text, names);
     throw Refusal{expression.place,
                   fmt::format("{} has no member '{}'; {}", text_of(of), shortened(expression.text),

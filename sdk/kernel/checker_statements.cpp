@@ -83,11 +83,11 @@ void Checker::assign(Statement& statement) {
     std::string path;
     Expression* root = &statement.expressions.front();
     while (root->kind == Expression::Kind::member) {
-        path = "." + root->text + path;
+        path.insert(0, "." + root->text);
         root = &root->operands.front();
     }
     const std::size_t* const found = seen_as(root->text);
-    if (found == nullptr) static_cast<void>(variable(*root));  // refuses
+    if (found == nullptr) refuse_unknown(*root);
     const std::size_t number = *found;
     const Seen& target = seen_[number];
     if (target.counts_a_loop)

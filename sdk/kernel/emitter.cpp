@@ -365,7 +365,7 @@ class Emitter {
     }
 
     static int precedence_of_sign(const Expression& each) {
-        Expression bare{.kind = each.kind, .text = each.text};
+        const Expression bare{.kind = each.kind, .text = each.text};
         return precedence_of(bare);
     }
 
