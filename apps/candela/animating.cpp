@@ -34,7 +34,10 @@ AnimationOutputs animation_outputs_from(const CommandLine& line) {
             outputs.frames.emplace(output);
         }
     }
-    if (!outputs.frames && outputs.films.empty()) outputs.frames.emplace("frames/%04d.png");
+    if (!outputs.frames && outputs.films.empty()) {
+        outputs.frames.emplace("frames/%04d.png");
+        require_no_default_link(line, "output", "frames");
+    }
     for (const fs::path& film : outputs.films) require_encoder(film);
     return outputs;
 }

@@ -26,6 +26,8 @@ class CommandLine {
     bool parse(const std::vector<std::string>& arguments);
 
     bool has(const std::string& name) const { return values_.count(name) > 0; }
+    /// Whether a person has given it; an option with a default value is there in any case.
+    bool is_given(const std::string& name) const { return has(name) && !values_[name].defaulted(); }
     template <class T>
     T get(const std::string& name) const {
         return values_[name].as<T>();

@@ -248,6 +248,7 @@ int run_compare(const std::vector<std::string>& arguments) {
     if (line.has("difference") && has_several_terms(axes))
         throw Error(ErrorCategory::bad_request, "--difference is between pictures of one term");
     const auto output = line.get<std::string>("output");
+    require_no_default_link(line, "output", output);
     if (output == "-" && line.has("json"))
         throw Error(ErrorCategory::bad_request, "standard output is either the sheet or JSON");
     require_no_terminal(output);

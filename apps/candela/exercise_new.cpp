@@ -270,6 +270,7 @@ int run_exercise_new(const std::vector<std::string>& arguments) {
                               std::string(exercise.plugin->descriptor->kernel.prefix).size() + 1));
     const candela::Existing existing = existing_from(line);
     require_free(output, existing);
+    require_no_default_link(line, "output", output);
     const std::string page = page_for(exercise, registry);
     candela::write_text_file(output, page, existing);
     say_afterwards([&] { return fmt::format("{}: {}\n", output, candela::size_text(page.size())); });

@@ -121,6 +121,7 @@ int run_generate(const std::vector<std::string>& arguments) {
     const fs::path directory =
         line.has("output") ? line.get<std::string>("output") : fmt::format("scene-{}", target.name());
 
+    require_no_default_link(line, "output", directory);
     const bool is_printed = directory == "-";
     require_no_terminal(directory.string(), "a file for another program");
     if (is_printed && (line.has("build") || line.has("run")))

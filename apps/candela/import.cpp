@@ -91,6 +91,7 @@ int run_import(const std::vector<std::string>& arguments) {
     const fs::path file = line.all("file").front();
     const std::string output =
         line.has("output") ? line.get<std::string>("output") : file.stem().string() + ".toml";
+    require_no_default_link(line, "output", output);
     const bool is_printed = output == "-";
     const bool is_forced = line.has("force");
     std::error_code problem;

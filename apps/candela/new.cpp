@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "command_line.h"
+#include "outputs.h"
 #include "reporting.h"
 #include "shell_words.h"
 #include "starter.h"
@@ -33,6 +34,7 @@ int run_new(const std::vector<std::string>& arguments) {
         std::cout << scene;
         return 0;
     }
+    require_no_default_link(line, "file", file);
     std::error_code problem;
     if (!line.has("force") && std::filesystem::exists(std::filesystem::symlink_status(file, problem))) {
         throw Error(ErrorCategory::failure, fmt::format("'{}' is there already; --force replaces it", file));

@@ -40,6 +40,15 @@ void require_no_terminal(const std::string& output, const std::string& what) {
     }
 }
 
+void require_no_default_link(const CommandLine& line, const std::string& option,
+                             const std::filesystem::path& output) {
+    std::error_code none;
+    if (line.is_given(option) || !std::filesystem::is_symlink(output, none)) return;
+    throw Error(ErrorCategory::failure,
+                fmt::format("'{}', the default name, is a symbolic link here; to follow it, give the name",
+                            output.string()));
+}
+
 void require_no_input(const std::string& output, const std::vector<fs::path>& inputs,
                       const std::string& inputs_are, const std::string& remedy) {
     std::error_code problem;

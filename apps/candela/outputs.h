@@ -22,6 +22,11 @@ void require_free(const std::string& output, candela::Existing existing);
 /// Throws Error (bad_request) where `output` is "-", standard output, and that is a terminal.
 void require_no_terminal(const std::string& output, const std::string& what = "a PNG");
 
+/// Throws Error (failure) where the output has its default name because `option` does not give another, and a
+/// symbolic link is there: it may lead anywhere, and nobody has chosen it.
+void require_no_default_link(const CommandLine& line, const std::string& option,
+                             const std::filesystem::path& output);
+
 /// Throws Error (bad_request) where `output` is the file of one of `inputs`, by whatever path, or a part of a
 /// model among them, such as a buffer: "'a.png' is one of `inputs_are`; `remedy`".
 void require_no_input(const std::string& output, const std::vector<std::filesystem::path>& inputs,

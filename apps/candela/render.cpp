@@ -81,6 +81,7 @@ int render_picture(const CommandLine& line) {
     require_no_terminal(output);
     const candela::Existing existing = existing_from(line);
     require_free(output, existing);
+    require_no_default_link(line, "output", output);
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
     const candela::PictureFormat format = picture_format_from(line, output, registry);

@@ -425,6 +425,36 @@ TEST_CASE("a link in the place of a term's picture is replaced, and one that -o 
     CHECK(fs::is_regular_file(place.directory / "elsewhere.png"));
 }
 
+TEST_CASE("a link is followed where a person has named it, and refused where its name is the default") {
+    const Place place;
+    struct Case {
+        Words words;
+        const char* name;
+    };
+    for (const auto& [words, name] :
+         {Case{{"render", "scene.toml"}, "candela.png"},
+          Case{{"compare", "scene.toml", "--reflection", "phong,lambert"}, "comparison.png"},
+          Case{{"new", "--force"}, "scene.toml"},
+          Case{{"generate", "scene.toml", "--target", "cpp"}, "scene-cpp"},
+          Case{{"animate", "scene.toml"}, "frames"}, Case{{"submit", "scene.toml"}, "frames"},
+          Case{{"exercise", "new", "reflection/phong", "--blank", "reflect"}, "phong-reflect.html"}}) {
+        const std::string scene = read_file(place.directory / "scene.toml");
+        fs::remove(place.directory / name);
+        const bool is_folder = fs::path(name).extension().empty();
+        place.put_link(name, is_folder ? place.victims : place.victim());
+        check_refused(place.candela(words), 1,
+                      "'" + std::string(name) + "', the default name, is a symbolic link");
+        place.check_victims();
+        fs::remove(place.directory / name);
+        write_file(place.directory / "scene.toml", scene);
+    }
+    write_file(place.directory / "there.png", "old");
+    place.put_link("candela.png", place.directory / "there.png");
+    REQUIRE(place.candela({"render", "scene.toml", "-o", "candela.png"}).exit_code == 0);
+    CHECK(fs::is_symlink(place.directory / "candela.png"));
+    CHECK(read_file(place.directory / "there.png") != "old");
+}
+
 TEST_CASE("a film whose name is a directory's is an error that says so") {
     const Place place;
     write_file(place.directory / "bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho film >\"$last\"\n");
