@@ -1,7 +1,11 @@
 #include "candela/target/files.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
 #include <cstdlib>
-#include <fstream>
 #include <span>
 #include <stdexcept>
 #include <system_error>
@@ -31,8 +35,21 @@ TemporaryFolder::~TemporaryFolder() {
 void write_whole(const std::filesystem::path& file, std::string_view content) {
     std::filesystem::path beside = file;
     beside += ".part";
-    if (!(std::ofstream(beside, std::ios::binary) << content).flush())
+    // What is there may be a link to a file of somebody else's.
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    const int descriptor = ::open(beside.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    bool is_written = descriptor >= 0;
+    while (is_written && !content.empty()) {
+        const ssize_t count = ::write(descriptor, content.data(), content.size());
+        if (count > 0) content.remove_prefix(static_cast<std::size_t>(count));
+        is_written = count > 0 || (count < 0 && errno == EINTR);
+    }
+    if (descriptor >= 0 && ::close(descriptor) != 0) is_written = false;
+    if (!is_written) {
+        std::filesystem::remove(beside, ignored);
         throw std::runtime_error("'" + file.string() + "' cannot be written");
+    }
     std::filesystem::rename(beside, file);
 }
 

@@ -464,3 +464,19 @@ TEST_CASE("a film whose name is a directory's is an error that says so") {
                                 (place.directory / "bin").string() + ":/usr/bin:/bin"),
                   1, "'film.mp4' is a directory");
 }
+
+TEST_CASE("a picture that another program draws is not written through a link") {
+    const Place place;
+    write_file(place.directory / "bin/povray",
+               "#!/bin/sh\nfor word; do case $word in +O*) echo drawn >\"${word#+O}\";; esac; done\n");
+    fs::permissions(place.directory / "bin/povray", fs::perms::owner_all);
+    place.put_link("program/scene.png.part", place.victim());
+    place.put_link("program/scene.png", place.victim());
+    const CommandResult result =
+        place.candela({"generate", "scene.toml", "--target", "povray", "-o", "program", "--run"},
+                      (place.directory / "bin").string() + ":/usr/bin:/bin");
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(read_file(place.directory / "program/scene.png") == "drawn\n");
+    place.check_victims();
+}
