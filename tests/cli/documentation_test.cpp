@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "support/command.h"
 
@@ -157,4 +158,42 @@ TEST_CASE("docs/equations.md has a row for every light, reflection model and sha
     }
     INFO("docs/equations.md has no row for" << missing);
     CHECK(missing.empty());
+}
+
+TEST_CASE("the commands that the documentation shows can be run as they are printed") {
+    const fs::path d = scratch_directory();
+    const auto run = [&](const std::vector<std::string>& words) {
+        return run_candela(words, {.input = "", .environment = {}, .directory = d});
+    };
+    write_file(d / "ball.toml", block("README.md", "toml"));
+    for (const char* const picture : {"a.png", "b.png", "before.png", "after.png", "before.exr", "after.exr"})
+        REQUIRE(run({"render", "-o", picture, "--width", "64", "--height", "64"}).exit_code == 0);
+    std::vector<fs::path> pages{"README.md"};
+    for (const auto& entry : fs::directory_iterator(k_source / "docs"))
+        if (entry.path().extension() == ".md") pages.push_back("docs" / entry.path().filename());
+    const std::set<std::string> verbs{"check", "compare", "describe", "diff",
+                                      "edit",  "explain", "list",     "plot"};
+    int count = 0;
+    for (const fs::path& page : pages) {
+        std::istringstream lines(read_file(k_source / page));
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream text(line.substr(0, line.find(" #")));
+            std::vector<std::string> words;
+            for (std::string word; text >> word;) words.push_back(word);
+            if (words.size() < 2 || words[0] != "candela" || !verbs.contains(words[1])) continue;
+            // What a reader has built before, and what only a shell can do.
+            if (line.find_first_of("|<>") != std::string::npos ||
+                line.find("--plugin-dir") != std::string::npos ||
+                line.find("reflection/cel") != std::string::npos)
+                continue;
+            REQUIRE(run({"new", "--force"}).exit_code == 0);
+            if (words[1] == "compare") words.insert(words.end(), {"--width", "32", "--height", "24"});
+            words.erase(words.begin());
+            const CommandResult result = run(words);
+            INFO(page.string() << ": " << line << '\n' << result.err);
+            CHECK(result.exit_code == 0);
+            ++count;
+        }
+    }
+    CHECK(count > 20);
 }
