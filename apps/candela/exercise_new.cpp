@@ -268,6 +268,11 @@ int run_exercise_new(const std::vector<std::string>& arguments) {
             : fmt::format("{}-{}.html", exercise.plugin->manifest.name,
                           exercise.function.substr(
                               std::string(exercise.plugin->descriptor->kernel.prefix).size() + 1));
+    // Not over a scene, say, because the name was completed too far.
+    if (const std::string extension = candela::extension_of(output);
+        output != "-" && extension != "html" && extension != "htm")
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is not the name of a page; expected one that ends in .html", output));
     const candela::Existing existing = existing_from(line);
     require_free(output, existing);
     require_no_default_link(line, "output", output);

@@ -256,3 +256,14 @@ TEST_CASE("CANDELA_PLUGIN_PATH with a file in it is a message, not silence") {
     expect(with(d.string() + ":" + (d / "file").string()), 1, {"which is not a folder"});
     CHECK(with(d.string() + "::" + (d / "gone").string()).exit_code == 0);
 }
+
+TEST_CASE("a page or a diagram is not written over a scene, whose name is not that of one") {
+    const fs::path d = scratch_directory();
+    REQUIRE(in(d, {"new"}).exit_code == 0);
+    const std::map<std::string, std::string> before = contents_of(d);
+    expect(in(d, {"exercise", "new", "phong", "--blank", "reflect", "-o", "scene.toml"}), 2,
+           {"'scene.toml' is not the name of a page; expected one that ends in .html"});
+    expect(in(d, {"plot", "reflection/phong", "-o", "scene.toml"}), 2, {"neither .svg nor .csv"});
+    expect(in(d, {"render", "-o", "scene.toml"}), 2, {"is of no format that an image plugin writes"});
+    CHECK(changes_in(d, before) == "");
+}
