@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/signalfd.h>
 #include <sys/socket.h>
+#include <sys/types.h>
 
 #include <algorithm>
 #include <array>
@@ -285,10 +286,12 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     /// Nobody reads the answer to a browser that has left.
     void notice_leaving() {
         stream_.socket().async_wait(tcp::socket::wait_read, [self = shared_from_this()](error_code problem) {
+            if (problem) return;
             char next = 0;
-            if (problem ||
-                ::recv(self->stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT) > 0)
-                return;
+            const ssize_t received =
+                ::recv(self->stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT);
+            if (received > 0) return;
+            if (received < 0 && (errno == EAGAIN || errno == EINTR)) return self->notice_leaving();
             self->unwanted_.request_stop();
             self->close();
         });
