@@ -9,9 +9,19 @@
 
 namespace mesh {
 
-Loaded::Loaded(Surface whole, bool keeps_sides)
-    : surface_(std::move(whole)), corners_(surface_), open_(open_edges(surface_, corners_)) {
-    if (!keeps_sides && turn_outwards(surface_, corners_, open_)) corners_ = Corners(surface_);
+Loaded::Loaded(Surface whole, bool keeps_sides) : surface_(std::move(whole)) {
+    if (keeps_sides) return;
+    joined();
+    if (turn_outwards(surface_, joined_->corners, joined_->open)) joined_->corners = Corners(surface_);
+}
+
+const Loaded::Joined& Loaded::joined() const {
+    std::call_once(is_joined_, [&] {
+        Corners corners(surface_);
+        OpenEdges open = open_edges(surface_, corners);
+        joined_.emplace(Joined{std::move(corners), std::move(open)});
+    });
+    return *joined_;
 }
 
 const TrianglesByMaterial& Loaded::by_material() const {

@@ -23,15 +23,21 @@ class Loaded {
     Loaded(Surface whole, bool keeps_sides);
 
     const Surface& surface() const { return surface_; }
-    const Corners& corners() const { return corners_; }
-    const OpenEdges& open() const { return open_; }
+    const Corners& corners() const { return joined().corners; }
+    const OpenEdges& open() const { return joined().open; }
     const TrianglesByMaterial& by_material() const;
 
   private:
+    struct Joined {
+        Corners corners;
+        OpenEdges open;
+    };
+    const Joined& joined() const;
+
     Surface surface_;
-    Corners corners_;
-    OpenEdges open_;
-    mutable std::once_flag is_sorted_;
+    // Made when they are asked for: parts of a file whose sides are kept need neither.
+    mutable std::once_flag is_joined_, is_sorted_;
+    mutable std::optional<Joined> joined_;
     mutable std::optional<TrianglesByMaterial> by_material_;
 };
 
