@@ -126,7 +126,9 @@ class Writer {
             const Parameter& p = values.schema()[i];
             const std::optional<Value>& value = values.get(i);
             if (!value) cannot_say(fmt::format("{}: '{}' has no value", where, p.name));
-            add(p.name, value_text(*value, p.type));
+            // A file that may be left out is left out.
+            const auto* const file = p.type == ParamType::file ? std::get_if<std::string>(&*value) : nullptr;
+            if (file == nullptr || !file->empty()) add(p.name, value_text(*value, p.type));
         }
     }
 

@@ -234,8 +234,9 @@ material = {kd = 1, ka = 0}
 
     const std::string a = (folder / "a.png").string(), b = (folder / "b.png").string();
     REQUIRE(run_candela({"render", (folder / "scene.toml").string(), "-o", a}).exit_code == 0);
+    // Files with lights are given a little ambient light, which the scene does not have.
     REQUIRE(run_candela({"render", (folder / "back.toml").string(), "-o", b, "--width", "200", "--height",
-                         "100", "--samples", "1"})
+                         "100", "--samples", "1", "--set", "light.sky.intensity=0"})
                 .exit_code == 0);
     const CommandResult difference = run_candela({"diff", a, b, "--tolerance", "1"});
     INFO(difference.out);
