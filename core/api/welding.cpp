@@ -1,3 +1,4 @@
+#include "candela/large_pages.h"
 #include "candela/parallel.h"
 #include "candela/shape.h"
 
@@ -43,6 +44,7 @@ class Parts {
 
     Parts(ConstVec3Span position, std::size_t count)
         : vertices_(std::make_unique_for_overwrite<Vertex[]>(count)) {
+        prefer_large_pages(vertices_.get(), count * sizeof(Vertex));
         const std::size_t blocks = (count + k_block - 1) / k_block;
         const auto part_of = std::make_unique_for_overwrite<std::uint8_t[]>(count);
         // How many vertices of each block belong to each part, and then where they go.
@@ -84,6 +86,29 @@ class Parts {
     std::unique_ptr<Vertex[]> vertices_;
 };
 
+/// Finds the first vertex at each place. Open addressing in one array, which stays in the cache.
+class PlaceTable {
+  public:
+    void run(std::span<const Parts::Vertex> vertices, std::uint32_t* first) {
+        constexpr std::uint32_t k_free = 0xffff'ffffu;
+        const std::size_t mask = std::bit_ceil(2 * vertices.size() + 1) - 1;
+        slots_.assign(mask + 1, k_free);
+        for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+            const Parts::Vertex& v = vertices[i];
+            for (std::size_t at = Hash()(v.place) & mask;; at = (at + 1) & mask) {
+                std::uint32_t& slot = slots_[at];
+                if (slot == k_free) slot = i;
+                if (slot != i && vertices[slot].place != v.place) continue;
+                first[v.number] = vertices[slot].number;
+                break;
+            }
+        }
+    }
+
+  private:
+    std::vector<std::uint32_t> slots_;
+};
+
 }  // namespace
 
 std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count) {
@@ -100,13 +125,8 @@ std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count) {
     }
     const Parts parts(position, count);
     parallel_for(Parts::k_count, 1, [&](std::size_t begin, std::size_t end) {
-        FirstAt first_at;
-        for (std::size_t part = begin; part < end; ++part) {
-            first_at.clear();
-            first_at.reserve(parts[part].size());
-            for (const Parts::Vertex& v : parts[part])
-                first[v.number] = first_at.try_emplace(v.place, v.number).first->second;
-        }
+        PlaceTable table;
+        for (std::size_t part = begin; part < end; ++part) table.run(parts[part], first.data());
     });
     return first;
 }

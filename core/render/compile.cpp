@@ -252,6 +252,7 @@ class Compiler {
                                         .color_management = encoding()},
                                        object.transform, [this](double part) { tell(part); });
                 });
+                shapes[i].reset();  // a file's triangles need not stay until all others have been read
                 if (placed_[i]) warnings_[i] = placed_[i]->warnings;
                 if (has_surface(i)) require_texture_coordinates(i);
             }

@@ -14,14 +14,22 @@ namespace {
 constexpr std::size_t k_per_task = 16384;
 
 std::uint32_t next_in_triangle(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+Array<std::uint32_t> places_of(const Surface& surface) {
+    Array<std::uint32_t> places(surface.position.size());
+    if (surface.are_places_unique) {
+        std::iota(places.begin(), places.end(), 0u);
+    } else {
+        std::ranges::copy(candela::welded(surface.position.span(), places.size()), places.begin());
+    }
+    return places;
+}
+
 std::uint32_t previous_in_triangle(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
 }  // namespace
 
 Corners::Corners(const Surface& surface)
-    : place_(candela::welded(surface.position.span(), surface.position.size())),
-      begin_(place_.size() + 1),
-      corners_(surface.indices.size()) {
+    : place_(places_of(surface)), begin_(place_.size() + 1), corners_(surface.indices.size()) {
     const auto each_corner = [&](auto visit) {
         candela::parallel_for(corners_.size(), k_per_task, [&](std::size_t begin, std::size_t end) {
             for (std::size_t corner = begin; corner < end; ++corner)

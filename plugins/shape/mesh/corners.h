@@ -25,7 +25,7 @@ class Corners {
     }
 
   private:
-    std::vector<std::uint32_t> place_;
+    Array<std::uint32_t> place_;
     Array<std::uint32_t> begin_;
     Array<std::uint32_t> corners_;
 };

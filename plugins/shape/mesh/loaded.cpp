@@ -1,7 +1,9 @@
 #include "loaded.h"
 
 #include <array>
+#include <filesystem>
 #include <map>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -29,13 +31,30 @@ const TrianglesByMaterial& Loaded::by_material() const {
     return *by_material_;
 }
 
+std::shared_ptr<const SplitVertices> Loaded::split(double crease_angle) const {
+    {
+        const std::scoped_lock lock(splitting_);
+        if (split_ != nullptr && split_angle_ == crease_angle) return split_;
+    }
+    // Not under the lock: a thread that waits for others may be given work that comes here.
+    auto made = std::make_shared<const SplitVertices>(split_at_creases(surface_, corners(), crease_angle));
+    const std::scoped_lock lock(splitting_);
+    split_ = made;
+    split_angle_ = crease_angle;
+    return made;
+}
+
 std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin& origin, Reach reach,
                                            bool keeps_sides) {
     static std::mutex mutex;
     static std::map<std::tuple<std::string, std::array<double, 3>, Reach, bool>, std::weak_ptr<SharedFile>>
         files;
+    std::error_code problem;
+    const std::filesystem::path path =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file, problem), problem);
     const std::scoped_lock lock(mutex);
-    std::weak_ptr<SharedFile>& known = files[{file, origin.at, reach, keeps_sides}];
+    std::weak_ptr<SharedFile>& known =
+        files[{problem ? file : path.string(), origin.at, reach, keeps_sides}];
     std::shared_ptr<SharedFile> shared = known.lock();
     if (shared == nullptr) {
         shared.reset(new SharedFile(file));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corners.h"
+#include "crease.h"
 #include "file_bytes.h"
 #include "origin.h"
 #include "part.h"
@@ -26,6 +27,8 @@ class Loaded {
     const Corners& corners() const { return joined().corners; }
     const OpenEdges& open() const { return joined().open; }
     const TrianglesByMaterial& by_material() const;
+    /// Its vertices, split where faces meet at more than that angle (radians); made once for one angle.
+    std::shared_ptr<const SplitVertices> split(double crease_angle) const;
 
   private:
     struct Joined {
@@ -39,6 +42,9 @@ class Loaded {
     mutable std::once_flag is_joined_, is_sorted_;
     mutable std::optional<Joined> joined_;
     mutable std::optional<TrianglesByMaterial> by_material_;
+    mutable std::mutex splitting_;
+    mutable std::shared_ptr<const SplitVertices> split_;
+    mutable double split_angle_ = -1;
 };
 
 /// Owned by all shapes of a file.

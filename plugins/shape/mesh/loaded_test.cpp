@@ -68,6 +68,21 @@ TEST_CASE("shape/mesh: a scene of a hundred and twenty parts of a file reads it 
     CHECK(result.scene.objects[17].mesh.vertex_count() == 200);
 }
 
+TEST_CASE(
+    "shape/mesh: a shape that exists keeps what it has read for the next one of the file, whatever its "
+    "path") {
+    const auto folder = scratch_directory();
+    const auto file = write_file(folder / "a.obj", squares(20, 50));
+    const auto shape_of = [&](const std::string& path) { return instance<Shape>("mesh", {{"file", path}}); };
+    const auto first = shape_of(file.string());
+    const Mesh mesh = placed(*first);
+    const std::uint64_t before = bytes_read();
+    const Mesh again = placed(*shape_of((folder / "." / "a.obj").string()));
+    CHECK(bytes_read() - before < std::filesystem::file_size(file) / 2);
+    CHECK(again.indices == mesh.indices);
+    CHECK(again.position.x == mesh.position.x);
+}
+
 TEST_CASE("shape/mesh: shapes of one file see what it has become") {
     const auto file = write_file(scratch_directory() / "a.obj", squares(2, 3));
     const auto of_part = [&](const char* part) {

@@ -145,17 +145,23 @@ class FileMesh final : public candela::Shape {
                 sink.progress(k_read);
                 return std::make_shared<const mesh::Loaded>(std::move(surface), keeps_sides());
             };
-            const bool is_shared = shared_.use_count() > 1;
-            std::shared_ptr<const mesh::Loaded> whole = is_shared ? shared_->loaded(read) : read();
+            std::shared_ptr<const mesh::Loaded> whole = shared_->loaded(read);
             sink.progress(k_oriented);
-            if (part_.empty() && cutout_.empty())
-                return write(whole->surface(), whole->corners(), whole->open(), request, sink);
+            if (part_.empty() && cutout_.empty()) {
+                std::shared_ptr<const mesh::SplitVertices> split;
+                if (!has_all_normals(whole->surface())) split = whole->split(crease_angle_);
+                const mesh::SplitVertices none;
+                return write(whole->surface(), split != nullptr ? *split : none, whole->open(), request,
+                             sink);
+            }
             mesh::Surface part;
             if (!part_.empty()) part = mesh::part_of(whole->surface(), whole->by_material(), part_);
             if (!cutout_.empty()) part = cut_out(part_.empty() ? whole->surface() : part);
             whole.reset();
             const mesh::Corners corners(part);
-            write(part, corners, mesh::open_edges(part, corners), request, sink);
+            mesh::SplitVertices split;
+            if (!has_all_normals(part)) split = mesh::split_at_creases(part, corners, crease_angle_);
+            write(part, split, mesh::open_edges(part, corners), request, sink);
         } catch (const mesh::BadFile& problem) {
             throw std::runtime_error(fmt::format("'{}' {}", file_, problem.what()));
         }
@@ -177,10 +183,8 @@ class FileMesh final : public candela::Shape {
     // What has been done after each step, for ten million triangles.
     static constexpr double k_read = 0.5, k_oriented = 0.8, k_split = 0.9;
 
-    void write(const mesh::Surface& surface, const mesh::Corners& corners, const mesh::OpenEdges& open,
+    void write(const mesh::Surface& surface, const mesh::SplitVertices& split, const mesh::OpenEdges& open,
                const candela::MeshRequest& request, candela::MeshSink& sink) const {
-        mesh::SplitVertices split;
-        if (!has_all_normals(surface)) split = mesh::split_at_creases(surface, corners, crease_angle_);
         sink.progress(k_split);
         const mesh::Array<std::uint32_t>& indices = split.indices.empty() ? surface.indices : split.indices;
 

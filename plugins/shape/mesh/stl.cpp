@@ -91,6 +91,64 @@ void set_magics_colors(std::string_view bytes, Color object, bool has_attributes
     if (object[3] != k_most) surface.losses.emplace_back("an opacity");
 }
 
+/// Gives each position one vertex as it comes. Neighbouring facets have most corners in common, so that what
+/// is looked up is mostly in the cache still.
+class VertexMerger {
+  public:
+    /// `facets`: of a closed surface of so many there are half as many vertices.
+    explicit VertexMerger(std::size_t facets)
+        : slots_(std::bit_ceil(std::max<std::size_t>(facets, 16)), k_free) {
+        places_.reserve(facets / 2 + 16);
+    }
+
+    std::uint32_t number_of(Vec3 p) {
+        const Place place = {bits(p.x), bits(p.y), bits(p.z)};
+        const std::size_t mask = slots_.size() - 1;
+        for (std::size_t at = hash(place) & mask;; at = (at + 1) & mask) {
+            if (slots_[at] == k_free) {
+                const auto number = static_cast<std::uint32_t>(places_.size());
+                slots_[at] = number;
+                places_.push_back(place);
+                if (2 * places_.size() > slots_.size() + slots_.size() / 2) grow();
+                return number;
+            }
+            if (places_[slots_[at]] == place) return slots_[at];
+        }
+    }
+
+    Vectors positions() && {
+        Vectors result;
+        result.resize(places_.size());
+        for (std::size_t i = 0; i < places_.size(); ++i)
+            result.span().set(i, {std::bit_cast<float>(places_[i][0]), std::bit_cast<float>(places_[i][1]),
+                                  std::bit_cast<float>(places_[i][2])});
+        return result;
+    }
+
+  private:
+    using Place = std::array<std::uint32_t, 3>;
+    static constexpr std::uint32_t k_free = 0xffff'ffffu;
+
+    static std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); }  // -0 is 0
+    static std::size_t hash(const Place& place) {
+        std::uint64_t h = 0x9e3779b97f4a7c15u;
+        for (const std::uint32_t part : place) h = (h ^ part) * 0xff51afd7ed558ccdu, h ^= h >> 32;
+        return h;
+    }
+    void grow() {
+        slots_.assign(2 * slots_.size(), k_free);
+        const std::size_t mask = slots_.size() - 1;
+        for (std::uint32_t i = 0; i < places_.size(); ++i) {
+            std::size_t at = hash(places_[i]) & mask;
+            while (slots_[at] != k_free) at = (at + 1) & mask;
+            slots_[at] = i;
+        }
+    }
+
+    Array<std::uint32_t> slots_;
+    Array<Place> places_;
+};
+
 Surface read_binary(std::string_view bytes, const Origin& origin) {
     if (bytes.size() < k_header)
         throw BadFile("is no STL file: it neither begins with 'solid' nor has 84 bytes");
@@ -100,27 +158,31 @@ Surface read_binary(std::string_view bytes, const Origin& origin) {
         throw BadFile(fmt::format("declares {} facets of {} bytes, but only {} bytes are left", facets,
                                   k_facet, bytes.size() - k_header));
     }
+    const auto color = magics_color(bytes);
     Surface surface;
     surface.is_single = true;
-    surface.position.resize(3 * facets);
     surface.facet_normal.resize(facets);
     surface.indices.resize(3 * facets);
-    std::atomic<bool> has_attributes = false;
-    candela::parallel_for(facets, 16384, [&](std::size_t begin, std::size_t end) {
-        unsigned attributes = 0;
-        for (std::size_t t = begin; t < end; ++t) {
-            const char* const facet = bytes.data() + k_header + t * k_facet;
-            surface.facet_normal.span().set(t, unit(vector_at(facet)));
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3 p = vector_at(facet + 12 * (k + 1));
-                surface.position.span().set(3 * t + k, origin.moved({p.x, p.y, p.z}));
-                surface.indices[3 * t + k] = static_cast<std::uint32_t>(3 * t + k);
-            }
-            attributes |= little_endian<std::uint16_t>(facet + 48);
+    if (color) surface.position.resize(3 * facets);  // each facet may have a colour of its own
+    std::optional<VertexMerger> merger;
+    if (!color) merger.emplace(facets);
+    unsigned attributes = 0;
+    for (std::size_t t = 0; t < facets; ++t) {
+        const char* const facet = bytes.data() + k_header + t * k_facet;
+        surface.facet_normal.span().set(t, unit(vector_at(facet)));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 p = vector_at(facet + 12 * (k + 1));
+            const Vec3 moved = origin.moved({p.x, p.y, p.z});
+            const std::size_t corner = 3 * t + k;
+            surface.indices[corner] = merger ? merger->number_of(moved) : static_cast<std::uint32_t>(corner);
+            if (!merger) surface.position.span().set(corner, moved);
         }
-        if (attributes != 0) has_attributes = true;
-    });
-    if (const auto color = magics_color(bytes)) {
+        attributes |= little_endian<std::uint16_t>(facet + 48);
+    }
+    if (merger) surface.position = std::move(*merger).positions();
+    surface.are_places_unique = merger.has_value();
+    const bool has_attributes = attributes != 0;
+    if (color) {
         set_magics_colors(bytes, *color, has_attributes, surface);
     } else if (has_attributes) {
         surface.losses.emplace_back("attributes of facets, such as colours");
@@ -208,8 +270,9 @@ void note_contradictions(Surface& surface) {
         std::uint64_t some = 0;
         for (std::size_t t = begin; t < end; ++t) {
             const auto p = std::as_const(surface).position.span();
-            const Vec3 a = p[3 * t];
-            const Vec3 n = candela::normalized(cross(p[3 * t + 1] - a, p[3 * t + 2] - a));
+            const std::uint32_t* const v = &surface.indices[3 * t];
+            const Vec3 a = p[v[0]];
+            const Vec3 n = candela::normalized(cross(p[v[1]] - a, p[v[2]] - a));
             if (dot(n, surface.facet_normal.span()[t]) < 0) {
                 surface.facet_normal.span().set(t, {});
                 ++some;

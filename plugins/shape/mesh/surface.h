@@ -1,12 +1,15 @@
 // What a mesh file holds, whatever its format.
 #pragma once
 
+#include "candela/large_pages.h"
 #include "candela/math.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,13 +19,27 @@
 namespace mesh {
 
 /// Leaves new elements as they are: arrays of a hundred megabytes are first touched by the threads that fill
-/// them.
+/// them, in large pages.
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
     template <class U>
     struct rebind {  // NOLINT(readability-identifier-naming): the standard's name
         using other = UninitializedAllocator<U>;
     };
+    static constexpr std::size_t k_large = std::size_t{4} << 20;  // bytes
+    T* allocate(std::size_t count) {
+        if (count < k_large / sizeof(T)) return std::allocator<T>::allocate(count);
+        if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+        // NOLINTNEXTLINE(cppcoreguidelines-no-malloc): new would not ask before it touches
+        void* const memory = std::malloc(count * sizeof(T));
+        if (memory == nullptr) throw std::bad_alloc();
+        candela::prefer_large_pages(memory, count * sizeof(T));
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t count) noexcept {
+        if (count < k_large / sizeof(T)) return std::allocator<T>::deallocate(memory, count);
+        std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc)
+    }
     template <class U>
     void construct(U*) noexcept {}
     template <class U, class... Arguments>
@@ -79,8 +96,9 @@ struct Surface {
     Vectors facet_normal;          // per triangle, unit, zero where the file's is none; or empty
     std::vector<std::uint32_t> smoothing;  // per triangle: its smoothing group; or empty: all k_by_angle
 
-    bool is_single = false;        // the file itself has positions in single precision
-    bool is_color_linear = false;  // else encoded as colours of scenes are
+    bool is_single = false;          // the file itself has positions in single precision
+    bool are_places_unique = false;  // no two vertices are at the same place, as far as is known
+    bool is_color_linear = false;    // else encoded as colours of scenes are
 
     std::vector<std::uint32_t> material;  // per triangle: one of the materials; or empty
     std::vector<std::string> materials;   // their names; k_no_material is that of triangles without one
