@@ -99,6 +99,11 @@ class Reader {
         const bool is_mirrored = (count > 0 ? pose.of(0) : placed.to_world).determinant() < 0;
         std::array<Array<double>, 3> values = read(position);
         pose.morph("POSITION", values);
+        // Of many primitives, each would move all that is there.
+        if (first == 0)
+            for (Array<float>* const axis :
+                 {&surface_.position.x, &surface_.position.y, &surface_.position.z})
+                axis->reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const std::array<double, 3> v = {values[0][i], values[1][i], values[2][i]};
             const std::array<double, 3> p = pose.is_rigid() ? placed.to_world.point(v) : pose.of(i).point(v);
@@ -200,7 +205,30 @@ class Reader {
                 fmt::format("has a primitive of {} positions and {} {}", count, accessor.count(), what));
     }
 
+    /// Triangles as most files have them; false, and nothing added, for others and for what is wrong.
+    bool add_whole_triangles(const Placed& placed, std::size_t first, std::size_t count, bool is_mirrored) {
+        const int mode = placed.primitive->mode;
+        if (placed.primitive->indices < 0 || (mode >= 0 && mode != TINYGLTF_MODE_TRIANGLES)) return false;
+        auto corners = accessor(placed.primitive->indices, 1).whole_numbers();
+        if (!corners || corners->size() % 3 != 0) return false;
+        std::uint32_t highest = 0;
+        for (const std::uint32_t corner : *corners) highest = std::max(highest, corner);
+        if (!corners->empty() && highest >= count) return false;
+        if (is_mirrored)
+            for (std::size_t i = 0; i < corners->size(); i += 3)
+                std::swap((*corners)[i + 1], (*corners)[i + 2]);
+        if (first > 0)
+            for (std::uint32_t& corner : *corners) corner += static_cast<std::uint32_t>(first);
+        if (surface_.indices.empty()) {
+            surface_.indices = *std::move(corners);
+        } else {
+            surface_.indices.insert(surface_.indices.end(), corners->begin(), corners->end());
+        }
+        return true;
+    }
+
     void add_triangles(const Placed& placed, std::size_t first, std::size_t count, bool is_mirrored) {
+        if (add_whole_triangles(placed, first, count, is_mirrored)) return;
         Array<double> corners;
         if (placed.primitive->indices >= 0) {
             corners = accessor(placed.primitive->indices, 1).read(0);

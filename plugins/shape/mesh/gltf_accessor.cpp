@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace mesh::gltf {
 
@@ -132,9 +133,35 @@ int Accessor::components_of(const Document& document, int index) {
     }
 }
 
+std::optional<Array<std::uint32_t>> Accessor::whole_numbers() const {
+    if (dense_.first == nullptr || sparse_count_ > 0 || normalized_) return std::nullopt;
+    Array<std::uint32_t> numbers(count_);
+    const auto copy = [&](auto t) {
+        for (std::size_t i = 0; i < count_; ++i)
+            numbers[i] = load<decltype(t)>(dense_.first + i * dense_.stride);
+        return std::optional(std::move(numbers));
+    };
+    switch (dense_.component_type) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return copy(std::uint8_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return copy(std::uint16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return copy(std::uint32_t{});
+        default:
+            return std::nullopt;
+    }
+}
+
 Array<double> Accessor::read(int c) const {
     Array<double> values(count_);
-    for (std::size_t i = 0; i < count_; ++i) values[i] = dense_.first == nullptr ? 0.0 : value(dense_, i, c);
+    if (dense_.first != nullptr && dense_.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) {
+        const unsigned char* const first = dense_.first + static_cast<std::size_t>(c) * sizeof(float);
+        for (std::size_t i = 0; i < count_; ++i) values[i] = double{load<float>(first + i * dense_.stride)};
+    } else {
+        for (std::size_t i = 0; i < count_; ++i)
+            values[i] = dense_.first == nullptr ? 0.0 : value(dense_, i, c);
+    }
     for (std::size_t k = 0; k < sparse_count_; ++k) {
         const auto integer = [&]() -> std::size_t {
             const unsigned char* const from = sparse_indices_.first + k * sparse_indices_.stride;

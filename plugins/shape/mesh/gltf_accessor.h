@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "gltf_document.h"
 #include "surface.h"
@@ -21,6 +22,8 @@ class Accessor {
     static int components_of(const Document& document, int index);
     /// Component `c` of all elements.
     Array<double> read(int c) const;
+    /// The only component of all elements, where they are nothing but whole numbers in one piece.
+    std::optional<Array<std::uint32_t>> whole_numbers() const;
 
   private:
     struct Bytes {
