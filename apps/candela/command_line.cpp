@@ -190,6 +190,13 @@ const std::string& contents_of(const std::string& stream) {
     return text->second;
 }
 
+/// What reads models' triangles only once. Never destroyed: plugins are gone by then.
+std::vector<std::shared_ptr<const void>>& triangles_of_models() {
+    static auto& all =
+        *new std::vector<std::shared_ptr<const void>>;  // NOLINT(cppcoreguidelines-owning-memory)
+    return all;
+}
+
 /// The scene that shows a model; made once, and so are the files of pictures that the model contains, which
 /// live as long as the command.
 const std::string& scene_of_model(const std::string& file, bool allow_outside, candela::Registry& registry) {
@@ -211,10 +218,13 @@ const std::string& scene_of_model(const std::string& file, bool allow_outside, c
          .name_of_picture = [](const std::filesystem::path& picture) { return picture.string(); }},
         registry);
     for (const std::string& note : imported.notes) warn(note);
+    triangles_of_models().push_back(imported.triangles);
     return scene->second = imported.scene;
 }
 
 }  // namespace
+
+void forget_triangles_of_models() { triangles_of_models().clear(); }
 
 void add_scene_options(CommandLine& line) {
     line.positional("scene", -1);

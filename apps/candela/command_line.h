@@ -63,6 +63,9 @@ candela::Registry registry_from(const CommandLine& line);
 void add_scene_options(CommandLine& line);
 /// A model's file in place of a scene is imported, once, and what is lost is said.
 candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry);
+/// To be called once the scene of a model has been compiled: until then its triangles are kept, so that the
+/// file is read only once.
+void forget_triangles_of_models();
 /// The words that say the same to another command, in this folder.
 std::vector<std::string> scene_words_from(const CommandLine& line);
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "command_line.h"
 #include "reporting.h"
 #include "terminal.h"
 
@@ -10,7 +11,9 @@ std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& d
                                                     candela::Registry& registry,
                                                     candela::Diagnostics& diagnostics, int threads) {
     ProgressBar bar("reading", !is_quiet());
-    return candela::compile(draft, registry, diagnostics, threads, bar.updater());
+    auto compiled = candela::compile(draft, registry, diagnostics, threads, bar.updater());
+    forget_triangles_of_models();
+    return compiled;
 }
 
 void check_all_frames(candela::SceneFrames& frames, const std::vector<int>& numbers,

@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "import/vectors.h"
@@ -85,7 +86,7 @@ class Look {
     void set_origin(const std::string& origin) { parameters_.set("origin", origin); }
 
     Geometry geometry() const {
-        const auto shape = this->shape();
+        std::shared_ptr<candela::Shape> shape = this->shape();
         candela::Transform transform;
         if (is_z_up_) transform.rotation = {-90, 0, 0};
         candela::PlacedShape placed;
@@ -100,6 +101,7 @@ class Look {
         }
         const candela::Mesh& mesh = placed.mesh;
         Geometry result;
+        result.file = std::move(shape);
         result.has_colors = !mesh.color.empty();
         result.has_uv = !mesh.u.empty();
         result.is_closed = mesh.open_edges == 0;

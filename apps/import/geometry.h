@@ -1,6 +1,7 @@
 // What only a model's triangles tell.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "import/framing.h"
@@ -18,6 +19,7 @@ struct Geometry {
     /// The point of the file's coordinates that becomes the scene's origin, as the shape's parameter `origin`
     /// has it; empty where the model is not far from its own.
     std::string origin{};
+    std::shared_ptr<const void> file{};  // read, until this is gone or the file changes
     Vector moved{};  // the same point in the scene's directions: what has been subtracted from all positions
 };
 

@@ -254,7 +254,8 @@ Imported import_model(const Request& request, candela::Registry& registry) {
             .notes = model.notes,
             .objects = model.parts.size(),
             .lights = setting.lights.size(),
-            .textures = model.pictures.size()};
+            .textures = model.pictures.size(),
+            .triangles = geometry.file};
 }
 
 }  // namespace importing

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Imported {
     std::string scene;               // TOML
     std::vector<std::string> notes;  // what was lost or approximated: sentences without a full stop
     std::size_t objects = 0, lights = 0, textures = 0;
+    /// While it exists, the model's triangles need not be read again. A plugin made it, so it must not
+    /// outlive the registry.
+    std::shared_ptr<const void> triangles{};
 };
 
 /// The scene that shows a model: its triangles, materials, textures, lights and its camera; what it does not
