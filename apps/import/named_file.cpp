@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
+#include <cstdint>
 #include <system_error>
 #include <vector>
 
@@ -67,8 +69,8 @@ std::optional<fs::path> find_in_other_case(const fs::path& folder, const fs::pat
 
 /// Nothing if it is not text in that encoding.
 std::optional<std::string> to_utf8(std::string_view text, const char* encoding) {
-    const ::iconv_t converter = ::iconv_open("UTF-8", encoding);
-    if (converter == reinterpret_cast<::iconv_t>(-1)) return std::nullopt;
+    ::iconv_t converter = ::iconv_open("UTF-8", encoding);  // NOLINT(misc-const-correctness): a pointer
+    if (std::bit_cast<std::intptr_t>(converter) == -1) return std::nullopt;
     std::string from(text), to(4 * text.size() + 4, '\0');
     char *in = from.data(), *out = to.data();
     std::size_t left = from.size(), room = to.size();

@@ -57,7 +57,7 @@ class MemoryFile {
 
 /// The reason without the file's name, which is another one to the user.
 std::string reason_of(const candela::Error& problem, const fs::path& file) {
-    std::string reason = problem.what();
+    const std::string reason = problem.what();
     const std::string begin = fmt::format("'{}' cannot be read as a picture: ", file.string());
     return reason.starts_with(begin) ? reason.substr(begin.size()) : reason;
 }

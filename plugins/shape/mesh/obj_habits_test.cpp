@@ -1,4 +1,6 @@
 // OBJ files that are not quite what the format demands, as many programs write them.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers.hpp>
@@ -72,21 +74,19 @@ TEST_CASE("shape/mesh: normals and texture coordinates that are not finite are l
     for (const char* const word :
          {"nan", "-nan", "nan(ind)", "-nan(ind)", "-1.#IND", "1.#INF", "1.#QNAN0", "inf", "-inf", "1e999"}) {
         INFO(word);
-        const std::string bad = word;
-        const candela::PlacedShape square =
-            placed(std::string(k_square) + "vn 0 0 1\nvn " + bad + " 0 0\nvn 0 " + bad +
-                   " 0\nvt 1 0\nvt 0.5 " + bad + "\nf 1/1/1 2/1/2 3/1/3 4/2/1\n");
+        const candela::PlacedShape square = placed(fmt::format(
+            "{0}vn 0 0 1\nvn {1} 0 0\nvn 0 {1} 0\nvt 1 0\nvt 0.5 {1}\nf 1/1/1 2/1/2 3/1/3 4/2/1\n", k_square,
+            word));
         CHECK(square.mesh.triangle_count() == 2);
         REQUIRE(square.warnings.size() == 2);
         CHECK_THAT(square.warnings[0],
                    ContainsSubstring("has 2 normals that are not finite; computed ones take their place"));
         CHECK_THAT(square.warnings[1], ContainsSubstring("has 1 pair of texture coordinates"));
-        const Mesh mesh = candela::build_mesh(
-            *instance<Shape>("mesh", {{"file", write_file(scratch_directory() / "b.obj",
-                                                          std::string(k_square) + "vn 0 0 1\nvn " + bad +
-                                                              " 0 0\nf 1//1 2//2 3//1\n")
-                                                   .string()}}),
-            {}, {}, *instance<candela::ShadingModel>("phong"));
+        const auto file =
+            write_file(scratch_directory() / "b.obj",
+                       fmt::format("{}vn 0 0 1\nvn {} 0 0\nf 1//1 2//2 3//1\n", k_square, word));
+        const Mesh mesh = candela::build_mesh(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {},
+                                              *instance<candela::ShadingModel>("phong"));
         for (const std::uint32_t corner : mesh.indices)
             CHECK(agree(mesh.vertices[corner].normal, Vec3{0, 0, 1}, 1e-6));
     }

@@ -9,13 +9,11 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
 
-using candela::Mesh;
 using candela::Shape;
 using candela::Vec3;
 
@@ -23,7 +21,8 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-const std::vector<Point> k_corners = {{0.125, -0.25, 0.5}, {1.03125, 0.0625, 0.75}, {-0.5, 0.875, 0.03125}};
+constexpr std::array<Point, 3> k_corners = {
+    {{0.125, -0.25, 0.5}, {1.03125, 0.0625, 0.75}, {-0.5, 0.875, 0.03125}}};
 
 std::string as_obj(const Point& at) {
     std::string text;
