@@ -81,9 +81,12 @@ class Squares {
         const auto [first_y, last_y] = tiles(top.y, bottom.y, opacity_.height());
         constexpr double k_most_tiles = 256;
         if (!((last_x - first_x + 1) * (last_y - first_y + 1) <= k_most_tiles)) return take(triangle);
-        for (double ty = first_y; ty <= last_y; ++ty)
-            for (double tx = first_x; tx <= last_x; ++tx)
-                cut(triangle, levels_.size() - 1, 0, 0, tx * opacity_.width(), ty * opacity_.height(), take);
+        const int across = static_cast<int>(last_x - first_x) + 1,
+                  down = static_cast<int>(last_y - first_y) + 1;
+        for (int j = 0; j < down; ++j)
+            for (int i = 0; i < across; ++i)
+                cut(triangle, levels_.size() - 1, 0, 0, (first_x + i) * opacity_.width(),
+                    (first_y + j) * opacity_.height(), take);
     }
 
   private:
@@ -107,9 +110,9 @@ class Squares {
     void cut(Piece piece, std::size_t level, int x, int y, double tile_x, double tile_y, Take take) const {
         const double size = std::ldexp(1.0, static_cast<int>(level));
         const double left = tile_x + x * size,
-                     right = tile_x + std::min((x + 1) * size, double(opacity_.width()));
+                     right = tile_x + std::min((x + 1) * size, static_cast<double>(opacity_.width()));
         const double top = tile_y + y * size,
-                     bottom = tile_y + std::min((y + 1) * size, double(opacity_.height()));
+                     bottom = tile_y + std::min((y + 1) * size, static_cast<double>(opacity_.height()));
         piece = clipped(piece, [&](const Corner& c) { return c.x - left; });
         piece = clipped(piece, [&](const Corner& c) { return right - c.x; });
         piece = clipped(piece, [&](const Corner& c) { return c.y - top; });
