@@ -18,6 +18,7 @@ import candela.diagnostics;
 import candela.mesh;
 import candela.parameters;
 import candela.shape;
+import candela.text;
 import candela.transform;
 
 namespace fs = std::filesystem;
@@ -80,6 +81,9 @@ class Look {
           parameters_(registry.parameters(candela::PluginKind::shape, "mesh")) {
         parameters_.set("file", fs::absolute(source.file).string());
         parameters_.set("allow_outside", source.allows_outside);
+        // As the scene will have it, for which the file need not be read again then.
+        const std::string extension = candela::extension_of(source.file);
+        if (extension == "gltf" || extension == "glb") parameters_.set("sides", std::string("both"));
     }
 
     /// With a point of the file's coordinates as its origin.
