@@ -157,7 +157,7 @@ std::vector<fs::path> Container::named_files(bool with_images) const {
         for (const Json& entry : array_of(json_, kind)) {
             const std::string uri = text(entry, "uri");
             if (!uri.empty() && !uri.starts_with("data:"))
-                files.push_back(fs::absolute(file_).parent_path() / decoded_percents(uri));
+                files.push_back(fs::absolute(source_.file).parent_path() / decoded_percents(uri));
         }
     }
     return files;

@@ -104,7 +104,7 @@ bool is_part_of_ply(const fs::path& model, const fs::path& file) {
 
 bool is_named_in_gltf(const fs::path& model, const fs::path& file, bool with_pictures) {
     try {
-        const gltf::Container container(model);
+        const gltf::Container container(Source{.file = model});
         return std::ranges::any_of(container.named_files(with_pictures),
                                    [&](const fs::path& named) { return is_file(named, file); });
     } catch (const candela::Error&) {
