@@ -53,8 +53,7 @@ std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin
     const std::filesystem::path path =
         std::filesystem::weakly_canonical(std::filesystem::absolute(file, problem), problem);
     const std::scoped_lock lock(mutex);
-    std::weak_ptr<SharedFile>& known =
-        files[{problem ? file : path.string(), origin.at, reach, keeps_sides}];
+    std::weak_ptr<SharedFile>& known = files[{problem ? file : path.string(), origin.at, reach, keeps_sides}];
     std::shared_ptr<SharedFile> shared = known.lock();
     if (shared == nullptr) {
         shared.reset(new SharedFile(file));
