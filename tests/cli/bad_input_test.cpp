@@ -312,7 +312,7 @@ TEST_CASE("mistakes of lights") {
          {"another light is called 'lamp'", "scene.toml:29:13"}},
         {{"name      = \"sun\"", "name      = @5"}, {"'name' is the integer 5"}},
         {{"[[light]]\nname  = \"sky\"", "[[@lights]]\nname  = \"sky\""},
-         {"unknown key 'lights' in the scene", "did you mean 'light'?"}},
+         {"unknown key 'lights' in the scene", "write a [[light]] for each"}},
     });
     check_good({{"color     = [250, 240, 230]", "color     = [0, 0, 0]"},
                 {"intensity = 20.0", "intensity = 0"},

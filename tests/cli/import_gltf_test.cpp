@@ -362,7 +362,7 @@ TEST_CASE("damaged pictures in a glTF file are said, by the number of a material
                   {"baseColorFactor", {1, 0, 0, 1}},
                   {"baseColorTexture", file.texture(whole.substr(0, whole.size() / 2))}};
     const Imported imported = import(file);
-    CHECK(holds(imported.result.err, "a texture of material 0 is left out: it cannot be read as a picture"));
+    CHECK(holds(imported.result.err, "a texture of material 0 is left out: "));
     CHECK_FALSE(holds(imported.scene, "color_texture"));
     CHECK(imported.middle()[0] > 100);
     CHECK(imported.middle()[1] < 50);

@@ -310,7 +310,7 @@ TEST_CASE("a broken or empty picture is a note on import and the plain colour, a
     }
 }
 
-TEST_CASE("--allow-outside lets a model name files outside its folder; messages name it") {
+TEST_CASE("with --allow-outside a model may name files outside its folder; messages name the option") {
     const fs::path folder = scratch_directory();
     for (const char* const each : {"models", "textures"}) fs::create_directory(folder / each);
     write_file(folder / "textures" / "red.ppm", red_ppm());
@@ -425,7 +425,7 @@ TEST_CASE("losses of one kind are one note with a count") {
     write_file(folder / "a.mtl", library);
     const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
     CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "the texture 'no0.png' of material 'm0' is not there; so are 49 more"));
-    CHECK(holds(result.err, "the material 'n0' is not in any material library; so are 49 more"));
+    CHECK(holds(result.err, "50 textures are not there, the first of them 'no0.png' of material 'm0'"));
+    CHECK(holds(result.err, "50 materials are not in any material library, the first of them 'n0'"));
     CHECK(std::ranges::count(result.err, '\n') == 2);
 }

@@ -231,7 +231,7 @@ TEST_CASE("a journal is only believed that its task runs if its process can be t
         return json::parse(result.out).at(0).at("running") == 1;
     };
     // Of a task that runs, and is stopped before it says that it is done.
-    RunningProgram task({CANDELA_TEST_COMMAND, "animate", "scene.toml", "--journal", k_job / "0..1.json",
+    RunningProgram task({CANDELA_TEST_COMMAND, "--task", k_job / "0..1.json", "animate", "scene.toml",
                          "--width", "3000", "--height", "3000"},
                         {.input = "", .environment = {}, .directory = place.directory});
     for (int i = 0; i < 6000 && !fs::exists(file); ++i)

@@ -159,7 +159,7 @@ TEST_CASE("a task's journal is not an option of users, and replaces nothing but 
     CHECK(in(d, {"--task", "journal", "render", "-o", "picture.png"}).exit_code == 0);
 }
 
-TEST_CASE("--no-clobber keeps whatever file is there, before any work is done") {
+TEST_CASE("whatever file is there is kept with --no-clobber, before any work is done") {
     const fs::path d = folder_with_scene();
     for (const char* const name : {"mine.png", "mine.svg", "mine.html", "mine.ppm"})
         write_file(d / name, "mine");

@@ -51,7 +51,8 @@ TEST_CASE("a key that another program has is answered by the one that is meant, 
              Said{"[observer]", "pos = [0,0,0]", "did you mean 'position'?"},
              Said{"[observer]", "fovy = 40", "did you mean 'fov'?"},
              Said{"[observer]", "samples = 4", "'samples' belongs in [image]"},
-             Said{"[observer]", "lens = 4", "(known: position, look_at, up, projection, fov, height)"},
+             Said{"[observer]", "lens = 4",
+                  "(known: position, look_at, up, projection, fov, height, frame_aspect)"},
              Said{"[image]", "size = [8, 8]", "write width and height"},
              Said{"[image]", "spp = 4", "did you mean 'samples'?"},
              Said{"[image]", "fov = 4", "'fov' belongs in [observer]"},
@@ -169,7 +170,7 @@ TEST_CASE("options of other programs are answered by those of the verb") {
     CHECK(run_candela({"render", "-h"}).exit_code == 0);
 }
 
-TEST_CASE("--quiet may be said twice, by a person and by a program for them") {
+TEST_CASE("quiet may be said twice, by a person and by a program for them") {
     const fs::path d = scratch_directory();
     const CommandResult result = run_candela({"render", "-o", "a.png", "-q", "--quiet", "-q"},
                                              {.input = "", .environment = {}, .directory = d});

@@ -86,7 +86,6 @@ TEST_CASE("a file of a few bytes that declares millions of pixels is refused bef
         {"tile.tif", tiff(10, 10, k_uncompressed, {{322, 20000}, {323, 20000}, {324, 8}, {325, 100}})},
         {"strip.tif", tiff(20000, 20000, k_packed, {{273, 8}, {278, 20000}, {279, 100}})},
         {"strips.tif", tiff(20000, 20000, k_uncompressed, {{273, 8}, {278, 1}, {279, 100}})},
-        {"pixmap.tif", "P6 20000 20000 255\nabcdef"},
         {"wide.tga", std::string("\0\0\x0a\0\0\0\0\0\0\0\0\0\xff\xff\xff\xff\x18\0\xff\1\2\3abc", 25)},
         {"high.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 30000\n\2\2"},
         {"large.webp", webp(16383, 16383)},
@@ -97,6 +96,13 @@ TEST_CASE("a file of a few bytes that declares millions of pixels is refused bef
         CHECK(result.exit_code == 1);
         CHECK(result.err.find("too small a file for its pixels") != std::string::npos);
     }
+}
+
+TEST_CASE("a pixmap of a few bytes is read as that, whatever its name, and refused at once") {
+    const CommandResult result = rendered_with("pixmap.tif", "P6 20000 20000 255\nabcdef");
+    INFO(result.err);
+    CHECK(result.exit_code == 1);
+    CHECK(result.err.find("it ends before its last pixel") != std::string::npos);
 }
 
 TEST_CASE("tiles as large as the picture are decoded once, not once for each row") {
@@ -112,11 +118,12 @@ TEST_CASE("tiles as large as the picture are decoded once, not once for each row
 }
 
 TEST_CASE("what only claims to be a picture is refused without trying every format there is") {
-    for (const std::string& bytes :
-         {std::string("GIF89a\1\0\1\0\0\0\0"), std::string("hello"), std::string()}) {
+    const std::string unknown = "its content is not a picture of a known format";
+    for (const auto& [bytes, reason] :
+         {std::pair(std::string("GIF89a\1\0\1\0\0\0\0"), unknown), {"hello", unknown}, {"", "it is empty"}}) {
         const CommandResult result = rendered_with("a.tif", bytes);
         INFO(result.err);
         CHECK(result.exit_code == 1);
-        CHECK(result.err.find("its content is not a picture of a known format") != std::string::npos);
+        CHECK(result.err.find(reason) != std::string::npos);
     }
 }

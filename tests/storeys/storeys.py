@@ -14,9 +14,10 @@ STOREYS = ["api", "base", "host", "scene", "render", "embedding", "core"]
 SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
 # What is compiled into plugins, as opposed to the SDK's programs.
 SDK_OF_PLUGINS = ("sdk/include/", "sdk/target/", "sdk/templates/")
-# Headers of api without a module: macros, kernels, templates of their own, and what only tests of plugins include.
+# Headers of api without a module: macros, kernels, templates of their own, what only tests of plugins include, and what is
+# about memory alone.
 HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "instances.h", "kernel.h", "kernel_functions.h",
-                 "kernel_table.h", "kernel_vectors.h", "multiversion.h", "swizzles.h"}
+                 "kernel_table.h", "kernel_vectors.h", "large_pages.h", "multiversion.h", "swizzles.h"}
 # A declaration at the beginning of a line, as clang-format puts what is in a namespace: a type, another name for one, a function,
 # a constant.
 DECLARATION = re.compile(

@@ -163,7 +163,7 @@ class ServerTest(unittest.TestCase):
             status, answer = self.keep(f"model=phong&name={name}")
             self.assertEqual(status, 422, name)
             self.assertIn(reason, answer, name)
-        for kernel, reason in ((b"KERNEL float f(float x) { float *p = x; return x; }", b"kept.kernel:1:34: the kernel language has neither pointers"),
+        for kernel, reason in ((b"KERNEL float f(float x) { float *p = x; return x; }", b"kept.kernel:1:33: the kernel language has neither pointers"),
                                (b"#include </etc/passwd>", b"kept.kernel:1:1: the kernel language has no preprocessor"),
                                (b"// \\\nKERNEL", b"must not end with")):
             status, answer = self.keep("model=phong&name=other", kernel)
