@@ -114,7 +114,8 @@ int animate(const CommandLine& line) {
     const candela::PictureFormat format = format_of_frames(line, outputs, registry);
 
     candela::Diagnostics diagnostics;
-    auto frames = candela::SceneFrames::read(scene_request_from(line, registry), registry, diagnostics);
+    auto frames =
+        candela::SceneFrames::read(scene_request_from(line, registry, Models::moving), registry, diagnostics);
     if (frames && !frames->animation() && !frames->is_broken()) {
         throw Error(ErrorCategory::bad_request,
                     "the scene has no [animation]: candela render draws it; candela new --animation writes a "

@@ -199,7 +199,8 @@ std::vector<std::shared_ptr<const void>>& triangles_of_models() {
 
 /// The scene that shows a model; made once, and so are the files of pictures that the model contains, which
 /// live as long as the command.
-const std::string& scene_of_model(const std::string& file, bool allow_outside, candela::Registry& registry) {
+const std::string& scene_of_model(const std::string& file, bool allow_outside, bool with_animation,
+                                  candela::Registry& registry) {
     static std::map<std::string, std::string> known;
     static std::optional<TemporaryFolder> pictures;
     const auto [scene, is_new] = known.try_emplace(file);
@@ -207,6 +208,7 @@ const std::string& scene_of_model(const std::string& file, bool allow_outside, c
     const importing::Imported imported = importing::import_model(
         {.file = file,
          .allow_outside = allow_outside,
+         .with_animation = with_animation,
          .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
          .write_picture =
              [&](const std::string& name, const std::string& content) {
@@ -273,7 +275,8 @@ std::vector<candela::Setting> settings_from(const CommandLine& line, const std::
     return settings;
 }
 
-candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry) {
+candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry,
+                                         Models models) {
     candela::SceneRequest request;
     const std::vector<std::string> files = line.all("scene");
     for (const std::string& file : files) {
@@ -288,7 +291,9 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
                     fmt::format("'{}' is a model, which is shown on its own; candela import makes a scene of "
                                 "it that can be combined with others",
                                 file));
-            request.streams.emplace(file, scene_of_model(file, line.has("allow-outside"), registry));
+            const bool with_animation = models == Models::moving || line.has("frame");
+            request.streams.emplace(
+                file, scene_of_model(file, line.has("allow-outside"), with_animation, registry));
         }
     }
     if (line.has("allow-outside") &&

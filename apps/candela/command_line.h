@@ -61,8 +61,11 @@ candela::Registry registry_from(const CommandLine& line);
 
 /// Adds what says how a scene is read: SCENE..., --shading, --set and so on.
 void add_scene_options(CommandLine& line);
+/// How models are shown: at rest, unless --frame asks for a frame, or with their animation.
+enum class Models { at_rest, moving };
 /// A model's file in place of a scene is imported, once, and what is lost is said.
-candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry);
+candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry,
+                                         Models models = Models::at_rest);
 /// To be called once the scene of a model has been compiled: until then its triangles are kept, so that the
 /// file is read only once.
 void forget_triangles_of_models();

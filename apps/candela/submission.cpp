@@ -62,8 +62,8 @@ Words as_task(Words command, const JobFolder& folder, const std::string& task) {
 }
 
 candela::SceneRequest repeatable_request_from(const CommandLine& line, candela::Registry& registry,
-                                              bool& has_asked) {
-    candela::SceneRequest request = scene_request_from(line, registry);
+                                              bool& has_asked, Models models) {
+    candela::SceneRequest request = scene_request_from(line, registry, models);
     const bool are_models = std::ranges::all_of(
         request.streams, [](const auto& stream) { return importing::is_model(stream.first); });
     if (!are_models) {

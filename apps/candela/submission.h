@@ -43,7 +43,7 @@ Words as_task(Words command, const JobFolder& folder, const std::string& task);
 /// The request for a scene that tasks will read again; `has_asked` is set where a person is asked. Throws
 /// candela::Error (bad_request) if it can only be read once.
 candela::SceneRequest repeatable_request_from(const CommandLine& line, candela::Registry& registry,
-                                              bool& has_asked);
+                                              bool& has_asked, Models models = Models::at_rest);
 
 /// The parts of a picture, and the picture. Otherwise like submission_of_frames().
 std::optional<Submission> submission_of_parts(const CommandLine& line, int threads,

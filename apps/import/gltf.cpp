@@ -3,15 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
-#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "import/gltf_animation.h"
 #include "import/gltf_container.h"
 #include "import/gltf_json.h"
 #include "import/gltf_materials.h"
+#include "import/placement.h"
 #include "import/readers.h"
 #include "import/vectors.h"
 
@@ -34,56 +40,30 @@ using gltf::Json;
 using gltf::number;
 using gltf::numbers;
 using gltf::object_of;
+using gltf::placement_of;
 using gltf::text;
-
-/// Columns of a node's transformation to the world.
-struct Placement {
-    Vector x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{};
-
-    Vector direction(Vector v) const { return v[0] * x + v[1] * y + v[2] * z; }
-};
-
-Placement placement_of(const Json& node) {
-    Placement p;
-    if (const std::vector<double> m = numbers(node, "matrix", 16); !m.empty()) {
-        p.x = {m[0], m[1], m[2]};
-        p.y = {m[4], m[5], m[6]};
-        p.z = {m[8], m[9], m[10]};
-        p.origin = {m[12], m[13], m[14]};
-        return p;
-    }
-    if (const std::vector<double> q = numbers(node, "rotation", 4); !q.empty()) {
-        const double x = q[0], y = q[1], z = q[2], w = q[3];
-        p.x = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
-        p.y = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
-        p.z = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
-    }
-    if (const std::vector<double> s = numbers(node, "scale", 3); !s.empty()) {
-        p.x = s[0] * p.x;
-        p.y = s[1] * p.y;
-        p.z = s[2] * p.z;
-    }
-    if (const std::vector<double> t = numbers(node, "translation", 3); !t.empty())
-        p.origin = {t[0], t[1], t[2]};
-    return p;
-}
-
-Placement within(const Placement& a, const Placement& b) {
-    return {a.direction(b.x), a.direction(b.y), a.direction(b.z), a.origin + a.direction(b.origin)};
-}
 
 class Reader {
   public:
-    Reader(const Source& source, candela::Registry& registry)
-        : container_(source), json_(container_.json()), materials_(container_, registry, model_) {}
+    Reader(const Source& source, bool with_animation, candela::Registry& registry)
+        : container_(source),
+          json_(container_.json()),
+          with_animation_(with_animation),
+          materials_(container_, registry, model_) {}
 
     Model read() {
+        const Json& animations = array_of(json_, "animations");
+        for (const Json& animation : animations) model_.moving.names.push_back(text(animation, "name"));
+        if (with_animation_ && !animations.empty())
+            animation_ = std::make_shared<gltf::Animation>(container_, animations[0]);
         walk();
         add_parts();
-        if (const std::size_t count = array_of(json_, "animations").size(); count > 0)
-            model_.note(count == 1
-                            ? "its animation is left out: it is shown at rest"
-                            : fmt::format("its {} animations are left out: it is shown at rest", count));
+        if (animation_ != nullptr) {
+            model_.moving.length = animation_->length();
+            model_.moving.has_splines = animation_->has_splines();
+            model_.moving.weights = animation_->weights();
+            model_.moving.channels = animation_->unreadable();
+        }
         return std::move(model_);
     }
 
@@ -92,28 +72,36 @@ class Reader {
 
     void walk() {
         const Json& nodes = array_of(json_, "nodes");
-        std::vector<std::pair<std::size_t, Placement>> open;
-        const auto add = [&](const Json& list, const Placement& parent) {
-            for (auto it = list.rbegin(); it != list.rend(); ++it)
-                if (it->is_number_unsigned()) open.emplace_back(it->get<std::size_t>(), parent);
+        struct Open {
+            std::size_t node;
+            Placement parent;
+            std::optional<std::size_t> above{}, mover{};  // its parent; what moves that: it, or one above it
+        };
+        std::vector<Open> open;
+        const auto add = [&](const Json& list, const Open& parent) {
+            for (auto it = list.rbegin(); it != list.rend(); ++it) {
+                if (!it->is_number_unsigned()) continue;
+                open.push_back(parent);
+                open.back().node = it->get<std::size_t>();
+            }
         };
         const Json& scenes = array_of(json_, "scenes");
         if (!scenes.empty()) {
             if (const Json* const scene = element(scenes, index_of(json_, "scene").value_or(0)))
-                add(array_of(*scene, "nodes"), {});
+                add(array_of(*scene, "nodes"), {.node = 0, .parent = {}});
         } else if (!nodes.empty()) {
             std::set<std::size_t> children;
             for (const Json& node : nodes)
                 for (const Json& child : array_of(node, "children"))
                     if (child.is_number_unsigned()) children.insert(child.get<std::size_t>());
             for (std::size_t i = nodes.size(); i-- > 0;)
-                if (!children.contains(i)) open.emplace_back(i, Placement{});
+                if (!children.contains(i)) open.push_back({.node = i, .parent = {}});
         } else {
-            for (const Json& mesh : array_of(json_, "meshes")) add_mesh(mesh);
+            for (const Json& mesh : array_of(json_, "meshes")) add_mesh(mesh, std::nullopt);
         }
         std::vector<bool> seen(nodes.size());  // the shape `mesh` refuses nodes in two places
         while (!open.empty()) {
-            const auto [index, parent] = open.back();
+            const auto [index, parent, above, above_mover] = open.back();
             open.pop_back();
             if (index >= nodes.size() || seen[index]) continue;
             seen[index] = true;
@@ -123,19 +111,46 @@ class Reader {
                 visible != nullptr && *visible == false)
                 continue;
             const Placement place = within(parent, placement_of(node));
+            above_[index] = above;
+            const bool moves = animation_ != nullptr && animation_->moves(index);
+            const std::optional<std::size_t> mover = moves ? index : above_mover;
             if (const Json* const mesh = element(array_of(json_, "meshes"), index_of(node, "mesh")))
-                add_mesh(*mesh);
+                add_mesh(*mesh, mover_of_mesh(node, mover));
             if (const Json* const camera = element(array_of(json_, "cameras"), index_of(node, "camera")))
-                add_camera(*camera, place);
+                add_camera(*camera, place, motion_of(mover, index, false));
             const Json& used = object_of(object_of(node, "extensions"), "KHR_lights_punctual");
             const Json& all = object_of(object_of(json_, "extensions"), "KHR_lights_punctual");
             if (const Json* const light = element(array_of(all, "lights"), index_of(used, "light")))
-                add_light(*light, text(node, "name"), place);
-            add(array_of(node, "children"), place);
+                add_light(*light, text(node, "name"), place, motion_of(mover, index, false));
+            add(array_of(node, "children"), {.node = 0, .parent = place, .above = index, .mover = mover});
         }
     }
 
-    void add_mesh(const Json& mesh) {
+    /// What moves a node's mesh as a whole: not what moves a node with a skin.
+    std::optional<std::size_t> mover_of_mesh(const Json& node, std::optional<std::size_t> mover) {
+        const Json* const skin = element(array_of(json_, "skins"), index_of(node, "skin"));
+        if (skin == nullptr) return mover;
+        const bool moves = std::ranges::any_of(array_of(*skin, "joints"), [&](const Json& joint) {
+            return joint.is_number_unsigned() && animation_ != nullptr &&
+                   animation_->moves(joint.get<std::size_t>());
+        });
+        if (moves) ++model_.moving.skins;
+        return std::nullopt;
+    }
+
+    /// How `node` moves, which `mover` does. Relative: whatever is placed where it is at rest.
+    std::shared_ptr<const Motion> motion_of(std::optional<std::size_t> mover, std::size_t node,
+                                            bool is_relative) {
+        if (!mover) return nullptr;
+        std::vector<std::size_t> chain;
+        for (std::optional<std::size_t> at = node; at; at = above_.at(*at)) chain.push_back(*at);
+        std::ranges::reverse(chain);
+        auto motion = gltf::Animation::motion(animation_, array_of(json_, "nodes"), chain, is_relative);
+        if (motion == nullptr) ++model_.moving.undone;
+        return motion;
+    }
+
+    void add_mesh(const Json& mesh, std::optional<std::size_t> mover) {
         for (const Json& primitive : array_of(mesh, "primitives")) {
             const std::size_t mode = index_of(primitive, "mode").value_or(4);
             if (mode < 4 || !object_of(primitive, "attributes").contains("POSITION")) continue;
@@ -143,12 +158,13 @@ class Reader {
             const bool is_known = element(array_of(json_, "materials"), index) != nullptr;
             const std::optional<std::size_t> material = is_known ? index : std::nullopt;
             if (known_materials_.insert(material).second) used_materials_.push_back(material);
+            movers_[material].insert(mover);
             // glTF 2.0, 3.7.2.1: without normals, triangles are flat.
             if (!object_of(primitive, "attributes").contains("NORMAL")) flat_materials_.insert(material);
         }
     }
 
-    void add_camera(const Json& camera, const Placement& place) {
+    void add_camera(const Json& camera, const Placement& place, std::shared_ptr<const Motion> motion) {
         if (model_.camera) return model_.note("cameras other than the first are left out");
         Camera result{.position = place.origin, .towards = unit(-1 * place.z), .up = unit(place.y)};
         if (text(camera, "type") == "orthographic") {
@@ -167,10 +183,12 @@ class Reader {
         const bool is_sound =
             length(result.towards) > 0 && length(cross(result.towards, result.up)) > 1e-6 && shows_some;
         if (!is_sound) return model_.note("a camera that shows nothing is left out");
+        result.motion = std::move(motion);
         model_.camera = result;
     }
 
-    void add_light(const Json& light, const std::string& node_name, const Placement& place) {
+    void add_light(const Json& light, const std::string& node_name, const Placement& place,
+                   std::shared_ptr<const Motion> motion) {
         Light result{.name = text(light, "name"), .type = text(light, "type")};
         if (result.name.empty()) result.name = node_name;
         if (result.type != "point" && result.type != "spot" && result.type != "directional")
@@ -196,6 +214,7 @@ class Reader {
                 "between a spotlight's cones light falls off as a smoothstep of the cosine, not as its "
                 "square");
         }
+        result.motion = std::move(motion);
         model_.lights.push_back(result);
     }
 
@@ -225,6 +244,12 @@ class Reader {
                 part.material = model_.materials.size();
                 model_.materials.push_back(materials_.material(*index));
             }
+            const auto& movers = movers_[index];
+            if (movers.size() > 1) {
+                ++model_.moving.in_pieces;
+            } else if (const auto mover = *movers.begin()) {
+                part.motion = motion_of(mover, *mover, true);
+            }
             model_.parts.push_back(part);
         }
         if (model_.parts.empty()) model_.parts.emplace_back();
@@ -232,15 +257,21 @@ class Reader {
 
     gltf::Container container_;
     const Json& json_;
+    bool with_animation_;
+    std::shared_ptr<const gltf::Animation> animation_;         // null: nothing moves
+    std::map<std::size_t, std::optional<std::size_t>> above_;  // nodes' parents
     Model model_;
     gltf::Materials materials_;
     std::vector<std::optional<std::size_t>> used_materials_;  // by the order of their first triangles
     std::set<std::optional<std::size_t>> known_materials_;
+    std::map<std::optional<std::size_t>, std::set<std::optional<std::size_t>>> movers_;  // by material
     std::set<std::optional<std::size_t>> flat_materials_;  // those of triangles without normals
 };
 
 }  // namespace
 
-Model read_gltf(const Source& source, candela::Registry& registry) { return Reader(source, registry).read(); }
+Model read_gltf(const Source& source, bool with_animation, candela::Registry& registry) {
+    return Reader(source, with_animation, registry).read();
+}
 
 }  // namespace importing

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -148,6 +152,47 @@ std::string_view Container::view(std::size_t index) {
                       size = index_of(*view, "byteLength").value_or(0);
     if (first > bytes.size() || size > bytes.size() - first) fail("its bytes are not in the file");
     return bytes.substr(first, size);
+}
+
+std::vector<double> Container::values(std::size_t accessor, std::size_t components) {
+    const Json* const from = element(array_of(json_, "accessors"), accessor);
+    const auto index = from != nullptr ? index_of(*from, "bufferView") : std::nullopt;
+    if (!index || from->contains("sparse"))
+        fail(fmt::format("accessor {} has no view of a buffer", accessor));
+    if (text(*from, "type") != (components == 1 ? "SCALAR" : fmt::format("VEC{}", components)))
+        fail(fmt::format("accessor {} is of another type", accessor));
+    const std::size_t kind = index_of(*from, "componentType").value_or(0);
+    constexpr std::size_t k_byte = 5120, k_unsigned_byte = 5121, k_short = 5122, k_unsigned_short = 5123,
+                          k_float = 5126;
+    const std::size_t size = kind == k_float                               ? 4
+                             : kind == k_short || kind == k_unsigned_short ? 2
+                             : kind == k_byte || kind == k_unsigned_byte   ? 1
+                                                                           : 0;
+    if (size == 0) fail(fmt::format("accessor {} has numbers of type {}", accessor, kind));
+    const std::string_view bytes = view(*index);
+    const std::size_t stride =
+        index_of(array_of(json_, "bufferViews")[*index], "byteStride").value_or(components * size);
+    const std::size_t first = index_of(*from, "byteOffset").value_or(0),
+                      count = index_of(*from, "count").value_or(0), each = components * size;
+    if (stride < each || first > bytes.size() || count == 0 || bytes.size() - first < each ||
+        (bytes.size() - first - each) / stride < count - 1)
+        fail(fmt::format("the bytes of accessor {} are not in the file", accessor));
+    std::vector<double> result;
+    result.reserve(count * components);
+    for (std::size_t i = 0; i < count * components; ++i) {
+        const std::size_t at = first + i / components * stride + i % components * size;
+        std::uint32_t word = 0;
+        for (std::size_t k = size; k-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + k]);
+        // glTF 2.0, 3.11: integers are parts of 1.
+        const double value = kind == k_float            ? std::bit_cast<float>(word)
+                             : kind == k_unsigned_short ? word / 65535.0
+                             : kind == k_unsigned_byte  ? word / 255.0
+                             : kind == k_short ? std::max(static_cast<std::int16_t>(word) / 32767.0, -1.0)
+                                               : std::max(static_cast<std::int8_t>(word) / 127.0, -1.0);
+        if (!std::isfinite(value)) fail(fmt::format("accessor {} has what is not a number", accessor));
+        result.push_back(value);
+    }
+    return result;
 }
 
 std::vector<fs::path> Container::named_files(bool with_images) const {

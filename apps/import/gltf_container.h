@@ -24,6 +24,9 @@ class Container {
     /// (failure).
     Picture picture(std::size_t image);
 
+    /// All numbers of an accessor with so many components. Throws candela::Error (failure).
+    std::vector<double> values(std::size_t accessor, std::size_t components);
+
     /// The files that its buffers, and its images, name, whether or not they exist.
     std::vector<std::filesystem::path> named_files(bool with_images) const;
 

@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 
+#include "import/animation.h"
 #include "import/framing.h"
 #include "import/geometry.h"
 #include "import/readers.h"
@@ -50,10 +51,10 @@ std::vector<double> Metal::highlights() const {
 
 namespace {
 
-Model model_of(const Source& source, candela::Registry& registry) {
+Model model_of(const Source& source, bool with_animation, candela::Registry& registry) {
     const std::string extension = candela::extension_of(source.file);
     if (extension == "obj") return read_obj(source, registry);
-    if (extension == "gltf" || extension == "glb") return read_gltf(source, registry);
+    if (extension == "gltf" || extension == "glb") return read_gltf(source, with_animation, registry);
     if (extension == "ply") return read_ply(source, registry);
     Model model;
     model.parts.emplace_back();
@@ -200,7 +201,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     const bool is_z_up = request.up == UpAxis::z || (request.up == UpAxis::by_format && is_stl);
     const Source source{.file = request.file, .allows_outside = request.allow_outside};
     const Geometry geometry = geometry_of(source, is_z_up, registry);
-    Model model = model_of(source, registry);
+    Model model = model_of(source, request.with_animation, registry);
     model.is_z_up = is_z_up;
     move(model, geometry);
     leave_out_what_is_too_far(model);
@@ -227,12 +228,16 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     constexpr double k_aspect = 4.0 / 3;
     const Bounds& bounds = geometry.bounds;
     setting.camera = model.camera ? *model.camera : camera_for(bounds, k_aspect);
+    Animator animator(model, geometry);
+    animator.take_parts(source, registry);
+    const bool is_still_seen = model.camera || animator.is_seen(setting.camera);
+    if (!is_still_seen) setting.camera = camera_for(animator.bounds(), k_aspect);
     const Vector to_center = bounds.center() - setting.camera.position;
     const double least_ahead = std::max(0.1 * bounds.radius(), 1e-3 * length(setting.camera.position));
     const double ahead = std::max(dot(to_center, unit(setting.camera.towards)), least_ahead);
     show_backs_alone(model, geometry.mesh, -1 * unit(setting.camera.towards));
     setting.look_at = setting.camera.position + ahead * unit(setting.camera.towards);
-    if (!model.camera) setting.look_at = bounds.center();
+    if (!model.camera) setting.look_at = is_still_seen ? bounds.center() : animator.bounds().center();
     setting.lights = model.lights;
     if (setting.lights.empty()) {
         setting.lights = lights_for(setting.camera, brightness_for(model));
@@ -249,7 +254,9 @@ Imported import_model(const Request& request, candela::Registry& registry) {
                 "lights at one place, or where the camera is, are moved a little along the line of sight");
         setting.lights.push_back({.name = "sky", .type = "ambient", .intensity = k_little});
     }
-    setting.room = room_for(bounds, setting.camera, setting.lights);
+    animator.take_view(setting);
+    animator.note();
+    setting.room = room_for(animator.bounds(), setting.camera, setting.lights);
     return {.scene = scene_text(model, setting),
             .notes = model.notes,
             .objects = model.parts.size(),

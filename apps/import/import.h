@@ -20,6 +20,7 @@ struct Request {
     std::filesystem::path file;
     UpAxis up = UpAxis::by_format;
     bool allow_outside = false;  // whether the model may name files outside its folder
+    bool with_animation = true;  // otherwise it is shown at rest
     /// How the scene is to name the model's file, which may be relative to the scene's.
     std::string shown_file;
     /// Puts a picture that the file contains where the scene can read it, and returns how the scene names it.

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +16,40 @@
 namespace importing {
 
 using Vector = std::array<double, 3>;
+
+/// Columns of a transformation to the world.
+struct Placement {
+    Vector x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{};
+
+    Vector direction(const Vector& v) const {
+        Vector r{};
+        for (std::size_t k = 0; k < 3; ++k) r[k] = v[0] * x[k] + v[1] * y[k] + v[2] * z[k];
+        return r;
+    }
+    Vector point(const Vector& v) const {
+        Vector r = direction(v);
+        for (std::size_t k = 0; k < 3; ++k) r[k] += origin[k];
+        return r;
+    }
+};
+
+/// How something is placed over time.
+struct Motion {
+    static constexpr std::size_t k_most_times = 100'000;
+
+    std::vector<double> times;    // of its keys, in seconds, increasing: at least one
+    std::vector<double> jumps{};  // those at which it is somewhere else at once
+    bool has_steps_only = false;  // between them, it does not move
+    std::size_t cost = 1;         // of calling `at`, in nodes
+    std::function<Placement(double)> at;
+};
+
+/// A value that changes with time.
+struct Track {
+    std::string name;  // as the table of what moves has it
+    bool steps = false;
+    std::vector<std::pair<double, Vector>> keys{};  // seconds, value
+};
 
 /// A picture for surfaces: a file that is there, or the content of one that has to be written.
 struct Picture {
@@ -52,6 +88,8 @@ struct Part {
     std::optional<std::size_t> material{};  // of Model::materials
     bool is_flat = false;                   // it has no normals, and is not smooth
     Sides sides = Sides::outside;
+    std::shared_ptr<const Motion> motion{};  // of the file's coordinates
+    std::vector<Track> tracks{};             // what has become of it
 };
 
 struct Camera {
@@ -59,6 +97,8 @@ struct Camera {
     bool is_orthographic = false;
     double extent = 0;  // the full vertical angle in degrees, or metres
     double aspect = 0;  // width to height; 0: not said
+    std::shared_ptr<const Motion> motion{};
+    std::vector<Track> tracks{};
 };
 
 struct Light {
@@ -68,8 +108,20 @@ struct Light {
     double intensity = 1;  // as Candela has it: at one metre, before 1 / pi
     Vector position{}, direction{};
     double inner_angle = 0, outer_angle = 45;  // half angles, degrees
+    std::shared_ptr<const Motion> motion{};
+    std::vector<Track> tracks{};
 
     bool has_position() const { return type == "point" || type == "spot"; }
+};
+
+/// What a file has of animations.
+struct Moving {
+    std::vector<std::string> names{};  // of all animations; may be empty
+    double length = 0;                 // of the first, in seconds
+    bool has_splines = false;
+    std::size_t in_pieces = 0;  // objects that several nodes move
+    std::size_t undone = 0;     // things whose rest cannot be told apart from how they move
+    std::size_t skins = 0, weights = 0, channels = 0;  // that are not taken over
 };
 
 /// What a file says, and what of it was lost.
@@ -80,6 +132,7 @@ struct Model {
     std::vector<Picture> cutouts;  // greymaps of what is opaque
     std::optional<Camera> camera;
     std::vector<Light> lights;
+    Moving moving{};
     bool is_z_up = false;
     std::vector<std::string> notes;  // whole sentences without a full stop, each once
 

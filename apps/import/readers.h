@@ -24,8 +24,9 @@ inline constexpr const char* k_outside_remedy = "; --allow-outside reads it";
 /// that is noted.
 Model read_obj(const Source& source, candela::Registry& registry);
 
-/// glTF 2.0 or GLB whose triangles have been read. Throws candela::Error (failure) for what is no such file.
-Model read_gltf(const Source& source, candela::Registry& registry);
+/// glTF 2.0 or GLB whose triangles have been read, with its first animation where that is asked for. Throws
+/// candela::Error (failure) for what is no such file.
+Model read_gltf(const Source& source, bool with_animation, candela::Registry& registry);
 
 /// PLY with the texture that a comment of MeshLab's names.
 Model read_ply(const Source& source, candela::Registry& registry);

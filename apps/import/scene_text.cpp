@@ -48,6 +48,7 @@ class Writer {
         write_models();
         for (const Light& light : setting_.lights) write(light);
         for (const Part& part : model_.parts) write(part);
+        if (setting_.frames > 0) write_animation();
         return std::move(text_);
     }
 
@@ -103,16 +104,61 @@ class Writer {
     }
 
     /// As the file has it, if it has one that no other has.
-    void add_name(std::string name) {
-        if (name.empty()) return;
+    std::string add_name(std::string name) {
+        if (name.empty()) return {};
         std::string unique = name;
         for (int i = 2; !names_.insert(unique).second; ++i) unique = fmt::format("{} {}", name, i);
         add("name", candela::toml_text(unique));
+        return unique;
+    }
+
+    void write_animation() {
+        begin("[animation]");
+        add("frames", fmt::format("{}", setting_.frames));
+        end();
+        write_tracks("observer", setting_.camera.tracks);
+        for (std::size_t i = 0; i < setting_.lights.size(); ++i)
+            write_tracks(path_of("light", light_names_, i), setting_.lights[i].tracks);
+        for (std::size_t i = 0; i < model_.parts.size(); ++i)
+            write_tracks(path_of("object", object_names_, i), model_.parts[i].tracks);
+    }
+
+    /// By its name, where that is one word that needs no quotes and is no number.
+    static std::string path_of(const char* kind, const std::vector<std::string>& names, std::size_t index) {
+        const std::string& name = names[index];
+        const auto is_letter = [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
+        };
+        const bool is_word = std::ranges::any_of(name, is_letter) && std::ranges::all_of(name, [&](char c) {
+                                 return is_letter(c) || (c >= '0' && c <= '9');
+                             });
+        return is_word ? fmt::format("{}.{}", kind, name) : fmt::format("{}.{}", kind, index);
+    }
+
+    void write_tracks(const std::string& owner, const std::vector<Track>& tracks) {
+        for (const Track& track : tracks) {
+            const bool is_place = track.name == "position" || track.name == "look_at";
+            std::string keys = "[";
+            for (std::size_t i = 0; i < track.keys.size(); ++i) {
+                const auto& [time, value] = track.keys[i];
+                const std::string number = fmt::format("{:.10g}", time + 0.0);
+                constexpr std::size_t k_per_line = 2;
+                keys += i == 0 ? "" : i % k_per_line == 0 ? ",\n    " : ", ";
+                keys += fmt::format("[{}{}, {}]", number,
+                                    number.find_first_of(".e") == std::string::npos ? ".0" : "",
+                                    is_place ? vector_text(value, setting_.tolerance) : vector_text(value));
+            }
+            begin("[[animation.track]]");
+            add("path", candela::toml_text(owner + "." + track.name));
+            if (track.steps) add("interpolation", "\"step\"");
+            add("keys", keys + "]");
+            end();
+        }
     }
 
     void write(const Light& light) {
         begin("[[light]]");
-        add_name(candela::printable(light.name));
+        light_names_.push_back(add_name(candela::printable(light.name)));
         add("type", candela::toml_text(light.type));
         add("color", color(light.color));
         add("intensity", real(light.intensity));
@@ -130,9 +176,10 @@ class Writer {
         const Material* const material = part.material ? &model_.materials[*part.material] : nullptr;
         const bool is_textured = material != nullptr && material->picture && setting_.is_textured;
         begin("[[object]]");
-        add_name(candela::printable(material != nullptr && !material->name.empty() ? material->name
-                                    : part.selector.empty()                        ? "model"
-                                                                                   : part.selector));
+        object_names_.push_back(
+            add_name(candela::printable(material != nullptr && !material->name.empty() ? material->name
+                                        : part.selector.empty()                        ? "model"
+                                                                                       : part.selector)));
         add("type", "\"mesh\"");
         add("file", candela::toml_text(setting_.file));
         if (!part.selector.empty()) add("part", candela::toml_text(part.selector));
@@ -149,7 +196,7 @@ class Writer {
         if (model_.is_z_up) add("rotation", "[-90.0, 0.0, 0.0]");
         // Seen from both sides, and on purpose.
         if (model_.parts.size() > 1 || !setting_.is_closed || !model_.lights.empty() ||
-            part.sides == Sides::both)
+            part.sides == Sides::both || setting_.frames > 0)
             add("encloses", "true");
         if (material != nullptr) {
             add("color", color(material->color));
@@ -184,6 +231,7 @@ class Writer {
     std::vector<std::pair<std::string, std::string>> entries_;
     std::string reflection_;
     std::set<std::string> names_;
+    std::vector<std::string> light_names_, object_names_;
 };
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Setting {
     std::string origin{};  // of the mesh, in the file's coordinates; empty: its own
     bool allows_outside = false;
     double tolerance = 0;  // of places
+    int frames = 0;        // 0: nothing moves
 };
 
 /// A vector as the scene has it: in six digits, and where these are off by more than `tolerance`, in as many

@@ -1,0 +1,45 @@
+// What moves, in a scene's words.
+#pragma once
+
+#include "import/framing.h"
+#include "import/geometry.h"
+#include "import/model.h"
+#include "import/readers.h"
+#include "import/scene_text.h"
+
+import candela.registry;
+
+namespace importing {
+
+/// Takes over how a model moves: what of it, and what not, becomes a note. First its parts, then the camera
+/// and the lights, once these are chosen.
+class Animator {
+  public:
+    Animator(Model& model, const Geometry& geometry)
+        : model_(model), geometry_(geometry), all_(geometry.bounds) {}
+
+    void take_parts(const Source& source, candela::Registry& registry);
+    /// Whether a camera sees all that moves, wherever it is.
+    bool is_seen(const Camera& camera) const;
+    /// `setting` has its camera and its lights, the model's before others, with their places.
+    void take_view(Setting& setting);
+    void note();
+
+    /// Of all that is anywhere at any time: parts, and after take_view() the camera and lights as well.
+    const Bounds& bounds() const { return all_; }
+
+  private:
+    void take_part(Part& part, const Bounds& box);
+    void contain(const Vector& point);
+    void contain_positions(const std::vector<Track>& tracks);
+
+    Model& model_;
+    const Geometry& geometry_;
+    Bounds all_;
+    std::vector<Vector> corners_;     // of what moves
+    std::size_t budget_ = 4'000'000;  // nodes to place
+    std::size_t objects_ = 0, lights_ = 0;
+    bool has_camera_ = false;
+};
+
+}  // namespace importing
