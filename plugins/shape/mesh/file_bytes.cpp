@@ -57,6 +57,8 @@ Array<char> read_file(const std::filesystem::path& file) {
     candela::parallel_for(bytes.size(), k_stretch, [&](std::size_t begin, std::size_t end) {
         descriptor.read(bytes.data(), begin, end);
     });
+    if (std::string_view(bytes.data(), bytes.size()).starts_with("version https://git-lfs.github.com/spec/"))
+        throw BadFile("is a pointer of Git LFS, not the file itself, which `git lfs pull` fetches");
     return bytes;
 }
 

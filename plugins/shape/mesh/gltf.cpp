@@ -76,7 +76,7 @@ class Reader {
             all_normals = all_normals && attributes.contains("NORMAL");
             any_uv = any_uv || attributes.contains("TEXCOORD_0");
             any_color = any_color || attributes.contains("COLOR_0");
-            constexpr std::uint64_t k_most_repeated = std::uint64_t{1} << 24;
+            constexpr std::uint64_t k_most_repeated = std::uint64_t{1} << 25;
             if (numbers > std::max<std::uint64_t>(k_most_repeated, document_.bytes)) {
                 throw BadFile(fmt::format("repeats its {} bytes to more than {} vertices and corners",
                                           document_.bytes, k_most_repeated));

@@ -70,6 +70,15 @@ TEST_CASE("shape/mesh: a byte order mark at the head of a text is skipped, and U
     }
 }
 
+TEST_CASE("shape/mesh: a pointer of Git LFS in the place of a file is called that") {
+    for (const char* const name : {"a.obj", "a.ply", "a.stl", "a.gltf", "a.glb"}) {
+        INFO(name);
+        CHECK_THAT(
+            refusal_of("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 123456\n", name),
+            ContainsSubstring("is a pointer of Git LFS") && ContainsSubstring("git lfs pull"));
+    }
+}
+
 TEST_CASE("shape/mesh: normals and texture coordinates that are not finite are left out, and counted") {
     for (const char* const word :
          {"nan", "-nan", "nan(ind)", "-nan(ind)", "-1.#IND", "1.#INF", "1.#QNAN0", "inf", "-inf", "1e999"}) {
