@@ -121,6 +121,10 @@ void Animator::take_parts(const Source& source, candela::Registry& registry) {
     }
 }
 
+void Animator::count_left_out(const Motion& motion) {
+    ++(budget_ < motion.cost ? model_.moving.too_many : model_.moving.undone);
+}
+
 void Animator::take_part(Part& part, const Bounds& box) {
     const bool is_z_up = model_.is_z_up;
     const Vector& moved = geometry_.moved;
@@ -150,7 +154,7 @@ void Animator::take_part(Part& part, const Bounds& box) {
     };
     auto tracks = tracks_of(*part.motion, mover, budget_);
     if (!tracks) {
-        ++model_.moving.undone;
+        count_left_out(*part.motion);
         return;
     }
     if (tracks->empty()) return;
@@ -184,7 +188,7 @@ void Animator::take_view(Setting& setting) {
     const auto take = [&](const Motion& motion, const Mover& mover, std::vector<Track>& to) {
         auto tracks = tracks_of(motion, mover, budget_);
         if (!tracks) {
-            ++model_.moving.undone;
+            count_left_out(motion);
             return false;
         }
         to = std::move(*tracks);
@@ -251,6 +255,7 @@ void Animator::note() {
     leave(moving.in_pieces, "object whose pieces move apart", "objects whose pieces move apart");
     leave(moving.undone, "thing that no position, rotation and scale describe",
           "things that no position, rotation and scale describe");
+    leave(moving.too_many, "thing of too many keys", "things of too many keys");
     leave(moving.skins, "skin", "skins");
     leave(moving.weights, "channel of morph targets", "channels of morph targets");
     leave(moving.channels, "channel of another kind, or damaged", "channels of other kinds, or damaged");

@@ -30,6 +30,7 @@ class Animator {
 
   private:
     void take_part(Part& part, const Bounds& box);
+    void count_left_out(const Motion& motion);  // once tracks_of() has
     void contain(const Vector& point);
     void contain_positions(const std::vector<Track>& tracks);
 
@@ -37,7 +38,7 @@ class Animator {
     const Geometry& geometry_;
     Bounds all_;
     std::vector<Vector> corners_;     // of what moves
-    std::size_t budget_ = 4'000'000;  // nodes to place
+    std::size_t budget_ = 2'000'000;  // nodes to place
     std::size_t objects_ = 0, lights_ = 0;
     bool has_camera_ = false;
 };

@@ -120,6 +120,7 @@ struct Moving {
     double length = 0;                 // of the first, in seconds
     bool has_splines = false;
     std::size_t in_pieces = 0;  // objects that several nodes move
+    std::size_t too_many = 0;   // things whose keys are
     std::size_t undone = 0;     // things whose rest cannot be told apart from how they move
     std::size_t skins = 0, weights = 0, channels = 0;  // that are not taken over
 };
