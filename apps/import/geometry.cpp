@@ -83,7 +83,10 @@ class Look {
         parameters_.set("allow_outside", source.allows_outside);
         // As the scene will have it, for which the file need not be read again then.
         const std::string extension = candela::extension_of(source.file);
-        if (extension == "gltf" || extension == "glb") parameters_.set("sides", std::string("both"));
+        if (extension == "gltf" || extension == "glb") {
+            parameters_.set("sides", std::string("both"));
+            parameters_.set("crease_angle", 0.0);
+        }
     }
 
     /// With a point of the file's coordinates as its origin.

@@ -27,6 +27,14 @@ namespace {
     throw candela::Error(candela::ErrorCategory::failure, what);
 }
 
+/// Fewer bytes than asked for where the file ends.
+std::string bytes_at(candela::RegularFile& file, std::uint64_t begin, std::size_t size) {
+    std::string bytes(begin < file.size() ? std::min<std::uint64_t>(size, file.size() - begin) : 0, '\0');
+    const auto count = file.seek(begin) ? file.read(bytes) : std::nullopt;
+    bytes.resize(count.value_or(0));
+    return bytes;
+}
+
 /// A little-endian number of four bytes; zero beyond the end.
 std::size_t word_at(std::string_view bytes, std::size_t at) {
     if (at > bytes.size() || bytes.size() - at < 4) return 0;
@@ -37,15 +45,19 @@ std::size_t word_at(std::string_view bytes, std::size_t at) {
 
 constexpr std::uint32_t k_json_chunk = 0x4e4f534a, k_binary_chunk = 0x004e4942;
 
-/// The chunk of that type; empty if there is none. Some programs do not count the padding before it.
-std::string_view chunk_of(std::string_view bytes, std::uint32_t type) {
-    for (std::size_t at = 12; at + 8 <= bytes.size();) {
-        const std::size_t size = word_at(bytes, at);
-        if (size > bytes.size() - at - 8) break;
-        if (word_at(bytes, at + 4) == type) return bytes.substr(at + 8, size);
-        const std::size_t end = at + 8 + size;
-        const std::size_t padded = (end + 3) / 4 * 4;
-        at = word_at(bytes, end + 4) == type ? end : padded;
+/// The chunk of that type, among the first few: files have two. Some programs do not count the padding before
+/// it.
+Chunk chunk_of(candela::RegularFile& file, std::uint32_t type) {
+    constexpr std::size_t k_header = 8;
+    std::uint64_t at = 12;
+    for (int chunks = 0; chunks < 16 && at + k_header <= file.size(); ++chunks) {
+        const std::string header = bytes_at(file, at, k_header);
+        const std::size_t size = word_at(header, 0);
+        if (size > file.size() - at - k_header) break;
+        if (word_at(header, 4) == type) return {.begin = at + k_header, .size = size};
+        const std::uint64_t end = at + k_header + size;
+        const std::uint64_t padded = (end + 3) / 4 * 4;
+        at = word_at(bytes_at(file, end, k_header), 4) == type ? end : padded;
     }
     return {};
 }
@@ -104,15 +116,18 @@ std::string stem_of(const std::string& name, std::size_t number) {
 
 }  // namespace
 
-Container::Container(Source source) : source_(std::move(source)) {
-    auto text = candela::read_text_file(source_.file);
-    if (!text) fail(fmt::format("'{}' cannot be read", source_.file.string()));
-    bytes_ = std::move(*text);
-    std::string_view json = bytes_;
-    if (json.starts_with("glTF")) {
-        binary_ = chunk_of(bytes_, k_binary_chunk);
-        json = chunk_of(bytes_, k_json_chunk);
-        while (json.ends_with('\0')) json.remove_suffix(1);
+Container::Container(Source source) : source_(std::move(source)), file_(source_.file) {
+    constexpr std::string_view k_magic = "glTF";
+    std::string json;
+    if (file_.is_open() && bytes_at(file_, 0, k_magic.size()) == k_magic) {
+        binary_ = chunk_of(file_, k_binary_chunk);
+        const Chunk chunk = chunk_of(file_, k_json_chunk);
+        json = bytes_at(file_, chunk.begin, chunk.size);
+        while (json.ends_with('\0')) json.pop_back();
+    } else {
+        auto text = candela::read_text_file(source_.file);
+        if (!text) fail(fmt::format("'{}' cannot be read", source_.file.string()));
+        json = std::move(*text);
     }
     json_ = Json::parse(json, nullptr, false);
     if (!json_.is_object())
@@ -136,8 +151,9 @@ std::string_view Container::buffer(std::size_t index) {
     const Json* const buffer = element(array_of(json_, "buffers"), index);
     if (buffer == nullptr) fail(fmt::format("there is no buffer {}", index));
     const std::string uri = text(*buffer, "uri");
-    if (uri.empty()) return index == 0 ? binary_ : std::string_view();
+    if (uri.empty() && index > 0) return {};
     std::string& content = buffers_[index];
+    if (uri.empty()) return content = bytes_at(file_, binary_.begin, binary_.size);
     if (uri.starts_with("data:")) return content = data_of(uri);
     auto read = candela::read_text_file(part_named(uri));
     if (!read) fail(fmt::format("'{}' cannot be read", candela::shortened(uri)));

@@ -1,6 +1,8 @@
 // A glTF file, its buffers and the pictures in it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,11 +13,20 @@
 #include "import/model.h"
 #include "import/readers.h"
 
+import candela.files;
+
 namespace importing::gltf {
+
+/// Where a chunk of a GLB file has its bytes; none if there is no such chunk.
+struct Chunk {
+    std::uint64_t begin = 0;
+    std::size_t size = 0;
+};
 
 class Container {
   public:
-    /// Reads the file, text or binary. Throws candela::Error (failure).
+    /// Reads what the file, text or binary, says of itself; the bytes of a GLB file, most of which are
+    /// triangles, only where they are asked for. Throws candela::Error (failure).
     explicit Container(Source source);
 
     const Json& json() const { return json_; }
@@ -37,8 +48,8 @@ class Container {
     std::filesystem::path part_named(const std::string& uri) const;
 
     Source source_;
-    std::string bytes_;
-    std::string_view binary_;  // of a GLB file
+    candela::RegularFile file_;
+    Chunk binary_;  // of a GLB file
     Json json_;
     std::map<std::size_t, std::string> buffers_;
 };

@@ -42,7 +42,9 @@ std::uint64_t memory_for(const MeshLayout& layout) {
                                   (layout.has_derivatives ? 2u : 0u) + (layout.has_color ? 1u : 0u);
     constexpr std::uint64_t k_vector = 3 * sizeof(float);
     constexpr std::uint64_t k_triangle = 3 * sizeof(std::uint32_t) + k_vector + 40;  // projected
-    const std::uint64_t edges = layout.closedness == Closedness::closed ? 0 : 3 * 8;
+    const bool is_counted =
+        layout.closedness == Closedness::closed || layout.closedness == Closedness::one_sided;
+    const std::uint64_t edges = is_counted ? 0 : 3 * 8;
     return layout.vertices * vectors * k_vector + layout.triangles * (k_triangle + edges);
 }
 
@@ -335,9 +337,10 @@ PlacedShape place(const Shape& shape, const MeshRequest& request, const Transfor
     if (collected.closedness == Closedness::closed) {
         mesh.closed = true;
     } else {
-        const bool are_counted = collected.closedness != Closedness::unknown && collected.open_edges > 0;
-        mesh.open_edges = are_counted ? collected.open_edges : count_open_edges(mesh);
         mesh.one_sided = collected.closedness == Closedness::one_sided;
+        const bool are_counted =
+            mesh.one_sided || (collected.closedness == Closedness::open && collected.open_edges > 0);
+        mesh.open_edges = are_counted ? collected.open_edges : count_open_edges(mesh);
         mesh.closed = mesh.open_edges == 0 || mesh.one_sided;
     }
     return {std::move(mesh), std::move(collected.authored_normal), std::move(collected.smooth_group),

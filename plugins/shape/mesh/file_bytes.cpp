@@ -32,13 +32,14 @@ class Descriptor {
         return static_cast<std::size_t>(status.st_size);
     }
 
-    void read(char* to, std::size_t begin, std::size_t end) const {
-        while (begin < end) {
-            const ::ssize_t some = ::pread(number_, to + begin, end - begin, static_cast<::off_t>(begin));
-            if (some < 0 && errno == EINTR) continue;
-            if (some < 0) throw BadFile(fmt::format("cannot be read: {}", reason()));
-            if (some == 0) throw BadFile("became shorter while it was read");
-            begin += static_cast<std::size_t>(some);
+    void read(char* to, std::size_t begin, std::size_t count) const {
+        while (count > 0) {
+            const ::ssize_t done = ::pread(number_, to, count, static_cast<::off_t>(begin));
+            if (done < 0 && errno == EINTR) continue;
+            if (done < 0) throw BadFile(fmt::format("cannot be read: {}", reason()));
+            if (done == 0) throw BadFile("became shorter while it was read");
+            const auto some = static_cast<std::size_t>(done);
+            to += some, begin += some, count -= some;
         }
     }
 
@@ -55,11 +56,27 @@ Array<char> read_file(const std::filesystem::path& file) {
     Array<char> bytes(descriptor.regular_size());
     constexpr std::size_t k_stretch = std::size_t{4} << 20;
     candela::parallel_for(bytes.size(), k_stretch, [&](std::size_t begin, std::size_t end) {
-        descriptor.read(bytes.data(), begin, end);
+        descriptor.read(bytes.data() + begin, begin, end - begin);
     });
     if (std::string_view(bytes.data(), bytes.size()).starts_with("version https://git-lfs.github.com/spec/"))
         throw BadFile("is a pointer of Git LFS, not the file itself, which `git lfs pull` fetches");
     return bytes;
+}
+
+class Pieces::File : public Descriptor {
+  public:
+    using Descriptor::Descriptor;
+};
+
+Pieces::Pieces(const std::filesystem::path& file)
+    : file_(std::make_unique<File>(file)), size_(file_->regular_size()) {}
+
+Pieces::~Pieces() = default;
+
+std::string_view Pieces::at(std::size_t begin, std::size_t count) {
+    piece_.resize(count);
+    file_->read(piece_.data(), begin, count);
+    return text_of(piece_);
 }
 
 FileState state_of(const std::filesystem::path& file) {

@@ -101,9 +101,9 @@ class Reader {
         pose.morph("POSITION", values);
         // Of many primitives, each would move all that is there.
         if (first == 0)
-            for (Array<float>* const axis :
-                 {&surface_.position.x, &surface_.position.y, &surface_.position.z})
-                axis->reserve(count);
+            for (Vectors* const each : {&surface_.position, &surface_.normal})
+                for (Array<float>* const axis : {&each->x, &each->y, &each->z})
+                    if (each == &surface_.position || has_normals_) axis->reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const std::array<double, 3> v = {values[0][i], values[1][i], values[2][i]};
             const std::array<double, 3> p = pose.is_rigid() ? placed.to_world.point(v) : pose.of(i).point(v);

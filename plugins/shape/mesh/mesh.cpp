@@ -62,7 +62,8 @@ Format format_of(const std::filesystem::path& file) {
 mesh::Surface surface_of(const std::filesystem::path& file, const mesh::Origin& origin, mesh::Reach reach,
                          const mesh::Progress& progress) {
     const Format format = format_of(file);
-    const mesh::Array<char> bytes = mesh::read_file(file);
+    mesh::Array<char> bytes;
+    if (format != Format::stl) bytes = mesh::read_file(file);
     mesh::Surface surface;
     switch (format) {
         case Format::obj:
@@ -71,9 +72,11 @@ mesh::Surface surface_of(const std::filesystem::path& file, const mesh::Origin& 
         case Format::ply:
             surface = mesh::read_ply(mesh::text_of(bytes), origin, progress);
             break;
-        case Format::stl:
-            surface = mesh::read_stl(mesh::text_of(bytes), origin, progress);
+        case Format::stl: {
+            mesh::Pieces pieces(file);
+            surface = mesh::read_stl(pieces, origin, progress);
             break;
+        }
         case Format::gltf:
             surface = mesh::read_gltf(mesh::text_of(bytes), origin, file.parent_path(), reach);
             break;

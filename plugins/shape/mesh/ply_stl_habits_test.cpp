@@ -78,6 +78,22 @@ std::string stl(std::string header, std::array<std::uint16_t, 2> attributes, flo
     return header;
 }
 
+/// So many squares in a row, two facets each, of which the last two have these attributes.
+std::string long_stl(std::string header, std::uint32_t squares, std::uint16_t last) {
+    header.resize(80, ' ');
+    put(header, 2 * squares);
+    for (std::uint32_t i = 0; i < squares; ++i) {
+        const auto x = static_cast<float>(i);
+        const float corners[2][9] = {{x, 0, 0, x + 1, 0, 0, x + 1, 1, 0}, {x, 0, 0, x + 1, 1, 0, x, 1, 0}};
+        for (const auto& facet : corners) {
+            for (const float n : {0.0f, 0.0f, 1.0f}) put(header, n);
+            for (const float c : facet) put(header, c);
+            put(header, i + 1 == squares ? last : std::uint16_t{0});
+        }
+    }
+    return header;
+}
+
 }  // namespace
 
 TEST_CASE("shape/mesh: colours of a PLY file have the range of their values, whatever their type") {
@@ -174,6 +190,32 @@ TEST_CASE("shape/mesh: the colours of Materialise Magics in an STL file are thos
         CHECK(two.mesh.color.span()[two.mesh.indices[i]] == (i < 3 ? Vec3{1, 0, 0} : Vec3{0, 0, 1}));
     CHECK_THAT(warnings_of(placed(stl("", {0x801f, 0x801f}), "c.stl")),
                ContainsSubstring("attributes of facets"));
+}
+
+TEST_CASE("shape/mesh: a binary STL file longer than what is read at once is the same mesh") {
+    constexpr std::uint32_t k_squares = 9001;  // 18,002 facets
+    const candela::PlacedShape plain = placed(long_stl("", k_squares, 0), "long.stl");
+    CHECK(plain.warnings.empty());
+    REQUIRE(plain.mesh.triangle_count() == 2 * k_squares);
+    CHECK(plain.mesh.vertex_count() == 2 * (k_squares + 1));
+    bool are_all_there = true;
+    for (std::uint32_t t = 0; t < 2 * k_squares; ++t) {
+        const auto x = static_cast<float>(t / 2);
+        const std::array<Vec3, 3> corners =
+            t % 2 == 0 ? std::array{Vec3{x, 0, 0}, Vec3{x + 1, 0, 0}, Vec3{x + 1, 1, 0}}
+                       : std::array{Vec3{x, 0, 0}, Vec3{x + 1, 1, 0}, Vec3{x, 1, 0}};
+        for (std::size_t k = 0; k < 3; ++k)
+            are_all_there =
+                are_all_there && plain.mesh.position.span()[plain.mesh.indices[3 * t + k]] == corners[k];
+    }
+    CHECK(are_all_there);
+    const candela::PlacedShape colored =
+        placed(long_stl(std::string("COLOR=\xff\0\0\xff", 10), k_squares, 0x7c00), "colored.stl");
+    const auto color_of = [&](std::size_t corner) {
+        return colored.mesh.color.span()[colored.mesh.indices[corner]];
+    };
+    CHECK(color_of(3 * (2 * k_squares - 3)) == Vec3{0, 0, 0});
+    CHECK(color_of(3 * (2 * k_squares - 1)) == Vec3{0, 0, 1});
 }
 
 TEST_CASE("shape/mesh: a PLY file of points or lines only is called that") {

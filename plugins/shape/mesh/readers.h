@@ -1,6 +1,6 @@
-// One function per format: from bytes to a surface. All throw BadFile for what is no such file, check counts
-// against the bytes there are before they allocate, and have no state. Texts tell how far they are read.
-// Positions are those of the file, moved by `origin` while they are doubles.
+// One function per format: from bytes, or a file, to a surface. All throw BadFile for what is no such file,
+// check counts against the bytes there are before they allocate, and have no state. Texts tell how far they
+// are read. Positions are those of the file, moved by `origin` while they are doubles.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace mesh {
 Surface read_ply(std::string_view bytes, const Origin& origin, const Progress& progress);
 
 /// Stereolithography, text or binary (3D Systems 1989).
-Surface read_stl(std::string_view bytes, const Origin& origin, const Progress& progress);
+Surface read_stl(Pieces& file, const Origin& origin, const Progress& progress);
 
 /// Wavefront OBJ: polygons, no curves. Material libraries are not opened.
 Surface read_obj(std::string_view text, const Origin& origin, const Progress& progress);

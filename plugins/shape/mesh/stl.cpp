@@ -50,22 +50,38 @@ bool is_word(std::string_view word, std::string_view lower_case) {
 
 /// Of a text file every byte is text, and of a binary one the size is known: neither the word "solid", with
 /// which binary files begin as well, nor the size alone tells.
-bool is_binary(std::string_view bytes) {
-    if (bytes.size() >= k_header) {
-        const std::uint64_t facets = little_endian<std::uint32_t>(bytes.data() + 80);
-        if (k_header + facets * k_facet == bytes.size()) return true;
+bool is_binary(Pieces& file) {
+    const std::string_view begin = file.at(0, std::min<std::size_t>(file.size(), 4096));
+    if (begin.size() >= k_header) {
+        const std::uint64_t facets = little_endian<std::uint32_t>(begin.data() + 80);
+        if (k_header + facets * k_facet == file.size()) return true;
     }
-    TextScanner scanner(without_mark(bytes.substr(0, 4096)));
+    TextScanner scanner(without_mark(begin));
     if (!is_word(scanner.word(), "solid")) return true;
-    return bytes.substr(0, 4096).find('\0') != std::string_view::npos;
+    return begin.find('\0') != std::string_view::npos;
+}
+
+/// Calls visit(first, count, bytes) for stretches of `at_once` facets or, at the end, fewer.
+template <class Visit>
+void each_facets(Pieces& file, std::size_t facets, std::size_t at_once, Visit visit) {
+    constexpr std::size_t k_stretches = 512;
+    const std::size_t most = k_stretches * at_once;
+    for (std::size_t begin = 0; begin < facets; begin += most) {
+        const std::size_t end = std::min(facets, begin + most);
+        const char* bytes = file.at(k_header + begin * k_facet, (end - begin) * k_facet).data();
+        for (std::size_t first = begin; first < end; first += at_once) {
+            const std::size_t some = std::min(at_once, end - first);
+            visit(first, some, bytes);
+            bytes += some * k_facet;
+        }
+    }
 }
 
 using Color = std::array<std::uint8_t, 4>;
 
 /// The object's colour, as Materialise Magics writes it into the header: "COLOR=" and four bytes.
-std::optional<Color> magics_color(std::string_view bytes) {
+std::optional<Color> magics_color(std::string_view header) {
     constexpr std::string_view k_key = "COLOR=";
-    const std::string_view header = bytes.substr(0, 80);
     const std::size_t at = header.find(k_key);
     if (at == std::string_view::npos || at + k_key.size() + 4 > header.size()) return std::nullopt;
     Color color{};
@@ -75,45 +91,48 @@ std::optional<Color> magics_color(std::string_view bytes) {
 
 /// With Magics' header, a facet's attributes are its own colour, five bits of each channel, unless the
 /// highest bit is set; where all are zero, none has one.
-void set_magics_colors(std::string_view bytes, Color object, bool has_attributes, Surface& surface) {
+void set_magics_colors(Pieces& file, Color object, bool has_attributes, Surface& surface) {
     surface.color.resize(surface.position.size());
     constexpr float k_most = 255, k_most_of_five_bits = 31;
     const Vec3 whole = {object[0] / k_most, object[1] / k_most, object[2] / k_most};
-    for (std::size_t t = 0; t < surface.triangles(); ++t) {
-        const unsigned bits = little_endian<std::uint16_t>(bytes.data() + k_header + t * k_facet + 48);
+    each_facets(file, surface.triangles(), 1, [&](std::size_t t, std::size_t, const char* facet) {
+        const unsigned bits = little_endian<std::uint16_t>(facet + 48);
         const auto channel = [&](unsigned shift) {
             return static_cast<float>(bits >> shift & 31u) / k_most_of_five_bits;
         };
         const bool is_own = has_attributes && (bits & 0x8000u) == 0;
         const Vec3 color = is_own ? Vec3{channel(0), channel(5), channel(10)} : whole;
         for (std::size_t k = 0; k < 3; ++k) surface.color.span().set(3 * t + k, color);
-    }
+    });
     if (object[3] != k_most) surface.losses.emplace_back("an opacity");
 }
 
-/// Gives each position one vertex as it comes. Neighbouring facets have most corners in common, so that what
-/// is looked up is mostly in the cache still.
+/// Gives each position one vertex as it comes. Where a position would be is known some corners before it is
+/// looked up, so that the memory is there by then: nearly all of the time would go into waiting for it.
 class VertexMerger {
   public:
+    static constexpr std::size_t k_most_at_once = 48;
+
     /// `facets`: of a closed surface of so many there are half as many vertices.
     explicit VertexMerger(std::size_t facets)
         : slots_(std::bit_ceil(std::max<std::size_t>(facets, 16)), k_free) {
         places_.reserve(facets / 2 + 16);
     }
 
-    std::uint32_t number_of(Vec3 p) {
-        const Place place = {bits(p.x), bits(p.y), bits(p.z)};
+    /// Writes the numbers of the vertices at `count` positions, of at most k_most_at_once.
+    void number(const Vec3* positions, std::size_t count, std::uint32_t* numbers) {
+        std::array<Place, k_most_at_once> place;
+        std::array<std::size_t, k_most_at_once> hashes;
         const std::size_t mask = slots_.size() - 1;
-        for (std::size_t at = hash(place) & mask;; at = (at + 1) & mask) {
-            if (slots_[at] == k_free) {
-                const auto number = static_cast<std::uint32_t>(places_.size());
-                slots_[at] = number;
-                places_.push_back(place);
-                if (2 * places_.size() > slots_.size() + slots_.size() / 2) grow();
-                return number;
-            }
-            if (places_[slots_[at]] == place) return slots_[at];
+        for (std::size_t i = 0; i < count; ++i) {
+            place[i] = {bits(positions[i].x), bits(positions[i].y), bits(positions[i].z)};
+            hashes[i] = hash(place[i]);
+            __builtin_prefetch(&slots_[hashes[i] & mask]);
         }
+        for (std::size_t i = 0; i < count; ++i)
+            if (const std::uint32_t slot = slots_[hashes[i] & mask]; slot != k_free)
+                __builtin_prefetch(&places_[slot]);
+        for (std::size_t i = 0; i < count; ++i) numbers[i] = number_of(place[i], hashes[i]);
     }
 
     Vectors positions() && {
@@ -128,6 +147,20 @@ class VertexMerger {
   private:
     using Place = std::array<std::uint32_t, 3>;
     static constexpr std::uint32_t k_free = 0xffff'ffffu;
+
+    std::uint32_t number_of(const Place& place, std::size_t hash) {
+        const std::size_t mask = slots_.size() - 1;
+        for (std::size_t at = hash & mask;; at = (at + 1) & mask) {
+            if (slots_[at] == k_free) {
+                const auto number = static_cast<std::uint32_t>(places_.size());
+                slots_[at] = number;
+                places_.push_back(place);
+                if (2 * places_.size() > slots_.size() + slots_.size() / 2) grow();
+                return number;
+            }
+            if (places_[slots_[at]] == place) return slots_[at];
+        }
+    }
 
     static std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); }  // -0 is 0
     static std::size_t hash(const Place& place) {
@@ -149,16 +182,17 @@ class VertexMerger {
     Array<Place> places_;
 };
 
-Surface read_binary(std::string_view bytes, const Origin& origin) {
-    if (bytes.size() < k_header)
+Surface read_binary(Pieces& file, const Origin& origin) {
+    if (file.size() < k_header)
         throw BadFile("is no STL file: it neither begins with 'solid' nor has 84 bytes");
-    const std::uint64_t facets = little_endian<std::uint32_t>(bytes.data() + 80);
-    const std::uint64_t room = (bytes.size() - k_header) / k_facet;
+    const std::string_view header = file.at(0, k_header);
+    const std::uint64_t facets = little_endian<std::uint32_t>(header.data() + 80);
+    const std::uint64_t room = (file.size() - k_header) / k_facet;
     if (facets > room) {
         throw BadFile(fmt::format("declares {} facets of {} bytes, but only {} bytes are left", facets,
-                                  k_facet, bytes.size() - k_header));
+                                  k_facet, file.size() - k_header));
     }
-    const auto color = magics_color(bytes);
+    const auto color = magics_color(header.substr(0, 80));
     Surface surface;
     surface.is_single = true;
     surface.facet_normal.resize(facets);
@@ -167,27 +201,32 @@ Surface read_binary(std::string_view bytes, const Origin& origin) {
     std::optional<VertexMerger> merger;
     if (!color) merger.emplace(facets);
     unsigned attributes = 0;
-    for (std::size_t t = 0; t < facets; ++t) {
-        const char* const facet = bytes.data() + k_header + t * k_facet;
-        surface.facet_normal.span().set(t, unit(vector_at(facet)));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 p = vector_at(facet + 12 * (k + 1));
-            const Vec3 moved = origin.moved({p.x, p.y, p.z});
-            const std::size_t corner = 3 * t + k;
-            surface.indices[corner] = merger ? merger->number_of(moved) : static_cast<std::uint32_t>(corner);
-            if (!merger) surface.position.span().set(corner, moved);
+    std::array<Vec3, VertexMerger::k_most_at_once> corners;
+    constexpr std::size_t k_facets_at_once = VertexMerger::k_most_at_once / 3;
+    each_facets(file, facets, k_facets_at_once, [&](std::size_t first, std::size_t count, const char* facet) {
+        for (std::size_t i = 0; i < count; ++i, facet += k_facet) {
+            surface.facet_normal.span().set(first + i, unit(vector_at(facet)));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 p = vector_at(facet + 12 * (k + 1));
+                corners[3 * i + k] = origin.moved({p.x, p.y, p.z});
+            }
+            attributes |= little_endian<std::uint16_t>(facet + 48);
         }
-        attributes |= little_endian<std::uint16_t>(facet + 48);
-    }
+        if (merger) return merger->number(corners.data(), 3 * count, &surface.indices[3 * first]);
+        for (std::size_t i = 0; i < 3 * count; ++i) {
+            surface.indices[3 * first + i] = static_cast<std::uint32_t>(3 * first + i);
+            surface.position.span().set(3 * first + i, corners[i]);
+        }
+    });
     if (merger) surface.position = std::move(*merger).positions();
     surface.are_places_unique = merger.has_value();
     const bool has_attributes = attributes != 0;
     if (color) {
-        set_magics_colors(bytes, *color, has_attributes, surface);
+        set_magics_colors(file, *color, has_attributes, surface);
     } else if (has_attributes) {
         surface.losses.emplace_back("attributes of facets, such as colours");
     }
-    const std::size_t rest = bytes.size() - k_header - facets * k_facet;
+    const std::size_t rest = file.size() - k_header - facets * k_facet;
     if (rest > 0) surface.losses.emplace_back(counted(rest, "byte") + " after the last facet");
     return surface;
 }
@@ -288,9 +327,10 @@ void note_contradictions(Surface& surface) {
 
 }  // namespace
 
-Surface read_stl(std::string_view bytes, const Origin& origin, const Progress& progress) {
-    Surface surface = is_binary(bytes) ? read_binary(bytes, origin)
-                                       : TextReader(without_mark(bytes), origin, progress).read();
+Surface read_stl(Pieces& file, const Origin& origin, const Progress& progress) {
+    Surface surface = is_binary(file)
+                          ? read_binary(file, origin)
+                          : TextReader(without_mark(file.at(0, file.size())), origin, progress).read();
     require_finite(surface, "facet");
     note_contradictions(surface);
     return surface;

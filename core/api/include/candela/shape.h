@@ -41,7 +41,7 @@ struct MeshLayout {
     bool has_color = false;
     bool has_smooth_groups = false;  // otherwise every vertex has a normal of its own
     Closedness closedness = Closedness::unknown;
-    std::size_t open_edges = 0;  // of an open shape, if it has counted them; otherwise the host does
+    std::size_t open_edges = 0;  // of one_sided shapes; of open ones, if counted: else the host does
 };
 
 /// Arrays of the requested sizes, zero-filled; null or empty if not requested. Nothing outside them may be
