@@ -49,6 +49,14 @@ class Descriptor {
     int number_;
 };
 
+constexpr std::string_view k_pointer = "version https://git-lfs.github.com/spec/";
+
+/// What a repository's clone without Git LFS has in a file's place.
+void require_no_pointer(std::string_view text) {
+    if (text.starts_with(k_pointer))
+        throw BadFile("is a pointer of Git LFS, not the file itself, which `git lfs pull` fetches");
+}
+
 }  // namespace
 
 Array<char> read_file(const std::filesystem::path& file) {
@@ -58,8 +66,7 @@ Array<char> read_file(const std::filesystem::path& file) {
     candela::parallel_for(bytes.size(), k_stretch, [&](std::size_t begin, std::size_t end) {
         descriptor.read(bytes.data() + begin, begin, end - begin);
     });
-    if (std::string_view(bytes.data(), bytes.size()).starts_with("version https://git-lfs.github.com/spec/"))
-        throw BadFile("is a pointer of Git LFS, not the file itself, which `git lfs pull` fetches");
+    require_no_pointer(text_of(bytes));
     return bytes;
 }
 
@@ -69,7 +76,9 @@ class Pieces::File : public Descriptor {
 };
 
 Pieces::Pieces(const std::filesystem::path& file)
-    : file_(std::make_unique<File>(file)), size_(file_->regular_size()) {}
+    : file_(std::make_unique<File>(file)), size_(file_->regular_size()) {
+    require_no_pointer(at(0, std::min(size_, k_pointer.size())));
+}
 
 Pieces::~Pieces() = default;
 
