@@ -242,7 +242,7 @@ int run(int argc, char** argv) {
             return static_cast<int>(ExitCode::failure);
         }
         const fs::path library = fs::absolute(file);
-        if (!options.json) std::cout << library.string() << std::endl;
+        if (!options.json) std::cout << library.string() << '\n' << std::flush;
         const Report report =
             options.answer.empty() ? test(library, options) : judge_answer(library, options);
         all_conform = all_conform && conforms(report);

@@ -75,8 +75,8 @@ void TokenReader::refuse_next(const std::string& expected) const {
     // What is missing at the end of a line is missing there, not at the beginning of the next one.
     if (at_ > 0) {
         const std::string_view last = tokens_[at_ - 1].text;
-        const std::string_view between(last.data() + last.size(), token.text.data());
-        if (between.find('\n') != std::string_view::npos) {
+        // Both are views of one text.
+        if (std::find(last.end(), token.text.begin(), '\n') != token.text.begin()) {
             Place end = tokens_[at_ - 1].place;
             end.offset += static_cast<std::uint32_t>(last.size());
             throw Refusal{end, message};

@@ -90,7 +90,7 @@ class Lexer {
     /// A carriage return alone ends a line for some compilers, and not for others.
     void refuse_line_end(std::size_t at) const {
         if (text_[at] == '\r' && (at + 1 >= text_.size() || text_[at + 1] != '\n'))
-            refuse(at, "a line ends with \\n, or with \\r\\n");
+            refuse(at, R"(a line ends with \n, or with \r\n)");
     }
 
     void next() {

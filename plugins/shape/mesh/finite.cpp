@@ -32,13 +32,13 @@ bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std:
 
 void require_finite_positions(Surface& surface, std::string_view face) {
     const candela::Vec3Span position = surface.position.span();
-    for (std::size_t i = 0; i < surface.indices.size(); ++i) {
-        const Vec3 p = position[surface.indices[i]];
+    for (const std::uint32_t index : surface.indices) {
+        const Vec3 p = position[index];
         if (!is_finite(p))
             throw BadFile(
                 fmt::format("has a {} with the corner [{:g}, {:g}, {:g}] (vertex {}, counted from 0); a "
                             "position must be finite",
-                            face, p.x, p.y, p.z, surface.indices[i]));
+                            face, p.x, p.y, p.z, index));
     }
     const Vec3 some = surface.indices.empty() ? Vec3{} : position[surface.indices[0]];
     for (std::size_t i = 0; i < surface.position.size(); ++i)

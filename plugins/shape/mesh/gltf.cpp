@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "gltf_accessor.h"
@@ -33,6 +34,7 @@ class Reader {
             add(placed);
             surface_.material.resize(surface_.triangles(), material_of(*placed.primitive));
         }
+        if (surface_.triangles() == 0) require_no_points_or_lines();
         surface_.losses = std::move(document_.losses);
         surface_.files = std::move(document_.files);
         surface_.is_color_linear = true;
@@ -61,6 +63,24 @@ class Reader {
             surface_.materials.emplace_back(k_no_material);
         }
         return *no_material_;
+    }
+
+    /// Throws for a file that has only these.
+    void require_no_points_or_lines() const {
+        std::size_t points = 0, lines = 0;
+        for (const tinygltf::Mesh& mesh : document_.model.meshes)
+            for (const tinygltf::Primitive& primitive : mesh.primitives) {
+                if (primitive.mode == TINYGLTF_MODE_POINTS) ++points;
+                if (primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES)
+                    ++lines;
+            }
+        std::string sets;
+        for (const auto& [count, of] : {std::pair(points, "points"), std::pair(lines, "lines")})
+            if (count > 0)
+                sets += fmt::format("{}{} set{} of {}", sets.empty() ? "" : " and ", count,
+                                    count == 1 ? "" : "s", of);
+        if (!sets.empty())
+            throw BadFile(fmt::format("has {} and no triangles; Candela draws surfaces", sets));
     }
 
     /// Nodes and primitives may share accessors: a small file can describe any number of triangles.

@@ -86,7 +86,7 @@ Accessor::Bytes Accessor::bytes(int view_index, std::size_t offset, int componen
     const tinygltf::BufferView& view = document_.model.bufferViews[static_cast<std::size_t>(view_index)];
     const std::size_t element = size_of(component_type) * static_cast<std::size_t>(components);
     const std::size_t stride = view.byteStride == 0 ? element : view.byteStride;
-    if (stride < element)
+    if (stride < element || stride == 0)
         throw BadFile(fmt::format("has a buffer view {} whose stride is too short", view_index));
     if (count == 0) return {};
     const bool is_there = offset <= data.size() && element <= data.size() - offset &&

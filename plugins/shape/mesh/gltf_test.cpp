@@ -323,6 +323,14 @@ TEST_CASE("shape/mesh: a buffer may have more bytes than are declared, and not f
     CHECK_FALSE(holds(refusal, "hello"));
 }
 
+TEST_CASE("shape/mesh: a glTF file of points and lines alone is refused as that") {
+    File file;
+    const std::size_t corners = file.accessor(k_float, "VEC3", 3, std::vector<float>(9));
+    for (const int mode : {0, 1, 3}) file.mesh({{"attributes", {{"POSITION", corners}}}, {"mode", mode}});
+    CHECK(holds(read(file.glb()).refusal,
+                "has 1 set of points and 2 sets of lines and no triangles; Candela draws"));
+}
+
 TEST_CASE("shape/mesh: glTF 1 is refused with what converts it") {
     CHECK(holds(read(R"({"asset": {"version": "1.0"}})", "a.gltf").refusal, "npx gltf-pipeline -i"));
     CHECK(holds(read(R"({"meshes": {"a": {}}})", "a.gltf").refusal, "npx gltf-pipeline -i"));

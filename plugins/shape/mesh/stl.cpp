@@ -94,7 +94,8 @@ std::optional<Color> magics_color(std::string_view header) {
 void set_magics_colors(Pieces& file, Color object, bool has_attributes, Surface& surface) {
     surface.color.resize(surface.position.size());
     constexpr float k_most = 255, k_most_of_five_bits = 31;
-    const Vec3 whole = {object[0] / k_most, object[1] / k_most, object[2] / k_most};
+    const auto intensity = [&](std::size_t i) { return static_cast<float>(object[i]) / k_most; };
+    const Vec3 whole = {intensity(0), intensity(1), intensity(2)};
     each_facets(file, surface.triangles(), 1, [&](std::size_t t, std::size_t, const char* facet) {
         const unsigned bits = little_endian<std::uint16_t>(facet + 48);
         const auto channel = [&](unsigned shift) {
@@ -104,7 +105,7 @@ void set_magics_colors(Pieces& file, Color object, bool has_attributes, Surface&
         const Vec3 color = is_own ? Vec3{channel(0), channel(5), channel(10)} : whole;
         for (std::size_t k = 0; k < 3; ++k) surface.color.span().set(3 * t + k, color);
     });
-    if (object[3] != k_most) surface.losses.emplace_back("an opacity");
+    if (static_cast<float>(object[3]) != k_most) surface.losses.emplace_back("an opacity");
 }
 
 /// Gives each position one vertex as it comes. Where a position would be is known some corners before it is
