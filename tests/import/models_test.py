@@ -13,7 +13,7 @@ REFUSED = {
     "OBJ/box_UTF16BE.obj": "is text in UTF-16", "OBJ/number_formats.obj": "line 11: '3.1+e2' is not a number",
     "OBJ/point_cloud.obj": "3 vertices and no faces", "OBJ/testline.obj": "6 lines and no triangles",
     "OBJ/testpoints.obj": "6 sets of points and no triangles",
-    "PLY/Wuson.ply": "line 3: 'Created' is no line", "PLY/issue623.ply": "line 14", "PLY/points.ply": "points alone have no surface",
+    "PLY/Wuson.ply": "line 3: 'Created' is no line", "PLY/issue623.ply": "line 14", "PLY/points.ply": "1 set of points (4) and no triangles",
     "PLY/pond.0.ply": "only 2171512 bytes are left",
     "glTF/": "Candela reads",
     "glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb": "has a vertex that is not finite: number 0 of accessor 2",
@@ -23,7 +23,8 @@ REFUSED = {
     "glTF2/SchemaFailures/sceneWrongType.gltf": "names 'BoxTextured0.bin', which cannot be read",
     "glTF2/RecursiveNodes/RecursiveNodes.gltf": "in two places, or within itself",
     "glTF2/TestNoRootNode/NoScene.gltf": "no faces", "glTF2/TestNoRootNode/SceneWithoutNodes.gltf": "no faces",
-    **{f"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_{i:02}.gltf": "no faces" for i in (0, 1, 2, 3, 7, 8, 9, 10)},
+    **{f"glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_{i:02}.gltf": f"1 set of {kind} and no triangles"
+       for kind, numbers in (("points", (0, 7)), ("lines", (1, 2, 3, 8, 9, 10))) for i in numbers},
     "glTF2/wrongTypes/badArray.gltf": "no faces",
     "invalid/empty.obj": "no faces", "invalid/empty.ply": "is no PLY file", "invalid/malformed.obj": "line 28: '0' is no index",
 }
