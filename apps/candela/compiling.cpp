@@ -1,5 +1,7 @@
 #include "compiling.h"
 
+#include <atomic>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -11,7 +13,14 @@ std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& d
                                                     candela::Registry& registry,
                                                     candela::Diagnostics& diagnostics, int threads) {
     ProgressBar bar("reading", !is_quiet());
-    auto compiled = candela::compile(draft, registry, diagnostics, threads, bar.updater());
+    // Placing the shapes is the first of three steps. From then on what models were read from only takes up
+    // memory.
+    std::atomic<bool> are_placed{false};
+    const auto tell = [&](std::size_t done, std::size_t all) {
+        if (done >= all / 3 && !are_placed.exchange(true)) forget_triangles_of_models();
+        bar.update(done, all);
+    };
+    auto compiled = candela::compile(draft, registry, diagnostics, threads, tell);
     forget_triangles_of_models();
     return compiled;
 }

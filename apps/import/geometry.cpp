@@ -98,7 +98,7 @@ class Look {
         if (is_z_up_) transform.rotation = {-90, 0, 0};
         candela::PlacedShape placed;
         try {
-            placed = candela::place(*shape, {.uv = true, .color = true}, transform);
+            placed = candela::place(*shape, {.uv = true, .color = true, .normals = false}, transform);
         } catch (const candela::Error&) {
             throw;
         } catch (const std::bad_alloc&) {
@@ -128,7 +128,7 @@ class Look {
     std::optional<Bounds> unchecked_bounds() const {
         Positions positions;
         try {
-            shape()->tessellate({}, positions);
+            shape()->tessellate({.normals = false}, positions);
         } catch (const std::bad_alloc&) {
             throw;
         } catch (const std::exception&) {

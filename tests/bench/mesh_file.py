@@ -1,5 +1,5 @@
-"""mesh_file.py BUILD OUT [--size 1000x600] [--rounds 7] [--rows N]: Candela against f3d on a PLY file of ten million
-triangles.
+"""mesh_file.py BUILD OUT [--format ply] [--size 1000x600] [--rounds 7] [--rows N]: Candela against f3d on a file of ten million
+triangles: ply, stl, obj or glb.
 
 Whole processes from file to PNG, in turns; the ratio is Candela's time over f3d's of the same round, and the median over
 all rounds is printed, with processor time beside it. f3d needs a display: xvfb-run brings one where there is none."""
@@ -14,26 +14,6 @@ from pathlib import Path
 import large_mesh
 from stopwatch import seconds
 
-SCENE = """version = 1
-room = {{ width = 10, height = 10, depth = 10 }}
-[observer]
-position = [0, 1, 2]
-look_at = [0, 0, 0]
-[image]
-width = {width}
-height = {height}
-[shading]
-model = "phong"
-[reflection]
-model = "phong"
-[[light]]
-type = "directional"
-direction = [-1, -2, -3]
-[[object]]
-type = "mesh"
-file = "large.ply"
-"""
-
 
 def seconds_of(words, directory: Path):
     return seconds(lambda: subprocess.run(words, cwd=directory, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
@@ -43,6 +23,7 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("build", type=Path)
     parser.add_argument("out", type=Path)
+    parser.add_argument("--format", choices=[suffix[1:] for suffix in large_mesh.WRITERS], default="ply")
     parser.add_argument("--size", default="1000x600")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--rows", type=int, default=2237)
@@ -54,10 +35,10 @@ def main() -> None:
     width, height = options.size.split("x")
     out = options.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
-    large_mesh.write(out / "large.ply", options.rows)
-    (out / "large.toml").write_text(SCENE.format(width=width, height=height))
-    candela = [str(options.build.resolve() / "bin/candela"), "render", "large.toml", "-o", "candela.png"]
-    f3d = ["f3d", "large.ply", "--output", "f3d.png", f"--resolution={width},{height}"]
+    model = f"large.{options.format}"
+    large_mesh.write(out / model, options.rows)
+    candela = [str(options.build.resolve() / "bin/candela"), "render", model, "-o", "candela.png", "--width", width, "--height", height]
+    f3d = ["f3d", model, "--output", "f3d.png", f"--resolution={width},{height}"]
     for words in (candela, f3d):  # the file comes from memory from now on
         seconds_of(words, out)
     rounds = [(seconds_of(candela, out), seconds_of(f3d, out)) for _ in range(options.rounds)]

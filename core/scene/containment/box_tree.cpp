@@ -2,6 +2,7 @@ module;
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -90,15 +91,38 @@ std::vector<std::size_t> BoxTree::meeting(std::size_t box) const {
     });
 }
 
-Box box_around(ConstVec3Span position, std::size_t count) {
-    constexpr float k_far = std::numeric_limits<float>::infinity();
-    Box box{{k_far, k_far, k_far}, {-k_far, -k_far, -k_far}};
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec3 p = position[i];
-        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+namespace {
+
+struct Range {
+    float low, high;
+};
+
+/// In a loop that compilers make vectors of. What is not a number counts for nothing.
+Range range_of(const float* values, std::size_t count) {
+    constexpr std::size_t k_lanes = 16;
+    std::array<float, k_lanes> low{}, high{};
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-low[0]);
+    std::size_t i = 0;
+    for (; i + k_lanes <= count; i += k_lanes) {
+        for (std::size_t k = 0; k < k_lanes; ++k) {
+            low[k] = std::min(low[k], values[i + k]);
+            high[k] = std::max(high[k], values[i + k]);
+        }
     }
-    return box;
+    for (; i < count; ++i) {
+        low[0] = std::min(low[0], values[i]);
+        high[0] = std::max(high[0], values[i]);
+    }
+    return {std::ranges::min(low), std::ranges::max(high)};
+}
+
+}  // namespace
+
+Box box_around(ConstVec3Span position, std::size_t count) {
+    const Range x = range_of(position.x, count), y = range_of(position.y, count),
+                z = range_of(position.z, count);
+    return {{x.low, y.low, z.low}, {x.high, y.high, z.high}};
 }
 
 }  // namespace candela

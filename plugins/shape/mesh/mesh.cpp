@@ -152,7 +152,8 @@ class FileMesh final : public candela::Shape {
             sink.progress(k_oriented);
             if (part_.empty() && cutout_.empty()) {
                 std::shared_ptr<const mesh::SplitVertices> split;
-                if (!has_all_normals(whole->surface())) split = whole->split(crease_angle_);
+                if (request.normals && !has_all_normals(whole->surface()))
+                    split = whole->split(crease_angle_);
                 const mesh::SplitVertices none;
                 return write(whole->surface(), split != nullptr ? *split : none, whole->open(), request,
                              sink);
@@ -163,7 +164,8 @@ class FileMesh final : public candela::Shape {
             whole.reset();
             const mesh::Corners corners(part);
             mesh::SplitVertices split;
-            if (!has_all_normals(part)) split = mesh::split_at_creases(part, corners, crease_angle_);
+            if (request.normals && !has_all_normals(part))
+                split = mesh::split_at_creases(part, corners, crease_angle_);
             write(part, split, mesh::open_edges(part, corners), request, sink);
         } catch (const mesh::BadFile& problem) {
             throw std::runtime_error(fmt::format("'{}' {}", file_, problem.what()));
@@ -194,7 +196,7 @@ class FileMesh final : public candela::Shape {
         const candela::MeshLayout layout{
             .vertices = split.indices.empty() ? surface.position.size() : split.source.size(),
             .triangles = surface.triangles(),
-            .has_normals = !surface.normal.empty(),
+            .has_normals = request.normals && !surface.normal.empty(),
             .has_uv = (request.uv || request.derivatives) && !surface.u.empty(),
             // Zero without texture coordinates: a triangle's edges, which differ from its neighbours', would
             // make no better tangents.

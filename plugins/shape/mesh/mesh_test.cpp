@@ -254,6 +254,17 @@ TEST_CASE("shape/mesh: without normals, edges are hard where faces turn by more 
     }
 }
 
+TEST_CASE("shape/mesh: whoever asks for no normals gets the file's own vertices, none of them twice") {
+    const auto file = write_file(scratch_directory() / "fold.obj", fold(90));
+    const auto shape = instance<Shape>("mesh", {{"file", file.string()}});
+    const candela::Mesh with = candela::place(*shape, {}, {}).mesh;
+    const candela::Mesh without = candela::place(*shape, {.normals = false}, {}).mesh;
+    CHECK(with.vertex_count() == 8);
+    CHECK(without.vertex_count() == 6);
+    CHECK(without.triangle_count() == with.triangle_count());
+    CHECK(without.open_edges == with.open_edges);
+}
+
 TEST_CASE("shape/mesh: hard edges hold for every shading model that has vertex normals") {
     for (const char* const shading :
          {"gouraud", "phong", "angle-weighted", "area-weighted", "max-weighted"}) {

@@ -20,6 +20,9 @@ struct MeshRequest {
     bool uv = false;
     bool derivatives = false;
     bool color = false;
+    /// Whether normals will be used: authored ones, and what a shape does for those that a shading model
+    /// makes. Without, it may give its triangles in as few vertices as they have.
+    bool normals = true;
     ColorEncoding color_management = ColorEncoding::srgb;  // of the scene: what colours of files are read as
 };
 
