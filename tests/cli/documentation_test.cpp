@@ -197,3 +197,70 @@ TEST_CASE("the commands that the documentation shows can be run as they are prin
     }
     CHECK(count > 20);
 }
+
+TEST_CASE("the command and the values that help gives as examples can be used as they are printed") {
+    const fs::path d = scratch_directory();
+    const auto run = [&](const std::vector<std::string>& words) {
+        return run_candela(words, {.input = "", .environment = {}, .directory = d});
+    };
+    const auto help_of = [&](const std::string& verb) {
+        std::istringstream words(run({verb, "--help"}).out);
+        std::string text;
+        for (std::string word; words >> word;) text += word + ' ';
+        return text;
+    };
+    const auto in_scene = [&](std::vector<std::string> words) {
+        REQUIRE(run({"new", "scene.toml", "--force"}).exit_code == 0);
+        words.insert(words.begin() + 1, "scene.toml");
+        const CommandResult result = run(words);
+        INFO(words[0] << ' ' << words[2] << ' ' << words.back() << ": " << result.err);
+        CHECK(result.exit_code == 0);
+    };
+    /// The words after "such as ", up to what ends them in a sentence.
+    const auto examples_in = [](const std::string& help) {
+        std::set<std::string> examples;
+        const std::string_view mark = "such as ";
+        for (std::size_t at = help.find(mark); at != std::string::npos; at = help.find(mark, at + 1)) {
+            std::string word =
+                help.substr(at + mark.size(), help.find_first_of(" ;)", at + mark.size()) - at - mark.size());
+            if (word.find('=') != std::string::npos) examples.insert(word);
+        }
+        return examples;
+    };
+
+    const std::string compare = help_of("compare");
+    const std::size_t begin = compare.find("candela compare scene.toml"), end = compare.find('.', begin + 24);
+    REQUIRE(end != std::string::npos);
+    std::istringstream command(compare.substr(begin, end - begin));
+    std::vector<std::string> words;
+    for (std::string word; command >> word;) words.push_back(word);
+    REQUIRE(words.size() > 4);
+    REQUIRE(run({"new", "scene.toml"}).exit_code == 0);
+    words.erase(words.begin());
+    words.insert(words.end(), {"--width", "32", "--height", "24"});
+    const CommandResult result = run(words);
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+
+    const std::vector<std::string> small = {"--width", "32", "--height", "24"};
+    std::size_t count = 0;
+    for (const std::string& example : examples_in(help_of("render"))) {
+        std::vector<std::string> render = {
+            "render", example.starts_with("quality") ? "--format-set" : "--set", example, "-o", "a.jpg"};
+        render.insert(render.end(), small.begin(), small.end());
+        in_scene(render);
+        ++count;
+    }
+    for (const std::string& example : examples_in(help_of("edit"))) {
+        in_scene({"edit", "--change", example});
+        ++count;
+    }
+    for (const std::string& example : examples_in(compare)) {
+        if (example.find(',') == std::string::npos) continue;  // of another option
+        std::vector<std::string> sheet = {"compare", "--vary", example};
+        sheet.insert(sheet.end(), small.begin(), small.end());
+        in_scene(sheet);
+        ++count;
+    }
+    CHECK(count >= 4);
+}
