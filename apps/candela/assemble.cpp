@@ -75,7 +75,7 @@ class PartRows final : public candela::PictureRows {
     void open_next() {
         const PartNumber part{++number_, parted_.parts};
         const fs::path file = file_of_part(picture_, part);
-        if (!is_up_to_date(file, parted_.inputs, Links::not_followed)) {
+        if (!is_up_to_date(file, parted_.inputs_of_parts(), Links::not_followed)) {
             throw Error(ErrorCategory::failure,
                         fmt::format("'{}' is not as it was rendered; render --part {}/{} makes it again",
                                     file.string(), part.number, part.of));
@@ -119,7 +119,7 @@ void require_all_parts(const fs::path& picture, const PartedPicture& parted) {
     std::vector<int> missing, other;
     for (int i = 1; i <= parted.parts; ++i) {
         const Recorded is =
-            recorded(file_of_part(picture, {i, parted.parts}), parted.inputs, Links::not_followed);
+            recorded(file_of_part(picture, {i, parted.parts}), parted.inputs_of_parts(), Links::not_followed);
         if (is == Recorded::missing) missing.push_back(i);
         if (is == Recorded::other) other.push_back(i);
     }

@@ -105,28 +105,22 @@ int render_part(const CommandLine& line) {
     report(diagnostics);
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));
 
-    const candela::ImageSettings& image = scene->image;
-    const candela::RowRange range = rows_of(part, image.height);
-    const PartedPicture parted{.whole = {.width = image.width,
-                                         .height = image.height,
-                                         .pixels = format.pixels,
-                                         .encoding = image.color_management},
-                               .parts = part.of,
-                               .inputs = InputFingerprints(registry, format).of(*draft)};
+    const candela::RowRange range = rows_of(part, scene->image.height);
+    const PartedPicture parted = parted_picture_of(*draft, format, part.of, registry);
     const fs::path file = file_of_part(output, part);
     const char* is_done = nullptr;
     if (recorded(output, parted.inputs, Links::followed) == Recorded::made) {
         is_done = "the picture is complete";
     } else {
         write_description(parted, output);
-        if (is_up_to_date(file, parted.inputs, Links::not_followed)) is_done = "left as it was";
+        if (is_up_to_date(file, parted.inputs_of_parts(), Links::not_followed)) is_done = "left as it was";
     }
     if (is_done == nullptr) {
         ProgressBar bar("rendering", !is_quiet());
         candela::RenderedRows rows(*scene, format.pixels, range,
                                    {.threads = threads, .progress = bar.updater()});
         write_pixels(rows, range.end - range.first, file);
-        record(file, parted.inputs, Links::not_followed);
+        record(file, parted.inputs_of_parts(), Links::not_followed);
     }
     say_afterwards([&] {
         return fmt::format("{}: part {} of {}, rows {} to {}, {}\n", output, part.number, part.of,

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compiling.h"
-#include "frame_record.h"
 #include "outputs.h"
 #include "picture_format.h"
 #include "picture_parts.h"
@@ -51,7 +50,7 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
     require_no_scene_file(picture.string(), candela::input_files(*draft), "the picture");
 
     const int parts = count_from(line, "parts", 1'000'000);
-    const std::string inputs = InputFingerprints(registry, format).of(*draft);
+    const PartedPicture parted = parted_picture_of(*draft, format, parts, registry);
     Submission job{.plan = {},
                    .folder = JobFolder::of_output(picture),
                    .commands = {},
@@ -59,7 +58,7 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
                    .open = {},
                    .queue_options = {}};
     job.plan.output = picture.string();
-    job.plan.whole = {picture, inputs};
+    job.plan.whole = {picture, parted.inputs};
     job.plan.results = {picture};
     Words common = common_words(line, "render", has_asked);
     common.push_back("--output=" + picture.string());
@@ -68,7 +67,7 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
     for (int i = 1; i <= parts; ++i) {
         const PartNumber part{i, parts};
         static_cast<void>(rows_of(part, draft->scene.image.height));  // there are so many
-        job.plan.tasks.push_back({part.name(), {{file_of_part(picture, part), inputs}}});
+        job.plan.tasks.push_back({part.name(), {{file_of_part(picture, part), parted.inputs_of_parts()}}});
         job.commands.push_back(as_task(common, job.folder, part.name()));
         job.commands.back().push_back(fmt::format("--part={}/{}", i, parts));
     }

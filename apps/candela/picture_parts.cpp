@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "frame_record.h"
 #include "json/json.h"
 #include "output_folder.h"
 #include "owned_files.h"
@@ -76,8 +77,25 @@ fs::path file_of_part(const fs::path& picture, PartNumber part) {
     return folder_of_parts(picture) / (part.name() + ".pixels");
 }
 
+std::string PartedPicture::inputs_of_parts() const {
+    return fmt::format("{} of {} x {} {} {} in {}", inputs, whole.width, whole.height,
+                       whole.pixels == PixelType::byte ? "bytes" : "floats",
+                       whole.encoding == ColorEncoding::srgb ? "srgb" : "linear", parts);
+}
+
 std::size_t PartedPicture::row_size() const {
     return 3 * static_cast<std::size_t>(whole.width) * (whole.pixels == PixelType::byte ? 1 : sizeof(float));
+}
+
+PartedPicture parted_picture_of(const candela::SceneDraft& draft, const candela::PictureFormat& format,
+                                int parts, candela::Registry& registry) {
+    const candela::ImageSettings& image = draft.scene.image;
+    return {.whole = {.width = image.width,
+                      .height = image.height,
+                      .pixels = format.pixels,
+                      .encoding = image.color_management},
+            .parts = parts,
+            .inputs = InputFingerprints(registry, format).of(draft)};
 }
 
 void write_description(const PartedPicture& parted, const fs::path& picture) {

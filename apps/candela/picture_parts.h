@@ -8,6 +8,8 @@
 
 import candela.film;
 import candela.image;
+import candela.registry;
+import candela.scene;
 
 /// Part `number`, from 1, of `of`.
 struct PartNumber {
@@ -35,9 +37,15 @@ struct PartedPicture {
     int parts = 1;
     std::string inputs;  // fingerprint of what all of them are to be made from
 
+    /// What the records of its parts name: the inputs, and the picture that they are parts of.
+    std::string inputs_of_parts() const;
     /// Of one row, in bytes.
     std::size_t row_size() const;
 };
+
+/// The picture of a scene, in so many parts. Throws candela::Error (failure).
+PartedPicture parted_picture_of(const candela::SceneDraft& draft, const candela::PictureFormat& format,
+                                int parts, candela::Registry& registry);
 
 /// Throws candela::Error (failure).
 void write_description(const PartedPicture& parted, const std::filesystem::path& picture);

@@ -139,6 +139,26 @@ TEST_CASE("a part whose bytes have changed since goes into no picture, and is ma
     require(candela(directory, {"assemble", "poster.tif"}));
 }
 
+TEST_CASE("a description that has changed since its parts were rendered makes no other picture of them") {
+    const fs::path directory = with_scene();
+    for (const char* const part : {"1/2", "2/2"}) render_part(directory, "poster.tif", part);
+    const fs::path description = directory / "poster.tif.parts/picture.json";
+    const std::string right = read_file(description);
+    const auto width = right.find("\"width\": ") + 9;
+    const std::string narrow = right.substr(0, width) + "1" + right.substr(right.find(',', width));
+    std::string linear = right;
+    linear.replace(linear.find("true"), 4, "false");
+    for (const std::string& changed : {narrow, linear}) {
+        write_file(description, changed);
+        const CommandResult result = candela(directory, {"assemble", "poster.tif"});
+        CHECK(result.exit_code == 1);
+        CHECK(holds(result.err, "made from something else than the part that was rendered last: 1-2"));
+        CHECK_FALSE(fs::exists(directory / "poster.tif"));
+    }
+    write_file(description, right);
+    require(candela(directory, {"assemble", "poster.tif"}));
+}
+
 TEST_CASE("submit --parts makes the picture in one go, and status follows it") {
     const fs::path directory = with_scene();
     require(candela(directory, {"submit", "scene.toml", "-o", "poster.tif", "--parts", "5", "--jobs", "2"}));
