@@ -227,6 +227,13 @@ class Compiler {
         });
     }
 
+    /// Whether triangles that are flat need no normals at their vertices.
+    static bool takes_facets(const SurfaceModels& surface) {
+        const ShadingNeeds needs = surface.shading->needs();
+        return needs.default_vertex_normals && surface.shading->shading_rate() != ShadingRate::vertex &&
+               !needs.triangle && !surface.needs().derivatives;
+    }
+
     void place_shapes() {
         placed_.resize(scene_.objects.size());
         const auto has_surface = [&](std::size_t i) {
@@ -245,12 +252,14 @@ class Compiler {
             const PointNeeds needs = has_surface(i) ? compiled_.objects[i].surface.needs() : PointNeeds{};
             if (shapes[i] != nullptr) {
                 guarded(object, PluginKind::shape, object.shape.name, [&] {
-                    placed_[i] = place(*shapes[i],
-                                       {.uv = needs.uv,
-                                        .derivatives = needs.derivatives,
-                                        .color = true,
-                                        .color_management = encoding()},
-                                       object.transform, [this](double part) { tell(part); });
+                    placed_[i] =
+                        place(*shapes[i],
+                              {.uv = needs.uv,
+                               .derivatives = needs.derivatives,
+                               .color = true,
+                               .facets = has_surface(i) && takes_facets(compiled_.objects[i].surface),
+                               .color_management = encoding()},
+                              object.transform, [this](double part) { tell(part); });
                 });
                 shapes[i].reset();  // a file's triangles need not stay until all others have been read
                 if (placed_[i]) warnings_[i] = placed_[i]->warnings;

@@ -176,6 +176,34 @@ TEST_CASE("plane: on a plane, every normal is the plane's", "[shading]") {
     }
 }
 
+namespace {
+
+/// With the vertex normals of the interface's own.
+class DefaultNormals final : public ShadingModel {
+  public:
+    candela::ShadingRate shading_rate() const noexcept override { return candela::ShadingRate::fragment; }
+    void normals(const candela::ShadingPointBatch&, const candela::Vec3Span&) const override {}
+};
+
+}  // namespace
+
+TEST_CASE("defaults: vertex normals that are declared to be the default ones are", "[shading]") {
+    const Facets mesh = landscape(0.5f);
+    const std::vector<Vec3> defaults = mesh.vertex_normals(DefaultNormals());
+    for (const Values& values : many_values(10)) {
+        const auto model = make<ShadingModel>(values);
+        if (!model->needs().default_vertex_normals) continue;
+        const std::vector<Vec3> own = mesh.vertex_normals(*model);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            if (!(distance(own[i], defaults[i]) <= 1e-6f))
+                FAIL(
+                    "needs() declares default_vertex_normals, but vertex_normals() returns another normal "
+                    "for vertex "
+                    << i << ", with " << values.text);
+        }
+    }
+}
+
 TEST_CASE("order: vertex normals do not depend on how vertices and triangles are numbered", "[shading]") {
     const Facets mesh = landscape(0.5f);
     std::vector<std::uint32_t> place(mesh.position.size());

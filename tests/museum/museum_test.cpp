@@ -139,6 +139,7 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
         {"shading-nan-in-slivers", "degenerate", "failed",
          "where interpolated normals, derivatives or edges vanish"},
         {"shading-last-face-wins", "order", "failed", "numbered otherwise"},
+        {"shading-denies-its-weights", "defaults", "failed", "declares default_vertex_normals"},
         {"shape-inside-out", "closed", "failed", "it is inside out"},
         {"shape-hole-in-it", "closed", "failed", "3 edges that do not lie between two triangles"},
         {"light-long-directions", "directions", "failed", "a direction of length"},

@@ -74,9 +74,11 @@ class GivenShape final : public Shape {
 
     std::vector<Vec3> vertices;
     std::vector<std::uint32_t> indices;
+    bool is_faceted = false;
 
     void tessellate(const candela::MeshRequest&, candela::MeshSink& sink) const override {
-        const auto mesh = sink.allocate({.vertices = vertices.size(), .triangles = indices.size() / 3});
+        const auto mesh = sink.allocate(
+            {.vertices = vertices.size(), .triangles = indices.size() / 3, .is_faceted = is_faceted});
         for (std::size_t i = 0; i < vertices.size(); ++i) mesh.position.set(i, vertices[i]);
         std::copy(indices.begin(), indices.end(), mesh.indices.begin());
     }
@@ -288,6 +290,9 @@ TEST_CASE("what is no mesh is refused with a reason") {
     GivenShape infinite = tetrahedron();
     infinite.vertices[2].y = std::numeric_limits<float>::infinity();
     CHECK(complaint_about(infinite).find("vertex 2 is not a finite number") != std::string::npos);
+    GivenShape faceted = tetrahedron();
+    faceted.is_faceted = true;
+    CHECK(complaint_about(faceted).find("no facets were requested") != std::string::npos);
 }
 
 TEST_CASE("a shape too far away to compute with is refused with a reason, however it got there") {

@@ -109,7 +109,8 @@ void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, Point
                      &c = mesh.vertices[vertices[2]];
     points.position.span().set(i, blend({a.position, b.position, c.position}, weight));
     points.face_normal.span().set(i, mesh.face_normal.span()[triangle]);
-    points.vertex_normal.span().set(i, blend({a.normal, b.normal, c.normal}, weight));
+    points.vertex_normal.span().set(i, mesh.is_faceted ? mesh.face_normal.span()[triangle]
+                                                       : blend({a.normal, b.normal, c.normal}, weight));
     points.barycentric.span().set(i, weight);
     if (needs.more()) blend_attributes(mesh, vertices, needs, i, 1, points);
 }

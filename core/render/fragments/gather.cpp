@@ -240,6 +240,8 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
         clear_uv(points);
         needs.uv = false;
     }
+    const bool is_faceted = source.mesh.is_faceted && needs.vertex_normal;
+    needs.face_normal = needs.face_normal || is_faceted;
     const Places places(batch);
     BatchInterpolation interpolation(source, places, interpolated_for(needs), points);
     if (places.is_one_triangle) {
@@ -252,6 +254,13 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
                       [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
                           interpolation.on_one_triangle(triangle, first, end);
                       });
+    }
+    if (is_faceted) {
+        const ConstVec3Span from = std::as_const(points.face_normal).span();
+        const Vec3Span to = points.vertex_normal.span();
+        std::copy_n(from.x, points.filled, to.x);
+        std::copy_n(from.y, points.filled, to.y);
+        std::copy_n(from.z, points.filled, to.z);
     }
 
     face_forward(points);

@@ -51,11 +51,15 @@ std::uint64_t memory_for(const MeshLayout& layout) {
 /// Receives what a shape writes, before it is transformed.
 class Collector final : public MeshSink {
   public:
-    explicit Collector(const std::function<void(double)>& progress) : progress_(progress) {}
+    Collector(const MeshRequest& request, const std::function<void(double)>& progress)
+        : takes_facets_(request.facets), progress_(progress) {}
 
     MeshSpans allocate(const MeshLayout& layout) override {
         if (allocated_) throw std::logic_error("the shape asked for its arrays twice");
         allocated_ = true;
+        if (layout.is_faceted && !takes_facets_)
+            throw std::logic_error("the shape is faceted, though no facets were requested");
+        mesh.is_faceted = layout.is_faceted;
         constexpr std::size_t k_most = 0xffff'fff0u;
         if (layout.vertices > k_most || layout.triangles > k_most / 3) {
             throw std::invalid_argument(
@@ -101,6 +105,7 @@ class Collector final : public MeshSink {
     std::vector<std::string> warnings;
 
   private:
+    bool takes_facets_;
     const std::function<void(double)>& progress_;
     bool allocated_ = false;
 };
@@ -319,7 +324,7 @@ void for_each_vertex_normal(const PlacedShape& placed, const ShadingModel& shadi
 
 PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& to_world,
                   const std::function<void(double)>& progress) {
-    Collector collected(progress);
+    Collector collected(request, progress);
     shape.tessellate(request, collected);
     check(collected);
 
@@ -368,6 +373,13 @@ Mesh with_normals(PlacedShape placed, const ShadingModel& shading) {
     Mesh& mesh = placed.mesh;
     make_face_normals(mesh);
     mesh.vertices.resize(mesh.vertex_count());
+    if (mesh.is_faceted) {
+        parallel_for(mesh.vertex_count(), k_per_task, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                mesh.vertices[i] = {.position = std::as_const(mesh.position).span()[i], .normal = {}};
+        });
+        return std::move(placed.mesh);
+    }
     for_each_vertex_normal(placed, shading, [&](std::size_t i, Vec3 normal) {
         mesh.vertices[i] = {.position = std::as_const(mesh.position).span()[i], .normal = normal};
     });

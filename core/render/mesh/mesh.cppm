@@ -25,7 +25,7 @@ export namespace candela {
 struct alignas(32) MeshVertex {
     Vec3 position;
     float padding = 0;  // four floats are fetched at once
-    Vec3 normal;        // unit
+    Vec3 normal;        // unit; zero if the mesh is faceted
     float more_padding = 0;
 };
 
@@ -40,6 +40,7 @@ struct Mesh {
     Vec3Arrays color;           // red, green, blue, 0 to 1; per vertex, or empty
     bool closed = false;        // or one-sided; otherwise visible from both sides
     bool one_sided = false;     // visible only from the front, even where it is open
+    bool is_faceted = false;    // the normal of a triangle's points is the triangle's; vertices have none
     std::size_t open_edges = 0;
     Box bounds{};  // of the vertices
 

@@ -50,8 +50,8 @@ class Grouping {
           normals_(normals),
           // Faces that meet at just this angle are smooth, whatever rounding says.
           least_cosine_(
-              crease_angle >= std::numbers::pi ? -2.0f : static_cast<float>(std::cos(crease_angle)) - 1e-6f) {
-    }
+              crease_angle >= std::numbers::pi ? -2.0f : static_cast<float>(std::cos(crease_angle)) - 1e-6f),
+          joins_only_planes_(crease_angle == 0) {}
 
     /// Afterwards root() says which corners, as positions in `here`, share a normal.
     void run(std::span<const std::uint32_t> here) {
@@ -94,7 +94,7 @@ class Grouping {
         if (!surface_.smoothing.empty() || !surface_.normal.empty()) return false;
         const Vec3 first = normal(0);
         for (std::size_t i = 1; i < here_.size(); ++i)
-            if (!(dot(first, normal(i)) >= least_cosine_)) return false;
+            if (!are_smooth(first, normal(i))) return false;
         return true;
     }
 
@@ -102,7 +102,14 @@ class Grouping {
         if (has_own_normal(i) || has_own_normal(j)) return vertex(i) == vertex(j);
         const std::uint32_t a = smoothing(i), b = smoothing(j);
         if (a != k_by_angle || b != k_by_angle) return a == b && a != k_flat;
-        return dot(normal(i), normal(j)) >= least_cosine_;
+        return are_smooth(normal(i), normal(j));
+    }
+
+    /// A cosine is too coarse to tell whether faces are in one plane.
+    bool are_smooth(Vec3 a, Vec3 b) const {
+        constexpr float k_rounding = 1e-6f;
+        if (joins_only_planes_) return dot(a - b, a - b) <= k_rounding * k_rounding;
+        return dot(a, b) >= least_cosine_;
     }
 
     void join(std::size_t i, std::size_t j) {
@@ -157,6 +164,7 @@ class Grouping {
     const Corners& corners_;
     const Array<Vec3>& normals_;
     float least_cosine_;
+    bool joins_only_planes_;
     std::span<const std::uint32_t> here_;
     std::vector<std::uint32_t> parent_;
 };

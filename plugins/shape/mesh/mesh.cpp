@@ -152,8 +152,7 @@ class FileMesh final : public candela::Shape {
             sink.progress(k_oriented);
             if (part_.empty() && cutout_.empty()) {
                 std::shared_ptr<const mesh::SplitVertices> split;
-                if (request.normals && !has_all_normals(whole->surface()))
-                    split = whole->split(crease_angle_);
+                if (needs_split(whole->surface(), request)) split = whole->split(crease_angle_);
                 const mesh::SplitVertices none;
                 return write(whole->surface(), split != nullptr ? *split : none, whole->open(), request,
                              sink);
@@ -164,8 +163,7 @@ class FileMesh final : public candela::Shape {
             whole.reset();
             const mesh::Corners corners(part);
             mesh::SplitVertices split;
-            if (request.normals && !has_all_normals(part))
-                split = mesh::split_at_creases(part, corners, crease_angle_);
+            if (needs_split(part, request)) split = mesh::split_at_creases(part, corners, crease_angle_);
             write(part, split, mesh::open_edges(part, corners), request, sink);
         } catch (const mesh::BadFile& problem) {
             throw std::runtime_error(fmt::format("'{}' {}", file_, problem.what()));
@@ -173,6 +171,13 @@ class FileMesh final : public candela::Shape {
     }
 
   private:
+    bool is_faceted(const mesh::Surface& surface, const candela::MeshRequest& request) const {
+        return request.facets && crease_angle_ == 0 && surface.normal.empty() && surface.smoothing.empty();
+    }
+    bool needs_split(const mesh::Surface& surface, const candela::MeshRequest& request) const {
+        return request.normals && !is_faceted(surface, request) && !has_all_normals(surface);
+    }
+
     bool keeps_sides() const { return sides_ != Sides::outside; }
 
     mesh::Surface cut_out(const mesh::Surface& surface) const {
@@ -203,6 +208,7 @@ class FileMesh final : public candela::Shape {
             .has_derivatives = request.derivatives,
             .has_color = request.color && uses_colors_ && !surface.color.empty(),
             .has_smooth_groups = !split.group.empty(),
+            .is_faceted = is_faceted(surface, request),
             .closedness = sides_ == Sides::front ? candela::Closedness::one_sided
                           : open.count == 0      ? candela::Closedness::closed
                                                  : candela::Closedness::open,

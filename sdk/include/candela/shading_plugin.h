@@ -80,6 +80,7 @@ struct NormalLoop {
     }
 };
 
+/// A class derived from this one that overrides vertex_normals() overrides needs() as well.
 template <class Params, ShadingRate rate, auto normal, ShadingNeeds needs_ = ShadingNeeds{}>
 class KernelShading : public ShadingModel {
     static constexpr bool k_takes_triangle = takes_triangle<Params, normal>;
@@ -90,6 +91,7 @@ class KernelShading : public ShadingModel {
     static constexpr ShadingNeeds k_needs = [] {
         ShadingNeeds needs = needs_;
         needs.triangle = k_takes_triangle;
+        needs.default_vertex_normals = true;
         return needs;
     }();
 
@@ -195,13 +197,20 @@ class WeightedNormals {
 
 /// Weighted vertex normals; the plain sum is used where no face has a weight, and authored normals take
 /// precedence.
-template <class Params, ShadingRate rate, auto normal, auto weight, ShadingNeeds needs = ShadingNeeds{}>
-class WeightedShading : public KernelShading<Params, rate, normal, needs> {
+template <class Params, ShadingRate rate, auto normal, auto weight, ShadingNeeds needs_ = ShadingNeeds{}>
+class WeightedShading : public KernelShading<Params, rate, normal, needs_> {
+    using Base = KernelShading<Params, rate, normal, needs_>;
+
   public:
     static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal"),
                                                             kernel_function<Params, weight>("corner_weight")};
 
-    using KernelShading<Params, rate, normal, needs>::KernelShading;
+    using Base::Base;
+    ShadingNeeds needs() const noexcept override {
+        ShadingNeeds needs = Base::needs();
+        needs.default_vertex_normals = false;
+        return needs;
+    }
     void vertex_normals(const MeshView& mesh, const Vec3Span& normals) const override {
         ShadingModel::vertex_normals(mesh, normals);
         if (!mesh.authored_normal) WeightedNormals<Params, weight>(this->params(), mesh).write(normals);

@@ -40,6 +40,8 @@ struct ShadingNeeds {
     bool uv = false;
     bool derivatives = false;
     bool triangle = false;  // not at rate `vertex`: a vertex belongs to several triangles
+    /// vertex_normals() is not overridden. Where a shape is faceted, vertices need no normals then.
+    bool default_vertex_normals = false;
 };
 
 /// The triangle of each point, by its vertices, counter-clockwise seen from outside. World space.

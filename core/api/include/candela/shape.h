@@ -23,6 +23,7 @@ struct MeshRequest {
     /// Whether normals will be used: authored ones, and what a shape does for those that a shading model
     /// makes. Without, it may give its triangles in as few vertices as they have.
     bool normals = true;
+    bool facets = false;  // whether the renderer can use a mesh that is faceted
     ColorEncoding color_management = ColorEncoding::srgb;  // of the scene: what colours of files are read as
 };
 
@@ -43,6 +44,9 @@ struct MeshLayout {
     bool has_derivatives = false;
     bool has_color = false;
     bool has_smooth_groups = false;  // otherwise every vertex has a normal of its own
+    /// Every triangle is flat: its normal is that of its points, and its vertices, shared or not, have none.
+    /// Only if facets are requested.
+    bool is_faceted = false;
     Closedness closedness = Closedness::unknown;
     std::size_t open_edges = 0;  // of one_sided shapes; of open ones, if counted: else the host does
 };
