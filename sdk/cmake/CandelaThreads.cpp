@@ -22,10 +22,10 @@
 
 namespace fs = std::filesystem;
 
+using candela::ParamSetting;
 using candela::ParamSpec;
 using candela::ParamType;
 using candela::PluginDescriptor;
-using candela::Setting;
 
 namespace {
 
@@ -42,7 +42,7 @@ const PluginDescriptor& descriptor_of(const fs::path& library) {
 }
 
 /// As in a scene: true, 3, 0.5, or text.
-Setting setting_from(std::string_view name, const std::string& value) {
+ParamSetting setting_from(std::string_view name, const std::string& value) {
     if (value == "true" || value == "false") return {name, value == "true"};
     char* end = nullptr;
     const double number = std::strtod(value.c_str(), &end);
@@ -53,7 +53,7 @@ Setting setting_from(std::string_view name, const std::string& value) {
 }
 
 /// A value that the parameter can have.
-Setting usual_setting(const ParamSpec& p) {
+ParamSetting usual_setting(const ParamSpec& p) {
     const float least = std::max(p.minimum, -1e3f), most = std::min(p.maximum, 1e3f);
     const double number = least <= 1 && most >= 1 ? 1.0 : 0.5 * (static_cast<double>(least) + most);
     switch (p.type) {
@@ -85,8 +85,8 @@ Setting usual_setting(const ParamSpec& p) {
     }
 }
 
-std::vector<Setting> settings_of(const PluginDescriptor& plugin, const std::vector<std::string>& given) {
-    std::vector<Setting> settings;
+std::vector<ParamSetting> settings_of(const PluginDescriptor& plugin, const std::vector<std::string>& given) {
+    std::vector<ParamSetting> settings;
     for (const std::string& words : given) {
         const std::size_t at = words.find('=');
         if (at == std::string::npos) throw std::runtime_error("'" + words + "' is not PARAMETER=VALUE");
@@ -94,7 +94,7 @@ std::vector<Setting> settings_of(const PluginDescriptor& plugin, const std::vect
     }
     for (const ParamSpec& p : plugin.parameters) {
         bool is_given = !p.required;
-        for (const Setting& setting : settings) is_given = is_given || setting.name == p.name;
+        for (const ParamSetting& setting : settings) is_given = is_given || setting.name == p.name;
         if (!is_given) settings.push_back(usual_setting(p));
     }
     return settings;
@@ -324,7 +324,7 @@ void run(const std::function<void(Work&)>& use) {
 
 void test(const fs::path& library, const std::vector<std::string>& given) {
     const PluginDescriptor& plugin = descriptor_of(library);
-    const std::vector<Setting> settings = settings_of(plugin, given);
+    const std::vector<ParamSetting> settings = settings_of(plugin, given);
     const std::string directory = fs::absolute(library).parent_path().string();
     const std::unique_ptr<candela::Instance> instance =
         candela::make_instance(directory, plugin.kind, plugin.name, settings);

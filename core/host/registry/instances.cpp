@@ -21,11 +21,11 @@ namespace candela {
 
 extern "C++" std::unique_ptr<Instance> make_instance(std::string_view directory, PluginKind kind,
                                                      std::string_view name,
-                                                     std::span<const Setting> settings) {
+                                                     std::span<const ParamSetting> settings) {
     // One registry for each call: a test makes few instances, and sees a plugin that was built again.
     Registry registry({std::filesystem::path(directory)});
     ParamSet values = registry.parameters(kind, name);
-    for (const Setting& setting : settings) values.set(setting.name, setting.value);
+    for (const ParamSetting& setting : settings) values.set(setting.name, setting.value);
     const auto made = [&]<class Interface>(std::type_identity<Interface>) -> std::unique_ptr<Instance> {
         return registry.create<Interface>(name, values, ColorEncoding::none);
     };

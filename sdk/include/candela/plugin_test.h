@@ -45,7 +45,7 @@ constexpr PluginKind kind_of() {
 /// Throws std::exception, with the message that a user would see.
 template <class Interface>
 std::unique_ptr<Interface> make(std::string_view directory, std::string_view name,
-                                std::initializer_list<Setting> settings = {}) {
+                                std::initializer_list<ParamSetting> settings = {}) {
     std::unique_ptr<Instance> made =
         make_instance(directory, kind_of<Interface>(), name, std::span(settings.begin(), settings.size()));
     auto* const typed = dynamic_cast<Interface*>(made.get());
@@ -84,7 +84,7 @@ inline Reflection reflected(const ReflectionModel& model, float observer, float 
 
 /// The same of the reflection model in `directory` that `settings` make; throws what make() throws.
 inline Reflection reflected(std::string_view directory, std::string_view name,
-                            std::initializer_list<Setting> settings, float observer, float light) {
+                            std::initializer_list<ParamSetting> settings, float observer, float light) {
     return reflected(*make<ReflectionModel>(directory, name, settings), observer, light);
 }
 

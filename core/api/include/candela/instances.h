@@ -16,7 +16,7 @@
 namespace candela {
 
 /// The value of a parameter as a person writes it in a scene: degrees, colours 0-255.
-struct Setting {
+struct ParamSetting {
     std::string_view name;
     std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, NumberList> value;
 };
@@ -24,6 +24,7 @@ struct Setting {
 /// An instance of the plugin in `directory`, which has both its library and its manifest; parameters that are
 /// not among `settings` have their defaults. Throws std::exception, with the message that a user would see.
 CANDELA_API std::unique_ptr<Instance> make_instance(std::string_view directory, PluginKind kind,
-                                                    std::string_view name, std::span<const Setting> settings);
+                                                    std::string_view name,
+                                                    std::span<const ParamSetting> settings);
 
 }  // namespace candela

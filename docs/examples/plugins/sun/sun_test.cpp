@@ -15,7 +15,7 @@ struct Sun {
     float intensity;
 };
 
-Sun sun_at(std::initializer_list<candela::Setting> settings) {
+Sun sun_at(std::initializer_list<candela::ParamSetting> settings) {
     const auto light = candela::sdk::make<candela::Light>(CANDELA_PLUGIN_DIR, "sun", settings);
     const float zero = 0, one = 1;
     float out[9] = {};
