@@ -1,22 +1,27 @@
-// A light from kernel functions:
+// Makes a light from kernel functions:
 //
-//     Incident x_illuminate(XLight light, Receiver r)     what a light with one direction sends
-//     vec3 x_illuminate_ambient(XLight light, Receiver r) what an ambient light sends
+//     // the light of a source with a single direction
+//     Incident x_illuminate(XLight light, Receiver r)
+//     // the light of an ambient source
+//     vec3 x_illuminate_ambient(XLight light, Receiver r)
 //
-// A source modelled by several samples, which add up:
+// A source modelled by several samples, whose light adds up:
 //
-//     int x_sample_count(XLight light)                          at least 1
-//     Incident x_illuminate(XLight light, Receiver r, int index) what sample `index` sends, 0 to the count
+//     // the number of samples, at least 1
+//     int x_sample_count(XLight light)
+//     // the light of sample `index`, 0 <= index < x_sample_count(light)
+//     Incident x_illuminate(XLight light, Receiver r, int index)
 //
-// A light that can say what it does as data is evaluated by reflection models in their own loop, which is
-// faster where there are many lights. Two C++ functions next to XLight, in its namespace, looked up by their
-// argument:
+// Reflection models evaluate a light that can describe itself as data in their own loop, which is faster with
+// many lights. Such a light has one of two C++ functions in the namespace of XLight, where they are found by
+// argument-dependent lookup:
 //
-//     PunctualLight punctual(const XLight& light, int index)    of sample `index`; 0 of a light with one
-//     direction vec3 uniform_ambient(const XLight& light)                 of an ambient light that is the
-//     same everywhere
+//     // sample `index`; 0 if the light has only one
+//     PunctualLight punctual(const XLight& light, int index)
+//     // an ambient light that is the same everywhere
+//     vec3 uniform_ambient(const XLight& light)
 //
-// The conformance kit holds them against the kernel functions.
+// The conformance kit checks them against the kernel functions.
 #pragma once
 
 #include "candela/light.h"
