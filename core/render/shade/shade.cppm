@@ -66,9 +66,11 @@ class CANDELA_API SurfaceShader {
     /// Adds up what the reflection model makes of `lights`, each asked in turn, part by part.
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 const Lights& lights, Scrutiny scrutiny);
-    /// Adds up what it makes of all lights that are data. False if the model has no way to.
+    /// Adds the light to those that are data, or returns false if it cannot describe itself as such.
     bool describe(const LitSource& source);
     void find_tangents(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count);
+    /// Writes to `reflected_` what the reflection model reflects of all lights that are data. Returns false
+    /// if there are no such lights or the model cannot evaluate them.
     bool reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points);
     void find_n_dot_l(const SurfacePoints& points, const Vec3Span& values);
     void scrutinize(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
