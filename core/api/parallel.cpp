@@ -23,7 +23,8 @@ namespace candela {
 namespace {
 
 /// Orders what happens before, during and after the work. oneTBB guarantees that order, but the library is
-/// built without the thread sanitizer, which therefore has to be told. (So is this file.)
+/// built without the thread sanitizer, which therefore has to be told. (This file is built without it as
+/// well.)
 class Handover {
   public:
     void give() {
@@ -70,9 +71,9 @@ constexpr double k_starting_ms = 1.5;
 std::atomic<bool> has_started = false;
 
 /// Arenas are kept, one per number of threads. Creating one takes time, and the memory that oneTBB aligns for
-/// it is seldom reused (glibc bug 14581), so a program that keeps rendering would grow.
+/// it is rarely reused (glibc bug 14581), so a program that keeps rendering would grow.
 tbb::task_arena& arena_of(int threads) {
-    // More threads than cores: unless that is allowed first, oneTBB says on stderr that it ignores the
+    // More threads than cores: unless explicitly allowed first, oneTBB reports on stderr that it ignores the
     // request.
     constexpr std::size_t k_most = 1024;
     if (threads > available_threads()) {

@@ -31,8 +31,8 @@ struct Hash {
     }
 };
 
-/// Sorts vertices with their places by a part of the places' hashes, each part small enough for its table to
-/// stay in the cache; within a part they keep their order.
+/// Sorts vertices and their positions by a part of the positions' hashes, so that the table of each part is
+/// small enough for the cache. Within a part the order is kept.
 class Parts {
   public:
     static constexpr std::size_t k_count = 256;
@@ -47,7 +47,7 @@ class Parts {
         prefer_large_pages(vertices_.get(), count * sizeof(Vertex));
         const std::size_t blocks = (count + k_block - 1) / k_block;
         const auto part_of = std::make_unique_for_overwrite<std::uint8_t[]>(count);
-        // How many vertices of each block belong to each part, and then where they go.
+        // The number of vertices of each block in each part, and then their destinations.
         std::vector<std::array<std::uint32_t, k_count>> goal(blocks);
         const auto each_block = [&](auto visit) {
             parallel_for(blocks, 1, [&](std::size_t first, std::size_t last) {
@@ -86,7 +86,7 @@ class Parts {
     std::unique_ptr<Vertex[]> vertices_;
 };
 
-/// Finds the first vertex at each place. Open addressing in one array, which stays in the cache.
+/// Finds the first vertex at each position. Open addressing in one array, which stays in the cache.
 class PlaceTable {
   public:
     void run(std::span<const Parts::Vertex> vertices, std::uint32_t* first) {

@@ -28,25 +28,25 @@ struct SolidObject {
     std::optional<TriangleTree> tree{};  // of the mesh, if the reflection model shows its surroundings
 };
 
-/// A scene with its plugins loaded and its objects tessellated: what all pictures of it share. Rendering does
-/// not change it; between pictures its observer, lights, colours and models may be replaced at will (a
+/// A scene with its plugins loaded and its objects tessellated, shared by all its pictures. Rendering does
+/// not change it. Between pictures, its observer, lights, colours and models may be replaced freely (a
 /// reflection model that shows its surroundings needs its object's tree).
 struct CompiledScene {
     Observer observer;
     ImageSettings image;
-    Environment environment;  // what is seen where there is no object
+    Environment environment;  // visible where there is no object
     std::vector<LitSource> lights;
     std::vector<SolidObject> objects;
 };
 
-/// Told how much of some work is done.
+/// Receives the progress of some work.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
-/// Loads what the scene names, and nothing else, tessellates its objects and checks the constraints that only
-/// triangles can decide. Reports failures with the light or object concerned, and then returns nothing, as it
-/// does if errors were reported before; warns about meshes that are not closed. `threads`: as in
-/// RenderOptions. `progress` is called by one thread at a time: each object counts when it has its triangles
-/// (a large one in parts), when it has been checked and when it has its normals.
+/// Loads only what the scene names, tessellates its objects and checks the constraints that depend on
+/// triangles. Reports failures with the light or object concerned and returns nothing, also if errors were
+/// reported before; warns about meshes that are not closed. `threads`: as in RenderOptions. `progress` is
+/// called by one thread at a time: each object counts when it has its triangles (a large one in parts), when
+/// it has been checked and when it has its normals.
 CANDELA_API std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
                                                  Diagnostics& diagnostics, int threads = 0,
                                                  const Progress& progress = {});

@@ -16,9 +16,9 @@ import candela.scene;
 
 export namespace candela {
 
-/// Compiles one frame after the other, as compile() does, and keeps from each to the next what has not
-/// changed: triangles, lights, models, the environment; constraints are checked again only if something has
-/// moved. One thread at a time.
+/// Compiles one frame after the other, like compile(), and carries over to the next whatever has not changed:
+/// triangles, lights, models, the environment. Constraints are checked again only if something has moved. One
+/// thread at a time.
 class CANDELA_API FrameCompiler {
   public:
     explicit FrameCompiler(Registry& registry);
@@ -28,7 +28,7 @@ class CANDELA_API FrameCompiler {
 
     /// Valid until the next call; null if there were errors. `threads`: as in RenderOptions.
     const CompiledScene* compile(const SceneDraft& draft, Diagnostics& diagnostics, int threads = 0);
-    /// Whether all triangles are where they were in the frame before: a Renderer must forget() otherwise.
+    /// Whether all triangles are where they were in the previous frame. If not, a Renderer must forget().
     bool has_kept_triangles() const noexcept;
 
   private:
@@ -36,8 +36,8 @@ class CANDELA_API FrameCompiler {
     std::unique_ptr<Kept> kept_;
 };
 
-/// Validates frames as compile() does, and reports every problem once: with the number of the first frame
-/// that has it, unless all of them have it, and with the track that says so. `progress` counts frames.
+/// Validates frames like compile(), and reports every problem once: with the number of the first frame that
+/// has it, unless all frames do, and with the track that causes it. `progress` counts frames.
 CANDELA_API void check_frames(SceneFrames& frames, std::span<const int> numbers, Registry& registry,
                               Diagnostics& diagnostics, int threads = 0, const Progress& progress = {});
 

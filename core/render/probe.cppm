@@ -1,4 +1,4 @@
-// One pixel of a picture: what is seen there, and how its intensity comes about.
+// One pixel of a picture: what is visible there, and how its intensity is computed.
 module;
 
 #include "candela/api.h"
@@ -17,13 +17,13 @@ import candela.shading;
 
 export namespace candela {
 
-/// What one triangle contributes to a pixel.
+/// The contribution of one triangle to a pixel.
 struct FragmentProbe {
     std::size_t object = 0;      // index among the scene's
     std::uint32_t triangle = 0;  // of the object's mesh
     float weight = 1;            // the fraction of the pixel's samples that see the triangle
     Vec3 position{};             // of the fragment, world space
-    Vec3 barycentric{};          // likewise, on the triangle
+    Vec3 barycentric{};          // of the fragment, on the triangle
     ShadingRate rate = ShadingRate::fragment;
     std::vector<PointTrace> points{};  // where light is evaluated: the fragment, the face's centroid, or the
                                        // triangle's three vertices
@@ -38,7 +38,7 @@ struct PixelProbe {
     std::array<std::uint8_t, 3> bytes{};     // of the pixel in an 8-bit picture
 };
 
-/// Looks at pixel (x, y) of the picture that render() makes of the scene, counted from its top left corner;
+/// Inspects pixel (x, y), counted from the top left corner, of the picture that render() makes of the scene;
 /// `intensity` and `bytes` are those of that picture. Throws Error like render(), and std::out_of_range if
 /// the picture has no such pixel.
 CANDELA_API PixelProbe probe(const CompiledScene& scene, int x, int y);

@@ -18,8 +18,8 @@ import candela.picture_rows;
 
 export namespace candela {
 
-/// Renders rows of a picture when they are asked for, a band at a time: the pixels that candela::render()
-/// gives them, in memory for two bands of some 64 MB. One thread at a time.
+/// Renders rows of a picture on request, a band at a time: the same pixels as candela::render(), in memory
+/// for two bands of about 64 MB. One thread at a time.
 class CANDELA_API RenderedRows final : public PictureRows {
   public:
     /// The scene must outlive this. `options.progress` counts rows.
@@ -28,9 +28,9 @@ class CANDELA_API RenderedRows final : public PictureRows {
 
     PictureView next(int count) override;
 
-    /// Of all rows so far.
+    /// Statistics of all rows so far.
     const RenderStatistics& statistics() const noexcept { return statistics_; }
-    /// What candela::why_black() says of them.
+    /// Returns what candela::why_black() does for all rows.
     std::string why_black() const;
 
   private:

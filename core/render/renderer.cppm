@@ -17,14 +17,15 @@ import candela.shade;
 export namespace candela {
 
 struct RenderOptions {
-    /// What the pixels are given: the intensity, or something else, to be stored in a film of floats.
-    /// Geometric terms are those of a picture with one sample per pixel.
+    /// The value written to the pixels: the intensity, or another term, stored in a film of floats. Geometric
+    /// terms are those of a picture with one sample per pixel.
     Term term = Term::intensity;
     std::optional<std::size_t> light{};  // an index: that light alone, without background and surroundings
-    int threads = 0;    // 0: all, but one for a first picture that takes less time than starting the others
-    int tile_size = 0;  // pixels, a power of two from 16 on; 0: chosen. The picture does not depend on it.
+    int threads = 0;    // 0: all, but only one for a first picture that takes less time than starting the
+                        // others
+    int tile_size = 0;  // pixels, a power of two from 16 on; 0: automatic. The picture does not depend on it.
     std::function<void(std::size_t done, std::size_t all)>
-        progress{};  // tiles; called by any thread, by several at once
+        progress{};  // tiles; called by any thread, possibly several at once
 };
 
 struct RenderStatistics {
@@ -39,8 +40,8 @@ struct RenderStatistics {
 /// Renders one picture: the same bytes for any number of threads and any tile size. Throws Error.
 CANDELA_API RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
 
-/// Renders a sequence of pictures, each identical to that of candela::render(), and keeps from one to the
-/// next what can be reused. One thread at a time.
+/// Renders a sequence of pictures, each identical to that of candela::render(), and reuses what it can from
+/// one to the next. One thread at a time.
 class CANDELA_API Renderer {
   public:
     enum class Keep {
@@ -54,7 +55,8 @@ class CANDELA_API Renderer {
     Renderer& operator=(Renderer&&) noexcept;
     ~Renderer();
 
-    /// Forgets visibility. Call it when a mesh has been changed in place; all other changes are detected.
+    /// Discards the visibility. Call it when a mesh has been changed in place; all other changes are
+    /// detected.
     void forget() noexcept;
 
     RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
@@ -65,8 +67,8 @@ class CANDELA_API Renderer {
 };
 
 /// Why a picture shows no light on any object, and what to do, as the end of the sentence "nothing in the
-/// picture is lit: …". Empty if something is lit, or if the scene has no objects or no lights, which reading
-/// it has reported.
+/// picture is lit: …". Empty if something is lit, or if the scene has no objects or no lights, which was
+/// reported when it was read.
 CANDELA_API std::string why_black(const CompiledScene& scene, const Film& film,
                                   const RenderStatistics& statistics);
 

@@ -24,14 +24,14 @@ inline constexpr std::size_t k_lanes = 16;
 /// `count` rounded up to whole vectors.
 constexpr std::size_t whole_vectors(std::size_t count) { return (count + k_lanes - 1) / k_lanes * k_lanes; }
 
-/// Zeroed memory, which std::free() releases. The system zeroes it page by page, for whichever thread touches
-/// a page first; from two megabytes on in large pages, if it has some, because it takes as long to find forty
-/// small ones as to zero one of two megabytes. Throws std::bad_alloc. Any thread.
+/// Returns zeroed memory, which std::free() releases. The system zeroes it page by page, for whichever thread
+/// touches a page first; two megabytes and more are in large pages, if available, because finding forty small
+/// ones takes as long as zeroing one of two megabytes. Throws std::bad_alloc. Any thread.
 CANDELA_API void* zeroed_memory(std::size_t size);
 
 /// Memory aligned to cache lines, because accessing a 64-byte vector that straddles two lines takes twice as
-/// long. Elements constructed without a value keep the memory's contents: zeros, except where a vector shrank
-/// and grew again, which has its old values.
+/// long. Elements constructed without a value keep the memory's contents: zeros, or the old values if a
+/// vector shrank and grew again.
 template <class T>
 struct CacheLineAllocator {
     using value_type = T;
@@ -82,7 +82,7 @@ struct Vec3Arrays {
 };
 
 /// Sixteen records of four floats or integers, column by column, inside a batch loop. Fetching each record as
-/// a whole, from anywhere, and transposing them takes far fewer operations and cache lines than fetching
+/// a whole, wherever it is, and transposing them takes far fewer operations and cache lines than fetching
 /// every number by itself.
 struct Columns {
     alignas(64) float real[4][k_lanes];
@@ -102,11 +102,11 @@ struct Columns {
   private:
     using Four = float __attribute__((vector_size(16)));
 
-    // Not within gather(): clang 22 crashes on a template whose variables are initialised by others.
+    // Not inside gather(): clang 22 crashes on a template whose variables are initialised by others.
     [[gnu::always_inline]] inline void transpose(const Four (&records)[k_lanes]) {
         using Eight = float __attribute__((vector_size(32)));
         using Sixteen = float __attribute__((vector_size(64)));
-        // Row r consists of records r, r + 4, r + 8 and r + 12: transposed quarter by quarter, all come out
+        // Row r consists of records r, r + 4, r + 8 and r + 12: transposing quarter by quarter puts them all
         // in order.
         Sixteen row[4];
         for (std::size_t r = 0; r < 4; ++r) {

@@ -15,23 +15,23 @@ export module candela.diagnostics;
 
 export namespace candela {
 
-/// Why something could not be done.
+/// Why an operation failed.
 enum class ErrorCategory : int {
     failure,        // at run time: input and output, memory, plugins
-    bad_request,    // what was asked for does not exist, or cannot be done
+    bad_request,    // the request names something that does not exist, or cannot be fulfilled
     invalid_scene,  // the scene is wrong
 };
 
-/// Where to read on, or what else to try, as data: how a program offers it (a verb, a flag, a page) only that
-/// program knows.
+/// Where to read on, or what else to try, as data: only the program knows how it offers that (a verb, a flag,
+/// a page).
 struct Help {
     enum class Topic : int {
         none,
         plugin,              // the manual of the plugin `subject`, such as "light/point"
         plugins_of_kind,     // the installed plugins of the kind `subject`
         all_plugins,         // everything that is installed
-        default_models,      // `subject`: the models that are used if the user agrees
-        plugin_trust,        // how to use plugins that other users can change
+        default_models,      // `subject`: the models that are used with the user's consent
+        plugin_trust,        // how to use plugins that other users can modify
         plugin_conformance,  // how to find out what is wrong with a plugin
     };
     Topic topic = Topic::none;
@@ -40,7 +40,7 @@ struct Help {
     friend bool operator==(const Help&, const Help&) = default;
 };
 
-/// A failure that ends the requested operation. `what()` is one plain sentence for a person.
+/// A failure that ends the requested operation. `what()` is one plain sentence for the user.
 class CANDELA_API Error : public std::runtime_error {
   public:
     Error(ErrorCategory category, const std::string& message, Help help = {});
@@ -73,12 +73,12 @@ struct Diagnostic {
     Help help{};
 };
 
-/// Everything found in one run. Not thread-safe.
+/// All problems found in one run. Not thread-safe.
 class CANDELA_API Diagnostics {
   public:
     /// The scene is wrong.
     void error(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
-    /// Something that the scene needs fails: a file that cannot be read, a plugin. Counts as an error.
+    /// Something that the scene needs fails: an unreadable file, a plugin. Counts as an error.
     void failure(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
     void warning(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
 
@@ -87,16 +87,16 @@ class CANDELA_API Diagnostics {
 
     bool has_errors() const noexcept { return errors_ > 0; }
     std::size_t error_count() const noexcept { return errors_; }
-    /// `invalid_scene` if any error is one of the scene, else `failure`; nothing if there are no errors.
+    /// `invalid_scene` if any error is the scene's fault, otherwise `failure`; nothing without errors.
     std::optional<ErrorCategory> worst() const noexcept { return worst_; }
     /// Sorted by file (in the order in which the files were read), line and column.
     std::vector<Diagnostic> sorted() const;
-    /// Line `place.line` of a remembered file, if there is one.
+    /// Line `place.line` of a remembered file, if it has one.
     std::optional<std::string> source_line(const SourcePlace& place) const;
 
   private:
-    /// A file's text, and where every so many of its lines begin, so that none has to be searched for from
-    /// the beginning.
+    /// A file's text, and the offset of every so many lines, so that no line has to be searched for from the
+    /// beginning.
     struct Source {
         std::string text;
         std::vector<std::size_t> milestones;

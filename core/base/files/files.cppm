@@ -17,45 +17,45 @@ export module candela.files;
 
 export namespace candela {
 
-/// What becomes of a file that is there already.
+/// How to treat an existing file.
 enum class Existing : bool { replaced, kept };
 
-/// What a symbolic link in the place of a file means. A name that a person gave is followed. A name that
-/// Candela chose (a frame, a record, a plan) is not: whoever made the folder may have put a link there, to a
-/// file of somebody else's.
+/// How to treat a symbolic link in the place of a file. A link under a name that the user gave is followed.
+/// One under a name that Candela chose (a frame, a record, a plan) is not: whichever user made the folder may
+/// have put a link to somebody else's file there.
 enum class Links : bool { followed, not_followed };
 
-/// Whether a file survives a crash of the machine, for which one has to wait for the disk.
+/// Whether a file survives a crash of the machine, which requires waiting for the disk.
 enum class Durability : bool { durable, fast };
 
-/// A file being written atomically: nobody ever sees a partial file, and a failure, a kill or a crash of the
-/// machine leaves the previous contents. It has no name until it is complete, synced and closed, if the file
-/// system supports that; otherwise it is a temporary file in the same folder whose name begins with
-/// ".candela-". Symbolic links are followed; the new file may be read, written and executed by whoever might
-/// do so with the old one, but is never set-user-ID, set-group-ID or sticky. "-", standard output, and
-/// anything that is not a regular file (a pipe, a device) is written to directly. With `Existing::kept`,
-/// there is an error if the file exists, also if it was made meanwhile. With `Links::not_followed`, a
-/// symbolic link is replaced by the file, and anything else that is not a regular file is an error. All
-/// members throw Error (failure). One thread at a time.
+/// Writes a file atomically: nobody ever sees a partial file, and after a failure, a kill or a crash of the
+/// machine the previous contents remain. If the file system supports it, the file has no name until it is
+/// complete, synced and closed; otherwise it is a temporary file in the same folder whose name begins with
+/// ".candela-". Symbolic links are followed. The new file has the old one's permissions, but is never
+/// set-user-ID, set-group-ID or sticky. "-" (standard output) and anything that is not a regular file (a
+/// pipe, a device) are written to directly. With `Existing::kept`, an existing file is an error, even if it
+/// was created meanwhile. With `Links::not_followed`, the file replaces a symbolic link, and anything else
+/// that is not a regular file is an error. All members throw Error (failure). One thread at a time.
 class CANDELA_API OutputFile {
   public:
     explicit OutputFile(const std::filesystem::path& path, Existing existing = Existing::replaced,
                         Links links = Links::followed);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
-    /// Without a preceding finish(), nothing has happened.
+    /// Discards the file unless finish() was called.
     ~OutputFile();
 
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
-    /// Whether write_at() can be used, and then nothing else: it is a regular file.
+    /// Whether the file is a regular one, so that write_at() can be used, and then only write_at().
     bool is_random_access() const noexcept { return !target_.empty(); }
-    /// Writes somewhere in the file, also beyond its end.
+    /// Writes anywhere in the file, even past its end.
     void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
-    /// Everything that may fail for want of space, after the last write(): the file is complete on the disk,
-    /// under a temporary name. Of several files, the first can be put in place when all are complete.
+    /// Call it after the last write(): does everything that may fail for lack of space. The file is then
+    /// complete on the disk, under a temporary name. Of several files, the first can be put in place once all
+    /// are complete.
     void complete();
-    /// Moves the complete file to its destination. Call it once, after the last write(), or complete().
+    /// Moves the complete file to its destination. Call it once, after the last write() or complete().
     void finish(Durability durability = Durability::durable);
 
   private:
@@ -70,16 +70,16 @@ class CANDELA_API OutputFile {
     [[noreturn]] void fail_as_existing() const;
 
     std::string shown_;             // the path as given, for messages
-    std::filesystem::path target_;  // what is replaced; empty if bytes are written directly
+    std::filesystem::path target_;  // the file to replace; empty if bytes are written directly
     std::unique_ptr<NameBeside> beside_;
     int descriptor_ = -1;
     Existing existing_;
     Links links_;
 };
 
-/// A regular file that is open for reading. Anything else (a pipe, a device, a folder) counts as a file that
-/// cannot be opened, and nobody waits for it. Not through a stream, which takes a lack of memory for the end
-/// of the file. One thread at a time.
+/// A regular file opened for reading. Opening anything else (a pipe, a device, a folder) fails, without
+/// waiting. Does not use a stream, which mistakes a lack of memory for the end of the file. One thread at a
+/// time.
 class CANDELA_API RegularFile {
   public:
     explicit RegularFile(const std::filesystem::path& path, Links links = Links::followed);
@@ -88,11 +88,11 @@ class CANDELA_API RegularFile {
     ~RegularFile();
 
     bool is_open() const noexcept { return is_regular_; }
-    /// In bytes, when it was opened.
+    /// The size in bytes when the file was opened.
     std::uint64_t size() const noexcept { return size_; }
     /// Continues at this offset.
     bool seek(std::uint64_t offset) noexcept;
-    /// How many bytes were read: fewer than asked for at the end of the file; nothing if that failed.
+    /// Returns the number of bytes read: fewer than requested at the end of the file, nothing on failure.
     std::optional<std::size_t> read(std::span<char> bytes) noexcept;
 
   private:
@@ -107,32 +107,32 @@ CANDELA_API std::optional<std::string> read_text_file(const std::filesystem::pat
                                                       std::size_t most = std::string::npos,
                                                       Links links = Links::followed);
 
-/// The names of what is in a folder, in no particular order, and no more than `most`; nothing if it cannot be
-/// read. Without memory it throws std::bad_alloc, where std::filesystem::directory_iterator ends the program
-/// (libstdc++ 12).
+/// The names of a folder's entries, in no particular order, and at most `most` of them; nothing if it cannot
+/// be read. Throws std::bad_alloc if out of memory; std::filesystem::directory_iterator would terminate the
+/// program (libstdc++ 12).
 CANDELA_API std::optional<std::vector<std::string>> names_in(const std::filesystem::path& folder,
                                                              std::size_t most = std::string::npos);
 
-/// The path without links and dots, whether or not anything is there; the path as it is where that cannot be
-/// found out. Without memory it throws std::bad_alloc, where std::filesystem only reports an error.
+/// The path without links and dots, whether or not it exists; the path itself if that cannot be determined.
+/// Throws std::bad_alloc if out of memory, which std::filesystem only reports as an error.
 CANDELA_API std::filesystem::path canonical_path(const std::filesystem::path& path);
 
 /// Writes a text through an OutputFile.
 CANDELA_API void write_text_file(const std::filesystem::path& path, std::string_view text,
                                  Existing existing = Existing::replaced);
 
-/// Makes the folder `owned`, relative to `parent` and chosen by Candela, and the folders that both are in. No
-/// part of `owned` may be a symbolic link. Throws Error (failure).
+/// Creates the folder `owned`, relative to `parent` and chosen by Candela, and the parents of both. No part
+/// of `owned` may be a symbolic link. Throws Error (failure).
 CANDELA_API void make_owned_folder(const std::filesystem::path& parent, const std::filesystem::path& owned);
 
-/// A file's text as it was read, and the one that is to replace it.
+/// A file's text as it was read, and its replacement.
 struct TextChange {
     std::filesystem::path file;
     std::string before, after;
 };
 
-/// Replaces texts, all of them or none: if a file no longer holds what was read, another program has saved it
-/// meanwhile, and nothing is written. Throws Error (failure).
+/// Replaces texts, all or none: if a file no longer contains the text that was read, because another program
+/// has saved it meanwhile, nothing is written. Throws Error (failure).
 CANDELA_API void replace_texts(std::span<const TextChange> changes);
 
 /// Removes the temporary files that exist at this moment; they will not be finished. For signal handlers

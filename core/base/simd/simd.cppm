@@ -1,5 +1,5 @@
-// Which instruction set the batch loops run with. Every loop is compiled for each; see
-// candela/multiversion.h. And what several stages do with it.
+// The instruction set of the batch loops, and code that several stages share. Every loop is compiled for each
+// set; see candela/multiversion.h.
 module;
 
 #include "candela/api.h"
@@ -13,7 +13,7 @@ export module candela.simd;
 
 export namespace candela {
 
-/// From narrow to wide; a processor that supports one supports all before it.
+/// From narrow to wide; a processor that supports one also supports all before it.
 enum class InstructionSet : int { baseline = 0, avx2 = 1, avx512 = 2 };
 
 inline constexpr InstructionSet k_instruction_sets[] = {InstructionSet::baseline, InstructionSet::avx2,
@@ -33,7 +33,7 @@ CANDELA_API bool use_instruction_set(InstructionSet set) noexcept;
 CANDELA_API std::string_view name_of(InstructionSet set) noexcept;
 CANDELA_API std::optional<InstructionSet> instruction_set_named(std::string_view name) noexcept;
 
-/// Whether all of these are the same number; so it is where there are none. Any thread.
+/// Whether all of these numbers are equal; true if there are none. Any thread.
 CANDELA_API bool are_all_equal(std::span<const std::int32_t> numbers) noexcept;
 CANDELA_API bool are_all_equal(std::span<const std::uint32_t> numbers) noexcept;
 

@@ -12,30 +12,31 @@ export import candela.manifest;
 
 export namespace candela {
 
-/// Loads a library and checks it against `manifest` (null: the fingerprint only); the handshake comes before
-/// any other call into it. Throws Error with a plain sentence. The library stays loaded until the process
-/// ends. Any thread.
+/// Loads a library and checks it against `manifest` (null: the fingerprint only); the handshake precedes any
+/// other call into it. Throws Error with a plain sentence. The library stays loaded until the process ends.
+/// Any thread.
 CANDELA_API const PluginDescriptor& load_plugin(const std::filesystem::path& library,
                                                 const Manifest* manifest);
 
-/// Why a library is no whole ELF file of this machine, without running any of it; empty if it is one. The
-/// loader maps a truncated file without a word, and the process ends with SIGBUS where its pages are missing.
+/// Why a library is not a complete ELF file for this machine, found without running any of it; empty if it is
+/// one. The loader silently maps a truncated file, and the process ends with SIGBUS when it touches a missing
+/// page.
 CANDELA_API std::string library_damage(const std::filesystem::path& library);
 
-/// Whether address space is limited (ulimit -v) and little of it is left, so that a large library may find no
-/// room. Any thread.
+/// Whether address space is limited (ulimit -v) and nearly exhausted, so that a large library may not fit.
+/// Any thread.
 CANDELA_API bool is_address_space_scarce();
 
-/// Whether address space is scarce, and too little is left to load a library and to work with it. A library
-/// of somebody else's that runs out of memory while it is loaded, or soon after, may end the process without
-/// a word; so a child process tries it first. Any thread.
+/// Whether address space is scarce, and too little is left to load a library and work with it. A third
+/// party's library that runs out of memory while it is loaded, or soon after, may silently end the process,
+/// so a child process tries it first. Any thread.
 CANDELA_API bool lacks_address_space(const std::filesystem::path& library);
 
 /// Whether few threads can be started (ulimit -u, or a container's limit) and the library starts some while
-/// it is loaded. Such a library may wait for ever for a thread that failed to start. Any thread.
+/// it is loaded. Some libraries deadlock when a thread fails to start. Any thread.
 CANDELA_API bool lacks_threads(const std::filesystem::path& library);
 
-/// Rethrows a plugin's exception as an Error that names the plugin; call it in a catch block.
+/// Rethrows a plugin's exception as an Error that names the plugin. Call it in a catch block.
 [[noreturn]] CANDELA_API void rethrow_as_plugin_error(PluginKind kind, std::string_view name);
 
 }  // namespace candela

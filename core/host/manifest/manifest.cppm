@@ -27,8 +27,8 @@ struct ManifestFormat {
     friend bool operator==(const ManifestFormat&, const ManifestFormat&) = default;
 };
 
-/// What a plugin says about itself, as written in the file beside its library: enough to list it, describe it
-/// and check a scene without loading it.
+/// A plugin's description of itself, from the file next to its library: enough to list it, describe it and
+/// check a scene without loading it.
 struct CANDELA_API Manifest {
     std::string abi;
     PluginKind kind = PluginKind::light;
@@ -46,8 +46,8 @@ struct CANDELA_API Manifest {
     bool has_kernel = false;    // its mathematics can be exported; the text is in the library
     std::string kernel_prefix;  // see KernelText
     std::string kernel_parameters;
-    // Whose it is, which the library itself does not say (candela-manifest --author, --license); empty if not
-    // known.
+    // Author and licence, which the library itself does not know (candela-manifest --author, --license);
+    // empty if unknown.
     std::string author;
     std::string license;  // an SPDX expression, such as "MIT"
 
@@ -63,15 +63,15 @@ CANDELA_API std::string_view host_abi() noexcept;
 
 CANDELA_API Manifest manifest_of(const PluginDescriptor& descriptor, std::string_view abi);
 CANDELA_API std::string to_json(const Manifest& manifest);
-/// Several as one array.
+/// Several manifests as one array.
 CANDELA_API std::string to_json(std::span<const Manifest> manifests);
-/// Throws Error (bad_request) where an author or a licence, which `what` calls it, is longer than 200
-/// characters or has some that cannot be seen.
+/// Throws Error (bad_request) if an author or a licence (`what` says which) is longer than 200 characters or
+/// contains invisible ones.
 CANDELA_API void require_name(std::string_view text, std::string_view what);
 /// Throws Error with a plain sentence about `text`.
 CANDELA_API Manifest manifest_from_json(std::string_view text);
-/// The fingerprint a plugin was built for, even if this Candela cannot read the rest of its manifest; empty
-/// if the manifest does not state it.
+/// The fingerprint that a plugin was built for, even if this Candela cannot read the rest of its manifest;
+/// empty if the manifest does not state it.
 CANDELA_API std::string abi_from_json(std::string_view text);
 
 }  // namespace candela

@@ -22,8 +22,8 @@ import candela.math;
 
 export namespace candela {
 
-/// A value as a person writes it. Vec3 holds vector, point, direction, color and rgb; the last two hold
-/// matrix and numbers.
+/// A value as written in a scene. Vec3 holds vector, point, direction, color and rgb; the last two
+/// alternatives hold matrix and numbers.
 using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, NumberList>;
 
 /// A `ParamSpec` that owns its memory.
@@ -64,7 +64,7 @@ struct Preset {
 };
 
 CANDELA_API Parameter parameter_of(const ParamSpec& spec);
-/// Throws Error (failure) if it has a value for none of the parameters.
+/// Throws Error (failure) if the preset sets a parameter that does not exist.
 CANDELA_API Preset preset_of(const PresetSpec& spec, std::span<const ParamSpec> parameters);
 CANDELA_API Relation relation_of(const RelationSpec& spec);
 
@@ -78,14 +78,14 @@ CANDELA_API std::string constraint_text(const Parameter& parameter);
 /// The range alone: "0 to 1", "greater than 0", or empty.
 CANDELA_API std::string range_text(const Parameter& parameter);
 
-/// A value as a person would write it in a scene file.
+/// A value as written in a scene file.
 CANDELA_API std::string text_of(const Value& value);
 
-/// What a relation requires: "inner_angle does not exceed outer_angle: the cone of full light …".
+/// The requirement of a relation: "inner_angle does not exceed outer_angle: the cone of full light …".
 CANDELA_API std::string text_of(const Relation& relation);
 
-/// Why `value`, which already has the parameter's type, is invalid, or nothing. `written`: how its author
-/// wrote it, for the message; may be empty.
+/// Why `value`, which already has the parameter's type, is invalid, or nothing. `written`: the author's
+/// spelling of it, for the message; may be empty.
 CANDELA_API std::optional<std::string> validation_error(const Parameter& parameter, const Value& value,
                                                         std::string_view written = {});
 
@@ -112,7 +112,7 @@ class CANDELA_API ParamSet {
     const Value& get(std::string_view name) const;
 
     /// The values as a plugin receives them, in the schema's order. Texts point into this set. Throws
-    /// std::invalid_argument if a required one is not set.
+    /// std::invalid_argument if a required value is not set.
     std::vector<ParamValue> delivered(ColorEncoding encoding) const;
 
     /// Equal schemas and equal values.

@@ -29,7 +29,7 @@ import candela.target;
 
 export namespace candela {
 
-/// A plugin that was found.
+/// An installed plugin.
 struct PluginFile {
     Manifest manifest;
     std::filesystem::path library;
@@ -37,15 +37,15 @@ struct PluginFile {
     const PluginDescriptor* descriptor = nullptr;  // once loaded
 };
 
-/// A candidate that cannot be used, with one sentence that says why and what to do.
+/// A candidate that cannot be used, and one sentence with the reason and a remedy.
 struct Refusal {
     std::filesystem::path file;
     std::string reason;
     Help help{};
-    std::filesystem::path used_instead{};  // the next of its name on the search path, if that has been used
+    std::filesystem::path used_instead{};  // the next plugin of that name on the search path, if it was used
 };
 
-/// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins beside the core.
+/// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins next to the core.
 CANDELA_API std::vector<std::filesystem::path> plugin_search_path(
     std::span<const std::filesystem::path> first);
 
@@ -67,26 +67,26 @@ inline constexpr PluginKind k_kind_of<ImageFormat> = PluginKind::image;
 template <>
 inline constexpr PluginKind k_kind_of<Target> = PluginKind::target;
 
-/// Whose plugins are used. A plugin is code that runs with all the rights of the user.
+/// Whose plugins may be used. A plugin is code that runs with all the rights of the user.
 enum class PluginTrust : int {
     own_and_system,  // owned by this user or root, in files and folders that nobody else can write to
     any,
 };
 
-/// What to do with a picture file.
+/// How a picture file is used.
 enum class FormatUse : bool { write, read };
 
-/// Told when a plugin is used instead of one that was refused, which comes before it on the search path. Must
+/// Called when a plugin is used instead of one that was refused, which precedes it on the search path. Must
 /// not call the registry.
 using ReplacementHandler = std::function<void(const Refusal&)>;
 
-/// The plugins of a search path. Reads a manifest when asked for it and loads a library when an instance is
-/// created. Any thread; returned pointers are valid as long as the registry exists.
+/// The plugins of a search path. Reads a manifest on demand, and loads a library when an instance is created.
+/// Any thread; returned pointers are valid as long as the registry exists.
 ///
-/// Which plugin of a name is used: the first on the search path whose manifest and library are sound, without
-/// loading it. If one before it was refused, `on_replaced` is told. A refused one in the first
-/// `named_folders` folders, which somebody has named for this purpose, is not replaced: then there is none. A
-/// library that then cannot be loaded is an error.
+/// Which of several plugins of one name is used: the first on the search path whose manifest and library are
+/// sound, judged without loading it. If an earlier one was refused, `on_replaced` is called. A refused plugin
+/// in the first `named_folders` folders, which the user has named for this purpose, is not replaced: then
+/// there is none. Failing to load the chosen library is an error.
 class CANDELA_API Registry {
   public:
     explicit Registry(std::vector<std::filesystem::path> search_path,
@@ -98,7 +98,7 @@ class CANDELA_API Registry {
 
     /// The plugin of that name to use, or null.
     const PluginFile* find(PluginKind kind, std::string_view name);
-    /// Same, but throws Error if there is none: what is unknown, why a candidate was refused, and a
+    /// Like find(), but throws Error if there is none: the unknown name, why a candidate was refused, and a
     /// suggestion.
     const PluginFile& require(PluginKind kind, std::string_view name);
 
@@ -117,11 +117,11 @@ class CANDELA_API Registry {
     /// All extensions that an image plugin writes, or reads, sorted.
     std::vector<std::string> extensions(FormatUse use = FormatUse::write);
 
-    /// A set of a plugin's parameters with their defaults. Throws Error like require().
+    /// A plugin's parameter set, filled with defaults. Throws Error like require().
     ParamSet parameters(PluginKind kind, std::string_view name);
 
-    /// Loads the plugin if necessary and creates an instance. Throws Error, including for what the plugin
-    /// throws.
+    /// Loads the plugin if necessary and creates an instance. Throws Error, also for exceptions of the
+    /// plugin.
     template <class Interface>
     std::unique_ptr<Interface> create(std::string_view name, const ParamSet& values, ColorEncoding encoding) {
         std::unique_ptr<Instance> made = create_instance(k_kind_of<Interface>, name, values, encoding);
@@ -137,7 +137,7 @@ class CANDELA_API Registry {
     [[noreturn]] static void throw_wrong_interface(PluginKind kind, std::string_view name);
     const PluginFile* look_at(const std::filesystem::path& directory, const std::string& id, PluginKind kind,
                               std::string_view name);
-    /// The refused candidates of that name that come before `instead` (null: all), in search order.
+    /// The refused candidates of that name that precede `instead` (null: all), in search order.
     std::vector<Refusal*> refused_before(const PluginFile* instead, PluginKind kind, std::string_view name);
     void report_replaced(const PluginFile& instead, PluginKind kind, std::string_view name);
     void scan(PluginKind kind);

@@ -15,7 +15,7 @@ import candela.registry;
 
 export namespace candela {
 
-/// Intensity from far away, by direction: uniform, or that of an environment map. Immutable; any thread.
+/// The intensity from infinity, by direction: uniform, or from an environment map. Immutable; any thread.
 class CANDELA_API Environment {
   public:
     explicit Environment(Rgb everywhere = {});
@@ -24,11 +24,11 @@ class CANDELA_API Environment {
     Environment(int width, int height, std::vector<float> intensity);
 
     bool is_uniform() const noexcept { return width_ == 0; }
-    /// Of all directions and channels.
+    /// The largest intensity over all directions and channels.
     float max_intensity() const noexcept { return max_intensity_; }
-    /// Interpolated between neighbouring pixels; `towards` is a unit vector.
+    /// The intensity in the direction `towards`, a unit vector, interpolated between neighbouring pixels.
     Rgb seen(Vec3 towards) const noexcept;
-    /// The same in `count` directions.
+    /// Like seen(), in `count` directions.
     void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) const noexcept;
 
   private:
@@ -40,7 +40,7 @@ class CANDELA_API Environment {
 };
 
 /// Reads a picture as an environment; 8-bit colours are decoded according to `encoding`. Throws Error if no
-/// image plugin reads such files, or this one cannot be read.
+/// image plugin supports the format or the file is unreadable.
 CANDELA_API Environment read_environment(const std::filesystem::path& file, Registry& registry,
                                          ColorEncoding encoding);
 

@@ -1,4 +1,4 @@
-// A checked scene as targets see it, and the files that they make of it.
+// A validated scene as targets see it, and the files that they make of it.
 module;
 
 #include "candela/api.h"
@@ -19,27 +19,27 @@ import candela.scene;
 
 export namespace candela {
 
-/// Models to switch to beside those of the scene: names of reflection or shading models ("phong" is both),
-/// ids such as "shading/flat", or "all", those that the target can use.
+/// Models to switch to, in addition to those of the scene: names of reflection or shading models ("phong" is
+/// both), ids such as "shading/flat", or "all", which means all that the target supports.
 using ExtraModels = std::vector<std::string>;
 
-/// The scene as it would be if all its objects had that shading or reflection model, or nothing where it
-/// would not be valid.
+/// The scene with all its objects switched to that shading or reflection model, or nothing if that would be
+/// invalid.
 using WithModel = std::function<std::optional<Scene>(PluginKind kind, const std::string& name)>;
 
-/// What a scene is to become.
+/// A request for an export.
 struct ExportRequest {
     std::string title{};
     TargetAbilities abilities{};  // the target's
     ExtraModels extra_models{};
-    WithModel with_model{};  // empty: extra models have their defaults
+    WithModel with_model{};  // if empty, extra models have their defaults
 };
 
 /// An ExportedScene and all its memory.
 class CANDELA_API SceneExport {
   public:
-    /// Loads the plugins of `scene`. Throws Error where the target is not able to express it, and (usage)
-    /// where an extra model is not known. `registry` is used as long as this lives.
+    /// Loads the plugins of `scene`. Throws Error if the target cannot express it, and (usage) if an extra
+    /// model is unknown. `registry` must outlive this.
     SceneExport(const Scene& scene, const ExportRequest& request, Registry& registry);
     SceneExport(SceneExport&&) noexcept;
     SceneExport& operator=(SceneExport&&) noexcept;
@@ -57,14 +57,14 @@ struct ExportedFile {
     std::string content;
 };
 
-/// What a target makes of a scene.
+/// The files that a target makes of a scene.
 struct ExportedProgram {
     std::vector<ExportedFile> files;
-    std::vector<std::string> approximations;  // what it does not express exactly: FileSink::approximate()
+    std::vector<std::string> approximations;  // what it expresses only approximately: FileSink::approximate()
 };
 
-/// Throws Error that names the target for what write() throws, for a file's name that leads elsewhere, and
-/// for one that is written twice. `name`: the target's.
+/// Throws Error that names the target if write() throws, or if a file's name leads outside the folder or
+/// occurs twice. `name`: the target's.
 CANDELA_API ExportedProgram program_of(const Target& target, const std::string& name,
                                        const ExportedScene& scene);
 

@@ -23,7 +23,7 @@ import candela.registry;
 
 export namespace candela {
 
-/// Rows of a picture, from `first` up to, not including, `end`.
+/// Rows of a picture, from `first` up to but not including `end`.
 struct RowRange {
     int first = 0;
     int end = 0;
@@ -32,29 +32,29 @@ struct RowRange {
     friend bool operator==(const RowRange&, const RowRange&) = default;
 };
 
-/// The picture being made, with pixels as its file format wants them: 8-bit, clamped and encoded, or 32-bit
+/// The picture being made, with pixels in the form of its file format: 8-bit, clamped and encoded, or 32-bit
 /// float, as computed.
 class CANDELA_API Film {
   public:
-    /// Throws Error if there is not enough memory.
+    /// Throws Error if memory is insufficient.
     Film(int width, int height, PixelType pixels, ColorEncoding encoding);
-    /// Of a picture of that size, only these rows.
+    /// Only these rows of a picture of that size.
     Film(int width, int height, PixelType pixels, ColorEncoding encoding, RowRange rows);
 
     int width() const noexcept { return width_; }
-    /// Of the whole picture.
+    /// The height of the whole picture.
     int height() const noexcept { return height_; }
     RowRange rows() const noexcept { return rows_; }
 
-    /// Stores a rectangle of intensities, with rows `stride` apart; rows that the film has not are left out.
+    /// Stores a rectangle of intensities, with rows `stride` apart. Rows outside the film are skipped.
     /// Different threads may store different pixels at the same time.
     void store(int x, int y, int width, int height, ConstVec3Span intensity, int stride);
 
-    /// Stores one intensity in a rectangle likewise.
+    /// Stores one intensity in all pixels of a rectangle, like store().
     void fill(int x, int y, int width, int height, Rgb intensity);
 
-    /// Copies another film's pixels as they are, its upper left corner to (x, y). Both are whole pictures,
-    /// with pixels of the same type, and `other` lies within this one.
+    /// Copies another film's pixels unchanged, its upper left corner to (x, y). Both are whole pictures with
+    /// pixels of the same type, and `other` lies within this one.
     void paste(int x, int y, const Film& other);
 
     /// All rows of the film.
@@ -72,7 +72,7 @@ class CANDELA_API Film {
     AlignedVector<float> reals_;
 };
 
-/// Which plugin writes a picture, and in which form it wants the pixels.
+/// The plugin that writes a picture, and the form in which it requires the pixels.
 struct PictureFormat {
     std::string plugin;
     std::string extension;
@@ -85,27 +85,27 @@ struct PictureFormat {
 /// PNG. Throws Error for an extension that no plugin writes.
 CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
-/// Writes the picture atomically, through an OutputFile; `existing`: what becomes of a file of that name, and
-/// `links` of a link.
+/// Writes the picture atomically, through an OutputFile; `existing` and `links` say how to treat an existing
+/// file and a link.
 /// Plugins that encode on several threads use those of with_threads(). Throws Error.
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
                                const std::filesystem::path& path, Registry& registry,
                                Existing existing = Existing::replaced, Links links = Links::followed);
 
-/// Same, into a file that the caller finishes.
+/// Like the above, into a file that the caller finishes.
 CANDELA_API void write_picture(const Film& film, const PictureFormat& format, OutputFile& file,
                                Registry& registry);
 
-/// Whether write_rows() has no need of the whole picture in memory.
+/// Whether write_rows() can write the format without the whole picture in memory.
 CANDELA_API bool can_write_rows(const PictureFormat& format, Registry& registry);
 
-/// Writes the bytes that write_picture() would, of a picture that need not be in memory. `whole`: the picture
+/// Writes the same bytes as write_picture(), for a picture that need not be in memory. `whole`: the picture
 /// without its pixels. Throws Error.
 CANDELA_API void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat& format,
                             const std::filesystem::path& path, Registry& registry,
                             Existing existing = Existing::replaced);
 
-/// Writes a picture in layers likewise, in a format that has them.
+/// Writes a picture with layers in the same way, in a format that supports them.
 CANDELA_API void write_layers(int width, int height, std::span<const PictureChannel> channels,
                               const PictureFormat& format, const std::filesystem::path& path,
                               Registry& registry, Existing existing = Existing::replaced);

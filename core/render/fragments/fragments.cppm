@@ -36,8 +36,8 @@ struct FragmentList {
     AlignedVector<std::uint32_t> triangles;  // of the object's mesh, one for each fragment
 
     void begin(std::uint32_t of_object);
-    /// The run's fragments see `seen`, triangles of the scene, of which `first_triangle` is the object's
-    /// first.
+    /// The run's fragments see `seen`, triangles numbered within the scene; `first_triangle` is the number of
+    /// the object's first one.
     void add(FragmentRun run, const std::uint32_t* seen, std::uint32_t first_triangle);
     /// Extends the last run by a pixel.
     void prolong(std::uint32_t seen, std::uint32_t first_triangle);
@@ -46,7 +46,7 @@ struct FragmentList {
     std::uint32_t room_ = k_batch_size;  // in the last batch
 };
 
-/// Adjacent pixels of a row that see more than a single triangle: `weight` of each sees the background.
+/// Adjacent pixels of a row that see more than one triangle; `weight` of each sees the background.
 struct BackgroundRun {
     std::uint32_t pixel;
     std::uint32_t count;
@@ -90,7 +90,7 @@ class FragmentBatches {
   public:
     explicit FragmentBatches(const FragmentList& list) : runs_(list.runs), triangles_(list.triangles) {}
 
-    /// The next batch; without fragments at the end.
+    /// Returns the next batch; empty at the end.
     inline FragmentBatch next() {
         std::size_t runs = 0, fragments = 0;
         for (; runs < runs_.size() && fragments < k_batch_size; ++runs) fragments += runs_[runs].count;
@@ -116,7 +116,7 @@ struct ProjectedMesh {
 };
 
 /// Fills `points` with the fragments of a batch: barycentric coordinates on the triangle itself (Blinn 1992,
-/// "Hyperbolic interpolation"), and what follows from them.
+/// "Hyperbolic interpolation"), and everything derived from them.
 CANDELA_API void gather_fragments(const ProjectedMesh& mesh, const FragmentBatch& batch, PointNeeds needs,
                                   SurfacePoints& points);
 

@@ -13,8 +13,8 @@ import candela.math;
 
 export namespace candela {
 
-/// The number of points shaded at once: enough to hide a virtual call, few enough to stay in the first-level
-/// cache.
+/// The number of points shaded at once: enough to amortise a virtual call, few enough to stay in the
+/// first-level cache.
 inline constexpr std::size_t k_batch_size = 256;
 
 /// Points on one object's surface, as a structure of arrays with room for k_batch_size. Reused from batch to
@@ -23,7 +23,7 @@ struct CANDELA_API SurfacePoints {
     SurfacePoints();
 
     std::size_t count = 0;
-    std::size_t filled = 0;  // whole_vectors(count) or count: beyond `count`, the last point is repeated
+    std::size_t filled = 0;  // whole_vectors(count) or count: past `count`, the last point is repeated
     Vec3Arrays position;
     Vec3Arrays face_normal;    // unit
     Vec3Arrays vertex_normal;  // interpolated; not unit
@@ -31,7 +31,7 @@ struct CANDELA_API SurfacePoints {
     AlignedVector<float> facing;  // 1, or -1 where an open surface is seen from behind
     bool any_from_behind = false;
     AlignedVector<float> u, v;                    // filled if requested and the mesh has them, otherwise zero
-    AlignedVector<float> dudx, dvdx, dudy, dvdy;  // by a pixel to the right and downwards; zero if not known
+    AlignedVector<float> dudx, dvdx, dudy, dvdy;  // per pixel to the right and downwards; zero if unknown
     Vec3Arrays dpdu, dpdv;
     Vec3Arrays color;                           // the mesh's; filled if has_color
     bool has_color = false;                     // the mesh has colours, and they were requested
@@ -39,7 +39,7 @@ struct CANDELA_API SurfacePoints {
     std::array<Vec3Arrays, 3> corner_normal;    // unit
 };
 
-/// Which attributes of a point are needed. Others may be filled, too.
+/// The attributes of a point that are needed. Others may be filled as well.
 struct PointNeeds {
     bool position = true;
     bool face_normal = true;
@@ -47,11 +47,11 @@ struct PointNeeds {
     bool barycentric = true;
     bool color = true;  // of a mesh that has colours
     bool uv = false;
-    bool footprint = false;  // how uv change from pixel to pixel; with uv, of fragments
+    bool footprint = false;  // how uv change from pixel to pixel; with uv, at fragments
     bool derivatives = false;
-    bool triangle = false;  // of fragments, faces and places; a vertex has none
+    bool triangle = false;  // of fragments, faces and places; vertices have none
 
-    /// Whether there is more than what is interpolated in one go.
+    /// Whether anything is needed that is not interpolated in the same pass.
     constexpr bool more() const { return color || uv || derivatives || triangle; }
 };
 

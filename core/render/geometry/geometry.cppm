@@ -13,15 +13,15 @@ import candela.math;
 
 export namespace candela {
 
-/// Where rays leave a surface: an element for each ray.
+/// The points where rays leave a surface: one element per ray.
 struct RayExits {
     std::uint32_t* triangle = nullptr;
     float* distance =
-        nullptr;  // along the ray, in multiples of its direction; negative where it does not leave
+        nullptr;  // along the ray, in multiples of its direction; negative if the ray does not leave
     Vec3Span barycentric;
 };
 
-/// Triangles, for rays that run inside of them. Immutable; any thread.
+/// Triangles, for rays that run inside their surface. Immutable; any thread.
 class CANDELA_API TriangleTree {
   public:
     /// Triangles are counter-clockwise seen from outside.
@@ -30,10 +30,10 @@ class CANDELA_API TriangleTree {
     TriangleTree& operator=(TriangleTree&&) noexcept;
     ~TriangleTree();
 
-    /// For each ray, the nearest triangle that it passes from its inside to its outside. A triangle that it
-    /// starts on, going in, does not count. None if the surface is open there: then only the distance is
-    /// written. A ray's exit does not depend on the others; rays that stay close to each other are fast.
-    /// Arrays do not alias.
+    /// Finds, for each ray, the nearest triangle that it crosses from inside to outside. A triangle on which
+    /// it starts, heading inwards, does not count. If the surface is open there, the ray has no exit, and
+    /// only the distance is written. A ray's exit does not depend on the others; rays that stay close to each
+    /// other are fast. Arrays do not alias.
     void find_exits(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
                     const RayExits& exits) const;
 

@@ -9,11 +9,11 @@ module candela.render:sparse_set;
 
 namespace candela {
 
-/// A set of indices, numbered in the order in which they come, that is emptied in constant time (Briggs,
-/// Torczon 1993, "An efficient representation for sparse sets").
+/// A set of indices, numbered in order of insertion, that can be cleared in constant time (Briggs, Torczon
+/// 1993, "An efficient representation for sparse sets").
 class SparseSet {
   public:
-    /// Clears the set; indices to come are below `count`.
+    /// Clears the set; later indices are below `count`.
     void begin(std::size_t count) {
         if (number_.size() < count) number_.resize(count);
         indices_.clear();

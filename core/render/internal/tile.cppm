@@ -24,13 +24,13 @@ namespace candela {
 /// The visible fragments of one tile.
 struct VisibleTile {
     int x0 = 0, y0 = 0, width = 0, height = 0, stride = 0;  // as in TileVisibility
-    bool is_empty = true;                                   // nothing but the background
+    bool is_empty = true;                                   // shows only the background
     TileFragments fragments;
 
     std::size_t plane() const { return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride); }
 };
 
-/// Whether background is among what is shown (see RenderOptions).
+/// Whether the background is shown (see RenderOptions).
 bool shows_background(Term term, std::optional<std::size_t> light);
 
 /// Turns the fragments of a tile into pixels. Owns a tile's arrays: use one per thread.
@@ -38,21 +38,21 @@ class TileShader {
   public:
     TileShader();
 
-    /// Sets the scene for the following calls, what of it is shown (see RenderOptions), and resets the
+    /// Sets the scene for the following calls and what is shown of it (see RenderOptions), and resets the
     /// counts.
     void begin(const CompiledScene& scene, const ProjectedScene& projected, Term term = Term::intensity,
                std::optional<std::size_t> light = {});
 
     Term term() const { return term_; }
 
-    /// Fills the tile's pixels with the background, weighted by how much of each pixel shows it.
+    /// Fills the tile's pixels with the background, weighted by the fraction of each pixel that shows it.
     void fill_background(const VisibleTile& visible);
 
     // Adds one object's fragments to the tile's pixels, lit once per fragment, face or vertex.
     void shade_fragments(const FragmentList& fragments);
     void shade_faces(const FragmentList& fragments);
     void shade_vertices(const FragmentList& fragments);
-    /// Gives them a geometric term.
+    /// Writes a geometric term to the fragments' pixels.
     void show_geometry(const FragmentList& fragments);
 
     /// The tile's intensities, rows VisibleTile::stride apart.
@@ -74,11 +74,11 @@ class TileShader {
     SurfaceShader surface_shader_;
     SurfacePoints points_;
     SparseSet sparse_set_;              // of a tile's faces, or sides of vertices
-    std::vector<VertexSide> vertices_;  // in the order of their numbers
+    std::vector<VertexSide> vertices_;  // in the order of their numbers in it
     Vec3Arrays batch_;                  // intensities of one batch
     Vec3Arrays places_;                 // of a tile's faces or vertices
     Vec3Arrays pixels_;
-    Vec3Arrays towards_;  // where pixels of a run look
+    Vec3Arrays towards_;  // the lines of sight of a run's pixels
     std::size_t points_lit_ = 0;
     float brightest_ = 0;
 };
@@ -96,21 +96,20 @@ struct TileWorker {
 /// The observer's camera for a picture of that size.
 Camera camera_of(const Observer& observer, int width, int height);
 
-/// Projects a scene's meshes and sorts their triangles into the tiles that these rows of the picture touch.
+/// Projects a scene's meshes and sorts their triangles into the tiles that overlap these rows of the picture.
 /// Throws Error.
 void project_scene(const CompiledScene& scene, int width, int height, RowRange rows, int tile_size,
                    int samples, ProjectedScene& projected);
 
-/// What all pixels that show no object are given, if it is the same for all.
+/// The value of all pixels that show no object, if it is the same for all.
 std::optional<Rgb> uniform_background(const CompiledScene& scene, Term term,
                                       std::optional<std::size_t> light);
 
-/// Gives the pixels of the tiles of a row that no triangle comes near that background, and sets `is_done`, by
-/// column.
+/// Fills the tiles of a row that no triangle comes near with that background, and sets `is_done`, by column.
 void fill_empty_tiles(const ProjectedScene& projected, int row, Rgb background, Film& film,
                       std::span<std::uint8_t> is_done);
 
-/// Finds the fragments that are visible in a tile.
+/// Finds the visible fragments of a tile.
 void find_visible(const ProjectedScene& projected, int tile, TileVisibility& visibility,
                   VisibleTile& visible);
 

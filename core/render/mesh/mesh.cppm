@@ -21,10 +21,11 @@ import candela.transform;
 
 export namespace candela {
 
-/// What is read of a vertex wherever a triangle is seen, stored contiguously: one cache line instead of six.
+/// The attributes of a vertex that are read wherever a triangle is seen, stored contiguously: one cache line
+/// instead of six.
 struct alignas(32) MeshVertex {
     Vec3 position;
-    float padding = 0;  // four floats are fetched at once
+    float padding = 0;  // so that four floats can be fetched at once
     Vec3 normal;        // unit; zero if the mesh is faceted
     float more_padding = 0;
 };
@@ -54,31 +55,31 @@ struct Mesh {
     }
 };
 
-/// A mesh before it has normals, and the input that a shading model makes them from.
+/// A mesh before it has normals, and the input from which a shading model makes them.
 struct PlacedShape {
     Mesh mesh;
     Vec3Arrays authored_normal;                 // per vertex, unit, or empty
     AlignedVector<std::uint32_t> smooth_group;  // per vertex, or empty: each vertex is its own
-    std::vector<std::string> warnings;          // of the shape, as sentences
+    std::vector<std::string> warnings;          // the shape's, as sentences
 };
 
-/// Tessellates `shape` and places it in the world. `progress` hears what the shape says of its own: 0 … 1.
-/// Throws what the shape throws (std::exception), and std::invalid_argument for a mesh without triangles,
-/// with an index out of range, or with a position that is not finite.
+/// Tessellates `shape` and places it in the world. `progress` receives the shape's own progress, 0 to 1.
+/// Throws the shape's exceptions (std::exception), and std::invalid_argument for a mesh without triangles,
+/// with an index out of range, or with a non-finite position.
 CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& transform,
                               const std::function<void(double)>& progress = {});
 
-/// Gives a mesh its face normals and the vertex normals of `shading`, with the threads that with_threads()
-/// allows. Throws what the shading model throws.
+/// Computes a mesh's face normals and the vertex normals of `shading`, with the threads that with_threads()
+/// allows. Throws the shading model's exceptions.
 CANDELA_API Mesh with_normals(PlacedShape placed, const ShadingModel& shading);
 
-/// Only its face normals, from which other calls of vertex_normals() need not make them.
+/// Computes only the face normals, which later calls of vertex_normals() can then reuse.
 CANDELA_API void make_face_normals(Mesh& mesh);
 
-/// The vertex normals that `shading` gives a mesh that has its face normals. Throws as with_normals().
+/// The vertex normals of `shading` for a mesh that has its face normals. Throws like with_normals().
 CANDELA_API Vec3Arrays vertex_normals(const PlacedShape& placed, const ShadingModel& shading);
 
-/// with_normals() of place().
+/// place(), then with_normals().
 CANDELA_API Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Transform& transform,
                             const ShadingModel& shading);
 

@@ -9,7 +9,7 @@ import candela.transform;
 
 export namespace candela {
 
-/// What the observer sees. Pixel (0, 0) is top left; the centre of pixel (x, y) is at (x + 1/2, y + 1/2).
+/// The observer's view. Pixel (0, 0) is top left; the centre of pixel (x, y) is at (x + 1/2, y + 1/2).
 struct CANDELA_API Camera {
     Vec3 eye;
     Vec3 right, up, forward;  // orthonormal

@@ -31,14 +31,13 @@ struct alignas(16) ScreenVertex {
     std::uint32_t outside;
 };
 
-/// A triangle in fixed-point pixels, with an orientation that makes its area positive with y down.
+/// A triangle in fixed-point pixels, oriented so that its area is positive with y down.
 struct RasterTriangle {
     ScreenVertex vertex[3];
     std::uint32_t id;
 };
 
-/// A triangle as a tile's list has it: its vertices in the scene, in such an order; or a piece of a clipped
-/// one.
+/// A triangle in a tile's list: its vertices in the scene, in that orientation; or a piece of a clipped one.
 struct alignas(16) BinnedTriangle {
     static constexpr std::uint32_t k_piece = 0xffff'ffffu;
 
@@ -51,11 +50,12 @@ struct alignas(16) BinnedTriangle {
 /// The triangles of one range of the scene, by tile.
 struct TriangleBin {
     int first_column = 0, columns = 0, first_row = 0, rows = 0;  // tiles that the range touches
-    std::vector<std::uint32_t> start;       // of each tile's list in `entries`; one more than there are tiles
+    std::vector<std::uint32_t> start;       // start of each tile's list in `entries`; one more than there are
+                                            // tiles
     AlignedVector<BinnedTriangle> entries;  // in the scene's order within each list
     std::vector<RasterTriangle> pieces;     // of clipped triangles
 
-    /// Those in a tile.
+    /// The triangles in a tile.
     inline std::span<const BinnedTriangle> triangles_in(int column, int row) const {
         column -= first_column;
         row -= first_row;
@@ -66,19 +66,19 @@ struct TriangleBin {
     }
 };
 
-/// Rows of tiles, from `first` up to, not including, `end`.
+/// Rows of tiles, from `first` up to but not including `end`.
 struct TileRows {
     int first = 0;
     int end = 0;
 };
 
-/// A scene as the camera sees it: shared by all tiles. Immutable once made.
+/// A scene as the camera sees it, shared by all tiles. Immutable once made.
 struct ProjectedScene {
     Camera camera;
     int tile_size = 64;
     int samples = 1;
     int subpixel_bits = 8;
-    float near = 0;  // metres from the eye: nothing closer is seen (perspective only)
+    float near = 0;  // metres from the eye; anything closer is invisible (perspective only)
     int tile_columns = 0, tile_rows = 0;
     TileRows seen_rows;  // only their tiles have lists of triangles
 
@@ -92,7 +92,7 @@ struct ProjectedScene {
     std::vector<TriangleBin> bins;
 
     inline int tile_count() const { return tile_columns * tile_rows; }
-    /// Of those that have lists: consecutive numbers from here on.
+    /// The number of the first tile with a list; those of the others follow.
     inline int first_seen_tile() const { return tile_columns * seen_rows.first; }
     inline int seen_tile_count() const { return tile_columns * (seen_rows.end - seen_rows.first); }
     /// Whether a triangle comes near that tile.
@@ -107,7 +107,7 @@ struct ProjectedScene {
 CANDELA_API ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
                                    int samples);
 
-/// Same, reusing the memory of a previously projected scene, and only for some rows of tiles, or all.
+/// Like the above, reusing the memory of a previously projected scene, for some rows of tiles or all.
 CANDELA_API void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
                          int samples, ProjectedScene& scene, std::optional<TileRows> rows = {});
 

@@ -22,10 +22,10 @@ struct SamplePosition {
 /// For 1, 4, 8 or 16 samples per pixel: the centre, or the patterns of the D3D 11 specification.
 CANDELA_API std::span<const SamplePosition> sample_pattern(int samples) noexcept;
 
-/// What one tile sees. Reused from tile to tile.
+/// The triangles that one tile sees. Reused from tile to tile.
 struct TileVisibility {
     int x0 = 0, y0 = 0;         // its top left pixel
-    int width = 0, height = 0;  // the pixels of it that are in the picture
+    int width = 0, height = 0;  // the part of it that is in the picture
     int stride = 0;             // of a row, a multiple of 16
     int samples = 1;
     AlignedVector<std::uint32_t> triangle;  // sample by sample, row by row; k_no_triangle: background
@@ -40,9 +40,9 @@ struct TileVisibility {
     }
 };
 
-/// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle of each sample, the first one
-/// among equally near ones; a sample on a shared edge belongs to one triangle only (top-left rule). Returns
-/// false if no triangle comes near the tile; `visibility` then only has its position. Any thread.
+/// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle at each sample, and the first
+/// among equally near ones. A sample on a shared edge belongs to only one triangle (top-left rule). Returns
+/// false if no triangle comes near the tile; `visibility` then has only its position. Any thread.
 CANDELA_API bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility);
 
 }  // namespace candela

@@ -31,8 +31,8 @@ class ObjectSurroundings;
 
 export namespace candela {
 
-/// Where the surface has a texture, multiplies the points' colours with it; they have been gathered with what
-/// the surface needs.
+/// Multiplies the points' colours by the surface's texture, if it has one. The points must have been gathered
+/// with what the surface needs.
 CANDELA_API void apply_texture(const SurfaceModels& surface, SurfacePoints& points);
 
 /// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
@@ -46,24 +46,24 @@ class CANDELA_API SurfaceShader {
 
     /// Writes the intensity that `points` send to the observer, I_a + the sum of I_d + I_s over the lights
     /// (CA DD6), into arrays with room for `points.filled`. Returns the largest intensity. Throws Error,
-    /// naming the plugin, if one throws, yields a non-finite number, or writes beyond its batch.
+    /// naming the plugin, if one throws, yields a non-finite number, or writes past the end of its batch.
     float shade(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 const Vec3Span& intensity);
 
-    /// Shades `points`, which is a single one, and tells the steps: `intensity` and the three sums are what
-    /// shade() computes. Throws Error like shade().
+    /// Shades the single point of `points` and records the steps: `intensity` and the three sums are those of
+    /// shade(). Throws Error like shade().
     PointTrace trace(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
 
-    /// Writes, instead of the intensity, a term of it that is not geometric, or what it was computed from.
-    /// Slower than shade(), which it calls, so that it throws like that.
+    /// Writes a non-geometric term of the intensity, or one of its inputs, instead of the intensity. Slower
+    /// than shade(), which it calls. Throws Error like shade().
     void find_term(Term term, const SurfaceModels& surface, const Interior& interior,
                    const SurfacePoints& points, const Vec3Span& values);
 
   private:
-    /// Checks the results of each plugin right after its turn, instead of once at the end.
+    /// Whether each plugin's results are checked right after its call, instead of once at the end.
     enum class Scrutiny : bool { none, each_step };
     using Lights = std::vector<const LitSource*>;
-    /// Adds up what the reflection model makes of `lights`, each asked in turn, part by part.
+    /// Adds up, part by part, what the reflection model reflects of each of `lights`.
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 const Lights& lights, Scrutiny scrutiny);
     /// Adds the light to those that are data, or returns false if it cannot describe itself as such.
@@ -74,7 +74,7 @@ class CANDELA_API SurfaceShader {
     bool reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points);
     void find_n_dot_l(const SurfacePoints& points, const Vec3Span& values);
     void scrutinize(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
-    /// What the reflection model is given; the arrays are this object's and the points'.
+    /// The reflection model's input; the arrays are this object's and the points'.
     SurfaceBatch lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
                              std::size_t count) const;
     void find_normals(const SurfaceModels& surface, const SurfacePoints& points);

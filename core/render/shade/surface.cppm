@@ -28,10 +28,10 @@ struct LitSource {
     std::unique_ptr<Light> light;
 };
 
-/// The look of an object's surface.
+/// The appearance of an object's surface.
 struct SurfaceModels {
     Rgb color;
-    std::shared_ptr<const MipMap> color_texture{};  // which the colour is multiplied with; null: none
+    std::shared_ptr<const MipMap> color_texture{};  // multiplies the colour; null: none
     TextureWrap color_texture_wrap = TextureWrap::repeat;
     std::string shading_plugin;
     std::unique_ptr<ShadingModel> shading;

@@ -28,7 +28,7 @@ struct Box {
 
 CANDELA_API Box box_around(ConstVec3Span position, std::size_t count);
 
-/// Whether other bodies may be inside one.
+/// Whether other bodies may be inside this one.
 enum class Solidity : bool { solid, hollow };
 
 /// The space enclosed by a surface of triangles. Immutable; any thread.
@@ -57,11 +57,11 @@ class CANDELA_API Body {
     std::unique_ptr<Surface> surface_;
 };
 
-/// Whether two bodies overlap: their surfaces cross, or a part of one is inside the other and that is not
+/// Whether two bodies overlap: their surfaces cross, or one is at least partly inside the other, which is not
 /// hollow.
 CANDELA_API bool overlap(const Body& a, const Body& b);
 
-/// Finds the boxes that intersect, out of many.
+/// Finds which of many boxes intersect.
 class CANDELA_API BoxTree {
   public:
     explicit BoxTree(std::vector<Box> boxes);

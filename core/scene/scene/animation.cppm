@@ -1,4 +1,4 @@
-// What changes from frame to frame.
+// The values of a scene that change from frame to frame.
 module;
 
 #include "candela/api.h"
@@ -15,7 +15,7 @@ import candela.parameters;
 
 export namespace candela {
 
-/// How a value gets from one key to the next.
+/// How a value changes from one key to the next.
 enum class Interpolation : int {
     step,    // it stays until the next key
     linear,  // in a straight line
@@ -25,17 +25,17 @@ enum class Interpolation : int {
 /// "step", "linear", "smooth".
 CANDELA_API std::string_view name_of(Interpolation interpolation) noexcept;
 
-/// The value that a track has at one time.
+/// The value of a track at one time.
 struct Key {
     double time = 0;  // seconds
     Value value;
     SourcePlace place{};  // of the value
 
-    /// Ignores where it is in its file.
+    /// Ignores positions in the file.
     friend CANDELA_API bool operator==(const Key& a, const Key& b);
 };
 
-/// One value of the scene, over time.
+/// One value of the scene over time.
 struct Track {
     std::string path;  // as in Setting
     ParamType type = ParamType::real;
@@ -48,13 +48,12 @@ struct Track {
 /// The track's value at a time in seconds: the first key's before it, the last key's after it. Colours and
 /// integers are rounded. Smooth tracks follow the cubic Hermite spline whose tangents are those of Catmull
 /// and Rom (1974) for keys at any distance: the slope between the two neighbours; at the ends, that to the
-/// only neighbour. It may go beyond the values of its keys.
+/// only neighbour. The spline may exceed the values of its keys.
 CANDELA_API Value value_at(const Track& track, double time);
 
-/// The observer's way around what it looks at, about its up direction, at the distance and height where it
-/// is.
+/// The observer's path around its look-at point, about the up direction, at constant distance and height.
 struct Orbit {
-    double turns = 1;  // over all frames; counter-clockwise seen from above, the other way round if negative
+    double turns = 1;  // over all frames; counter-clockwise seen from above, clockwise if negative
 
     friend inline bool operator==(const Orbit& a, const Orbit& b) { return a.turns == b.turns; }
 };

@@ -1,4 +1,4 @@
-// What a scene holds.
+// The contents of a scene.
 module;
 
 #include "candela/api.h"
@@ -32,7 +32,7 @@ struct Room {
 
 /// How strictly a scene as a whole is checked.
 struct ConstraintSettings {
-    std::optional<Severity> overlap = Severity::error;  // of objects with each other; none: not looked at
+    std::optional<Severity> overlap = Severity::error;  // of objects with each other; none: not checked
 
     friend bool operator==(const ConstraintSettings&, const ConstraintSettings&) = default;
 };
@@ -44,12 +44,12 @@ struct Observer {
     Projection projection = Projection::perspective;
     float fov = 40;    // perspective: full vertical angle, degrees
     float height = 4;  // orthographic: height of the view, metres
-    /// Width to height of the frame that every picture shows whole; 0: none, and a narrow picture cuts off
-    /// the sides.
+    /// The aspect ratio (width to height) of the frame that every picture shows completely; 0: none, and a
+    /// narrow picture crops the sides.
     float frame_aspect = 0;
     SourcePlace position_place{};
 
-    /// Ignores where it is in its file.
+    /// Ignores positions in the file.
     friend inline bool operator==(const Observer& a, const Observer& b) {
         return a.position == b.position && a.look_at == b.look_at && a.up == b.up &&
                a.projection == b.projection && a.fov == b.fov && a.height == b.height &&
@@ -57,8 +57,8 @@ struct Observer {
     }
 };
 
-/// The observer of a picture of that size: one narrower than the frame sees more above and below instead of
-/// less at the sides.
+/// The observer for a picture of that size: if it is narrower than the frame, it shows more above and below
+/// instead of less at the sides.
 CANDELA_API Observer fitted(Observer observer, int width, int height);
 
 struct ImageSettings {
@@ -70,7 +70,7 @@ struct ImageSettings {
     SourcePlace environment_place{};
     ColorEncoding color_management = ColorEncoding::srgb;
 
-    /// Ignores where it is in its file.
+    /// Ignores positions in the file.
     friend inline bool operator==(const ImageSettings& a, const ImageSettings& b) {
         return a.width == b.width && a.height == b.height && a.samples == b.samples &&
                a.background == b.background && a.environment == b.environment &&
@@ -86,7 +86,7 @@ struct Model {
     friend bool operator==(const Model&, const Model&) = default;
 };
 
-/// The name in a label of a light or an object: lamp in 'lamp'. None where the label is an index.
+/// The name in a label of a light or an object: lamp in 'lamp'. None if the label is an index.
 CANDELA_API std::optional<std::string_view> name_of_label(std::string_view label) noexcept;
 
 struct LightSource {
@@ -95,13 +95,13 @@ struct LightSource {
     SourcePlace place;
     SourcePlace position_place{};  // of its 'position', or of the whole light
 
-    /// Ignores where they are in their files.
+    /// Ignores positions in the file.
     friend inline bool operator==(const LightSource& a, const LightSource& b) {
         return a.label == b.label && a.model == b.model;
     }
 };
 
-/// What a texture shows beyond its edges.
+/// How a texture continues outside its edges.
 enum class TextureWrap : int {
     repeat,  // the picture again
     clamp,   // the colours at its edge
@@ -112,7 +112,7 @@ struct Object {
     Model shape;
     Transform transform;
     Vec3 color;                   // 0-255
-    std::string color_texture{};  // absolute path of a picture that `color` is multiplied with; empty: none
+    std::string color_texture{};  // absolute path of a picture that multiplies `color`; empty: none
     TextureWrap color_texture_wrap = TextureWrap::repeat;
     bool encloses = false;  // others may be inside; drawn from both sides
     Model shading;
@@ -121,7 +121,7 @@ struct Object {
     SourcePlace position_place{};  // of its 'position', or of the whole object
     SourcePlace texture_place{};   // of its 'color_texture', or of the whole object
 
-    /// Ignores where they are in their files.
+    /// Ignores positions in the file.
     friend inline bool operator==(const Object& a, const Object& b) {
         return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
                a.color_texture == b.color_texture && a.color_texture_wrap == b.color_texture_wrap &&
@@ -130,7 +130,7 @@ struct Object {
 };
 
 /// One frame, if it is animated. Every value has been checked; every plugin named is installed (none is
-/// loaded). Constraints that only triangles can decide come later: candela.constraints.
+/// loaded). Constraints that depend on triangles come later: candela.constraints.
 struct Scene {
     Room room;
     Observer observer;
@@ -143,14 +143,14 @@ struct Scene {
     friend CANDELA_API bool operator==(const Scene& a, const Scene& b);
 };
 
-/// A scene as far as it was understood, so that the rest can be checked as well.
+/// The part of a scene that was understood, so that the rest can be checked as well.
 struct SceneDraft {
-    Scene scene;  // without the lights and objects whose kind, shape or place is unknown
+    Scene scene;  // without lights and objects whose kind, shape or position is unknown
     bool has_room = true;
     bool has_observer = true;                    // its position is known
     bool is_complete = true;                     // there were no errors
-    SourcePlace picture_place{};                 // of what says how large the picture is
-    std::vector<std::filesystem::path> files{};  // all that were read, as absolute paths
+    SourcePlace picture_place{};                 // of the setting that determines the picture's size
+    std::vector<std::filesystem::path> files{};  // all files that were read, as absolute paths
 };
 
 }  // namespace candela

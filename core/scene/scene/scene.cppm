@@ -24,7 +24,7 @@ import candela.registry;
 
 export namespace candela {
 
-/// All files that a scene consists of or names: itself, its includes, its environment, and every parameter
+/// All files that a scene consists of or names: its own, its includes, its environment, and every parameter
 /// that is a file. Absolute paths.
 CANDELA_API std::vector<std::filesystem::path> input_files(const SceneDraft& draft);
 
@@ -32,7 +32,7 @@ CANDELA_API std::vector<std::filesystem::path> input_files(const SceneDraft& dra
 class CANDELA_API SceneFrames {
   public:
     /// Reads and merges the files, and reads and validates what is animated. Reports all problems; returns
-    /// nothing if a file cannot be read as TOML. `registry` is to outlive the frames.
+    /// nothing if a file cannot be read as TOML. `registry` must outlive the frames.
     static std::optional<SceneFrames> read(const SceneRequest& request, Registry& registry,
                                            Diagnostics& diagnostics);
     SceneFrames(SceneFrames&&) noexcept;
@@ -42,7 +42,7 @@ class CANDELA_API SceneFrames {
     /// Nothing if the scene is not animated, or if its animation has errors.
     const std::optional<Animation>& animation() const;
     int count() const;
-    /// Whether the animation has errors; frames are then as if there were none.
+    /// Whether the animation has errors; frames then ignore it.
     bool is_broken() const;
 
     /// Validates a frame and reports all its problems. Throws Error (bad_request) if there is no such frame.
@@ -59,7 +59,7 @@ class CANDELA_API SceneFrames {
 CANDELA_API std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
                                                   Diagnostics& diagnostics);
 
-/// Same, but returns the scene only if nothing worse than warnings was found.
+/// Like draft_scene(), but returns the scene only if there was nothing worse than warnings.
 CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
                                             Diagnostics& diagnostics);
 
@@ -69,11 +69,11 @@ CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registr
 /// objects.
 CANDELA_API std::string scene_text(const Scene& scene);
 
-/// The texts of a scene's files with `changes` written into them, of those that differ: values are
-/// replaced where they stand or added to their tables; comments, order and everything else stay. The files
-/// are not touched. Reports what is wrong with the scene or the changes, and then returns nothing. Throws
-/// Error (bad_request) if a file that has the changes would not make the scene that `request` with them in
-/// its settings is: if a setting or an object's own model prevails, for one.
+/// The texts of those files of a scene that `changes` modify, with the changes applied: values are replaced
+/// in place or added to their tables; comments, order and everything else stay. The files are not touched.
+/// Reports what is wrong with the scene or the changes, and then returns nothing. Throws Error (bad_request)
+/// if the changed files would yield a different scene than `request` with `changes` in its settings, for
+/// example because a setting or an object's own model prevails.
 CANDELA_API std::vector<TextChange> edited_files(const SceneRequest& request,
                                                  const std::vector<Setting>& changes, Registry& registry,
                                                  Diagnostics& diagnostics);

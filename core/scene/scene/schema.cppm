@@ -1,4 +1,4 @@
-// What the tables of a scene file may hold.
+// The allowed contents of a scene file's tables.
 module;
 
 #include "candela/api.h"
@@ -19,12 +19,12 @@ export namespace candela {
 struct PluginKey {
     std::string key;  // "type"
     PluginKind kind = PluginKind::light;
-    /// Where in the table the plugin's parameters are: beside the key (""), or in a nested table
+    /// Where in the table the plugin's parameters are: next to the key (""), or in a nested table
     /// ("material"). Nothing: not in this table.
     std::optional<std::string> parameters_in{};
 };
 
-/// What a table of the scene file may contain, apart from what plugins declare.
+/// The allowed contents of one table of the scene file, apart from what plugins declare.
 struct TableSchema {
     std::string name;   // "image", "light"
     std::string title;  // as written in a file: "[image]", "[[light]]"

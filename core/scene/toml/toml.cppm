@@ -33,7 +33,7 @@ struct TableNode {
 
 using ArrayNode = std::vector<Node>;
 
-/// TOML has dates and times; no scene does.
+/// TOML has dates and times; scenes do not.
 struct DateNode {};
 
 struct Node {
@@ -72,20 +72,20 @@ CANDELA_API std::optional<TableNode> read_document(const std::filesystem::path& 
                                                    const std::string& shown_name, ReadingLimits& left,
                                                    Diagnostics& diagnostics);
 
-/// Same, of what was read from something that is no file, such as a pipe.
+/// Like the above, for bytes that did not come from a file but, for example, a pipe.
 CANDELA_API std::optional<TableNode> read_document(std::string bytes, const std::string& shown_name,
                                                    ReadingLimits& left, Diagnostics& diagnostics);
 
-/// A value that is on one line, as its author wrote it: "255.0", "1e3"; empty if its text is not at hand.
+/// A value that is on one line, as its author wrote it: "255.0", "1e3"; empty if its text is not available.
 CANDELA_API std::string as_written(const Node& node, const Diagnostics& diagnostics);
 
-/// "did you mean 'scene.toml'?", from the files where `missing` is not; or empty.
+/// "did you mean 'scene.toml'?", from the names of files in the folder of `missing`; or empty.
 CANDELA_API std::string file_suggestion(const std::filesystem::path& missing);
 
 CANDELA_API std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
                                                     Diagnostics& diagnostics);
 
-/// A value as it is written after a `=`; bare words are strings. Reports problems at `place`.
+/// Parses a value as written after a `=`; bare words are strings. Reports problems at `place`.
 CANDELA_API std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
                                             Diagnostics& diagnostics);
 
@@ -98,13 +98,13 @@ CANDELA_API std::string toml_key(std::string_view key);
 /// Any value, on one line.
 CANDELA_API std::string toml_text(const Node& node);
 
-/// A part of a text, and what is to stand in its place.
+/// A part of a text, and its replacement.
 struct TextEdit {
     std::size_t begin = 0, end = 0;  // bytes
     std::string text;
 };
 
-/// The text that a document was parsed from, to be edited.
+/// The text that a document was parsed from, for editing.
 class CANDELA_API SourceText {
   public:
     explicit SourceText(std::string text);
@@ -112,7 +112,7 @@ class CANDELA_API SourceText {
     const std::string& text() const noexcept { return text_; }
     /// "\r\n" if there is one, else "\n".
     std::string_view line_break() const noexcept { return line_break_; }
-    /// Where a line and a column are, which count from 1, in characters.
+    /// The offset of a line and a column, which count from 1, in characters.
     std::size_t offset_of(const SourcePlace& place) const;
 
   private:
@@ -121,7 +121,8 @@ class CANDELA_API SourceText {
     std::vector<std::size_t> line_begins_;
 };
 
-/// Whether a table has a header or braces, instead of being made by dotted keys in the lines of another.
+/// Whether a table has its own header or braces, instead of being made by dotted keys in the lines of
+/// another.
 CANDELA_API bool has_lines_of_its_own(const SourceText& text, const Node& table);
 
 CANDELA_API TextEdit replacement(const SourceText& text, const Node& value, const std::string& by);
@@ -136,7 +137,7 @@ CANDELA_API TextEdit insertion(const SourceText& text, const TableNode& table, c
 /// Adds a table at the end.
 CANDELA_API TextEdit new_table(const SourceText& text, const std::string& name, const Entries& entries);
 
-/// Applies edits, those at one place in their order. Throws Error (bad_request) if two overlap.
+/// Applies edits; those at one offset in their order. Throws Error (bad_request) if two overlap.
 CANDELA_API std::string edited(std::string_view text, const std::vector<TextEdit>& edits);
 
 }  // namespace candela

@@ -22,10 +22,10 @@ struct TableContext {
     std::string where;   // "[image]", "[[light]] 'lamp'"
     Help help;           // where its keys are explained
     SourcePlace place;   // of the table itself, for missing keys
-    std::string note{};  // said with every unknown key; may be empty
-    /// What an unknown key is called here, or where it belongs; null, or empty if that is not known.
+    std::string note{};  // appended to the message on every unknown key; may be empty
+    /// The name of an unknown key here, or the table where it belongs; null, or empty if that is unknown.
     std::function<std::string(const std::string& key)> hint{};
-    bool lists_keys = false;  // whether the known keys are said with an unknown one
+    bool lists_keys = false;  // whether the message on an unknown key lists the known ones
 };
 
 /// The values of the keys in `schema`, with its defaults for missing ones. Reports wrong types, values out of
@@ -33,7 +33,7 @@ struct TableContext {
 /// are ignored. Paths become absolute, relative to the file that contains them.
 CANDELA_API ParamSet read_parameters(const TableNode& table, SharedSchema schema, const TableContext& context,
                                      Diagnostics& diagnostics);
-/// Same, for a schema that is not shared.
+/// Like the above, for a schema that is not shared.
 CANDELA_API ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema,
                                      const TableContext& context, Diagnostics& diagnostics);
 

@@ -1,9 +1,9 @@
-// Files as text in the library that is compiled.
+// Embeds files as text in the library being compiled.
 #pragma once
 
-/// Defines `const char variable[]`, the text of the file at `path` (absolute, a string literal), which ends
-/// with a null. At namespace scope, in a source file. The build has to know that the object depends on the
-/// file: candela_embed().
+/// Defines `const char variable[]`, the null-terminated text of the file at `path` (absolute, a string
+/// literal). At namespace scope, in a source file. The build must know that the object depends on the file:
+/// candela_embed().
 #define CANDELA_EMBED(variable, path)                                                \
     __asm__(".pushsection .rodata\ncandela_embedded_" #variable ":\n.incbin \"" path \
             "\"\n.byte 0\n.popsection\n");                                           \

@@ -13,14 +13,14 @@
 
 namespace candela::sdk {
 
-/// For readers of formats that bound how much they compress: refuses a file of a few bytes that speaks of a
-/// hundred million pixels, before memory is asked for them. `pixels_per_byte`: the most that there can be.
+/// For readers of formats with a bounded compression ratio: refuses a file of a few bytes that claims a
+/// hundred million pixels before memory is allocated for them. `pixels_per_byte`: the highest possible ratio.
 /// Throws std::runtime_error.
 inline void require_plausible(std::uintmax_t pixels, std::uintmax_t file_size,
                               std::uintmax_t pixels_per_byte) {
     if (pixels > pixels_per_byte * file_size)
         throw std::runtime_error(
-            "it is too small a file for its pixels: it is cut off, or its header is wrong");
+            "the file is too small for its pixels: it is truncated, or its header is wrong");
 }
 
 }  // namespace candela::sdk

@@ -41,7 +41,7 @@ constexpr Field<P> light_intensity(float P::* member, const char* meaning) {
     return real(member, "intensity", 1, meaning).minimum(0);
 }
 
-/// The parameters of kernel function distance_attenuation().
+/// The choices of the kernel function distance_attenuation().
 inline constexpr const char* k_attenuations[] = {"inverse-square", "offset-linear", "none"};
 template <class P>
 constexpr Field<P> attenuation(std::int32_t P::* member) {

@@ -1,4 +1,4 @@
-// Presets of materials, for models whose material has the parameters that they set: About::presets.
+// Presets of materials, for models whose parameters have these names: About::presets.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace candela::sdk {
 
-/// What OpenGL's fixed lighting, which is Blinn-Phong's, was given for a material.
+/// A material's parameters for OpenGL's fixed-function lighting, which is Blinn-Phong's.
 struct ClassicMaterial {
     const char* name = "";
     float ambient[3] = {};
@@ -73,7 +73,7 @@ inline constexpr ClassicMaterial k_classic_materials[] = {
     {"yellow plastic", {0.0f, 0.0f, 0.0f}, {0.5f, 0.5f, 0.0f}, {0.6f, 0.6f, 0.5f}, 0.25f},
 };
 
-/// A metal's reflectance at normal incidence, linear, and the same as a colour, sRGB.
+/// A metal's reflectance at normal incidence, linear, and the same as an sRGB colour.
 struct MeasuredMetal {
     const char* name = "";
     float reflectance[3] = {};
@@ -100,7 +100,8 @@ constexpr PresetValue preset_value(const char* parameter, float number) {
     return {.parameter = parameter, .value = {.number = {number}}};
 }
 
-/// Of a classic material: ka, kd, ks and shininess, of a white object, since ka and kd have its colour.
+/// The values of a classic material: ka, kd, ks and shininess of a white object, since ka and kd include its
+/// colour.
 inline constexpr auto k_classic_values = [] {
     std::array<std::array<PresetValue, 4>, std::size(k_classic_materials)> values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -111,7 +112,7 @@ inline constexpr auto k_classic_values = [] {
     return values;
 }();
 
-/// For models with ka, kd, ks and shininess. Some send out more light than they receive, as they did then.
+/// For models with ka, kd, ks and shininess. Some emit more light than they receive, as they did in OpenGL.
 inline constexpr auto k_classic_presets = [] {
     std::array<PresetSpec, std::size(k_classic_materials)> presets{};
     for (std::size_t i = 0; i < presets.size(); ++i) {
@@ -126,8 +127,8 @@ inline constexpr auto k_classic_presets = [] {
     return presets;
 }();
 
-/// Of a metal: no diffuse reflection, and its reflectance as ks. With an index of refraction of 100,
-/// Fresnel's factor is 0.96 and more, and nearly the same at all angles.
+/// The values of a metal: no diffuse reflection, and its reflectance as ks. With an index of refraction of
+/// 100, Fresnel's factor is at least 0.96, and nearly equal at all angles.
 inline constexpr auto k_metal_values = [] {
     std::array<std::array<PresetValue, 3>, std::size(k_measured_metals)> values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -137,7 +138,7 @@ inline constexpr auto k_metal_values = [] {
     return values;
 }();
 
-/// For models with kd, ks and ior; roughness stays as it is.
+/// For models with kd, ks and ior; roughness is unchanged.
 inline constexpr auto k_metal_presets = [] {
     std::array<PresetSpec, std::size(k_measured_metals)> presets{};
     for (std::size_t i = 0; i < presets.size(); ++i) {

@@ -1,4 +1,5 @@
-// What every plugin needs: its parameters, mapped to the members of a struct, and its two exported functions.
+// The base of every plugin: its parameters, mapped to the members of a struct, and its two exported
+// functions.
 //
 // A plugin's source includes the header of its kind (light_plugin.h, reflection_plugin.h, …), which includes
 // this one, and ends with that header's macro. CANDELA_PLUGIN_NAME, CANDELA_PLUGIN_VERSION and
@@ -27,7 +28,7 @@
 namespace candela::sdk {
 
 #ifdef CANDELA_KERNEL_FILE
-/// The text of the plugin's .kernel file, as CANDELA_EMBED_KERNEL puts it into the library.
+/// The text of the plugin's .kernel file, which CANDELA_EMBED_KERNEL embeds in the library.
 extern const char k_kernel_text[] __asm__("candela_kernel_text") __attribute__((visibility("hidden")));
 #else
 inline constexpr const char* k_kernel_text = nullptr;
@@ -59,7 +60,7 @@ struct Field {
     void store(Params& params, const ParamValue& value) const {
         if (real != nullptr) params.*real = value.number[0];
         if (integer != nullptr) params.*integer = value.integer;
-        // Otherwise g++ warns of a member beyond the end of a struct that is too small for one.
+        // Otherwise g++ warns about a member past the end of a struct too small to have one.
         if constexpr (sizeof(Params) >= sizeof(vec3)) {
             if (vector != nullptr) params.*vector = vec3(value.number[0], value.number[1], value.number[2]);
         }
@@ -72,7 +73,7 @@ struct Field {
         if (text != nullptr) params.*text = value.text;
     }
 
-    /// The numbers of the member, if it is a table. Throws std::exception where a file has none.
+    /// The numbers of the member, if it is a table. Throws std::exception if the file has none.
     std::vector<float> numbers_of(const ParamValue& value) const {
         if (table == nullptr) return {};
         if (read_table == nullptr) return {value.list.begin(), value.list.end()};
@@ -110,7 +111,7 @@ struct Field {
     constexpr Field required() const {
         return with([&](ParamSpec& s) { s.required = true; });
     }
-    /// Of a file: without one, a text is empty and a table has no numbers.
+    /// For a file: if it is not set, the text is empty or the table has no numbers.
     constexpr Field optional() const {
         return with([&](ParamSpec& s) { s.required = false; });
     }
@@ -124,8 +125,7 @@ struct Field {
     }
 };
 
-// Declarations. `meaning` is one sentence; a default is given as a person writes it in a scene: degrees,
-// colours 0-255.
+// Declarations. `meaning` is one sentence; a default is given as written in a scene: degrees, colours 0-255.
 
 template <class P>
 constexpr Field<P> real(float P::* member, const char* name, float default_value, const char* meaning) {
@@ -205,7 +205,7 @@ constexpr Field<P> matrix(mat3 P::* member, const char* name, const char* meanin
     std::copy(rows.begin(), rows.end(), field.spec.default_value.number);
     return field;
 }
-/// A list of numbers. `default_value` is an array that lives as long as the library.
+/// A list of numbers. `default_value` is an array with the lifetime of the library.
 template <class P>
 constexpr Field<P> numbers(Table P::* member, const char* name, std::span<const float> default_value,
                            const char* meaning) {
@@ -215,7 +215,7 @@ constexpr Field<P> numbers(Table P::* member, const char* name, std::span<const 
                      .default_value = {.list = default_value}},
             .table = member};
 }
-/// A file; the member receives the table that `read` makes of it, once for each instance. `read` may throw
+/// A file; the member receives the table that `read` makes of it, once per instance. `read` may throw
 /// std::exception.
 template <class P>
 constexpr Field<P> file_table(Table P::* member, const char* name,
@@ -260,7 +260,7 @@ class WithTables final : public Model {
     TableNumbers tables_;
 };
 
-/// A new instance from `prepare(params)`, with `params` filled according to `fields`.
+/// Creates an instance from `prepare(params)`, with `params` filled according to `fields`.
 template <class Model, bool has_tables, class Params, std::size_t count, class Prepare>
 Instance* created(const std::array<Field<Params>, count>& fields, std::span<const ParamValue> values,
                   Prepare prepare) {
@@ -283,7 +283,7 @@ Instance* created(const std::array<Field<Params>, count>& fields, std::span<cons
     }
 }
 
-/// What a plugin says about itself, apart from its parameters.
+/// The description of a plugin, apart from its parameters.
 struct About {
     const char* title = "";
     const char* summary = "";
@@ -313,8 +313,8 @@ constexpr KernelFunction kernel_function(const char* name) {
     return {name, takes_first<Params>(function)};
 }
 
-/// Whether every member of a kernel's struct is a parameter. (Its members are numbers, and tables that are
-/// aligned as those, so that nothing lies between them.)
+/// Whether every member of a kernel's struct is a parameter. (Its members are numbers, and tables with the
+/// same alignment, so there is no padding.)
 template <class Params, std::size_t count>
 constexpr bool fill_all_members(const std::array<Field<Params>, count>& fields) {
     std::size_t size = 0;
@@ -327,7 +327,7 @@ constexpr bool fill_all_members(const std::array<Field<Params>, count>& fields) 
     return count == 0 ? std::is_empty_v<Params> : size == sizeof(Params);
 }
 
-/// The fields in the order of their members: their indices.
+/// The indices of the fields in the order of their members.
 template <class Params, std::size_t count>
 std::array<std::size_t, count> by_member(const std::array<Field<Params>, count>& fields) {
     const Params params{};
@@ -341,7 +341,7 @@ std::array<std::size_t, count> by_member(const std::array<Field<Params>, count>&
     return order;
 }
 
-/// The functions of `Model`, and before them x_prepare, where the kernel has it.
+/// The functions of `Model`, preceded by x_prepare if the kernel has it.
 template <class Model, bool is_prepared>
 std::span<const KernelFunction> kernel_functions() {
     if constexpr (is_prepared) {
@@ -357,7 +357,7 @@ std::span<const KernelFunction> kernel_functions() {
     }
 }
 
-/// What a descriptor says of the kernel behind `Model`, which lists its functions in `k_kernel_functions`;
+/// The descriptor's entry for the kernel behind `Model`, which lists its functions in `k_kernel_functions`;
 /// `parameters` is the name of `Params`, as its author wrote it.
 template <class Model, class Params, bool is_prepared, std::size_t count>
 KernelText kernel_text(const char* prefix, const char* parameters,
@@ -400,12 +400,13 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 #define CANDELA_EXPORT __attribute__((visibility("default")))
 
 /// Exports a plugin of `kind_` whose instances are created by `new Model(params)`, with `params` filled
-/// according to `fields_`, an array of candela::sdk::Field. The rest is a candela::sdk::About.
+/// according to `fields_`, an array of candela::sdk::Field. The other arguments initialise a
+/// candela::sdk::About.
 #define CANDELA_PLUGIN(kind_, Model, fields_, ...) \
     CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, std::identity(), candela::KernelText{}, __VA_ARGS__)
 
 #ifdef CANDELA_KERNEL_FILE
-// The assembler reads the file, as no C++ of today can.
+// The assembler reads the file: C++ cannot yet.
 #define CANDELA_EMBED_KERNEL                                                             \
     __asm__(".pushsection .rodata\ncandela_kernel_text:\n.incbin \"" CANDELA_KERNEL_FILE \
             "\"\n"                                                                       \
@@ -414,14 +415,14 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 #define CANDELA_EMBED_KERNEL
 #endif
 
-/// What the functions of a kernel get first, within CANDELA_KERNEL_PLUGIN: the result of
-/// `prefix_prepare(Params_)` where there is that function, else `Params_`.
+/// The type of the first argument of a kernel's functions, within CANDELA_KERNEL_PLUGIN: the result of
+/// `prefix_prepare(Params_)` if that function exists, otherwise `Params_`.
 #define CANDELA_KERNEL_CONSTANTS(prefix_, Params_) \
     decltype(prefix_##_preparation::run(std::declval<const Params_&>()))
 
-/// The same for a plugin made of kernel functions: `prefix_` begins their names, `Params_`, or what
-/// `prefix_prepare` makes of it, is their first argument, `Model` lists them in a static member
-/// `k_kernel_functions`. The name `prefix_prepare` is looked up by its argument, as it need not exist.
+/// Like CANDELA_PLUGIN, for a plugin made of kernel functions: their names begin with `prefix_`, and their
+/// first argument is `Params_`, or what `prefix_prepare` makes of it. `Model` lists them in a static member
+/// `k_kernel_functions`. `prefix_prepare` is found by argument-dependent lookup, as it need not exist.
 #define CANDELA_KERNEL_PLUGIN(kind_, Model, prefix_, Params_, fields_, ...)                                  \
     CANDELA_EMBED_KERNEL                                                                                     \
     namespace {                                                                                              \

@@ -1,5 +1,5 @@
-// For tests of a plugin, with any compiler: instances made as a host makes them, what a model reflects, and
-// the triangles of a shape.
+// For tests of a plugin, with any compiler: creates instances as a host does, evaluates reflection models,
+// and collects the triangles of a shape.
 //
 //     const auto light = candela::sdk::make<candela::Light>(CANDELA_PLUGIN_DIR, "lantern",
 //     {{"intensity", 3.0}});
@@ -30,7 +30,7 @@
 
 namespace candela::sdk {
 
-/// The kind whose plugins make instances of `Interface`.
+/// The kind of plugin whose instances implement `Interface`.
 template <class Interface>
 constexpr PluginKind kind_of() {
     if constexpr (std::is_same_v<Interface, Light>) return PluginKind::light;
@@ -41,8 +41,8 @@ constexpr PluginKind kind_of() {
     if constexpr (std::is_same_v<Interface, Target>) return PluginKind::target;
 }
 
-/// An instance of the plugin in `directory`; parameters that are not among `settings` have their defaults.
-/// Throws std::exception, with the message that a user would see.
+/// Creates an instance of the plugin in `directory`; parameters not among `settings` have their defaults.
+/// Throws std::exception with the message that a user would see.
 template <class Interface>
 std::unique_ptr<Interface> make(std::string_view directory, std::string_view name,
                                 std::initializer_list<ParamSetting> settings = {}) {
@@ -54,12 +54,12 @@ std::unique_ptr<Interface> make(std::string_view directory, std::string_view nam
     return std::unique_ptr<Interface>(typed);
 }
 
-/// What a reflection model makes of white light at a white point.
+/// The reflection of white light by a model at a white point.
 struct Reflection {
     Vec3 ambient, diffuse, specular;
 };
 
-/// Of a light of intensity 1, ambient light apart. The normal is +y; observer and light are in the plane
+/// For a light of intensity 1, without ambient light. The normal is +y; observer and light are in the plane
 /// x = 0, at angles in degrees from the normal towards +z.
 inline Reflection reflected(const ReflectionModel& model, float observer, float light) {
     constexpr float k_degree = 0.0174532925f;
@@ -82,7 +82,7 @@ inline Reflection reflected(const ReflectionModel& model, float observer, float 
     return {{out[0], out[1], out[2]}, {out[3], out[4], out[5]}, {out[6], out[7], out[8]}};
 }
 
-/// The same of the reflection model in `directory` that `settings` make; throws what make() throws.
+/// Like the above, for the reflection model in `directory` with `settings`. Throws like make().
 inline Reflection reflected(std::string_view directory, std::string_view name,
                             std::initializer_list<ParamSetting> settings, float observer, float light) {
     return reflected(*make<ReflectionModel>(directory, name, settings), observer, light);

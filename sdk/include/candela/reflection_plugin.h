@@ -1,4 +1,4 @@
-// A reflection model from two kernel functions:
+// Makes a reflection model from two kernel functions:
 //
 //     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
 //     vec3 x_reflect_ambient(XMaterial m, Surface s)
@@ -34,8 +34,8 @@ constexpr Field<M> shininess(float M::* member) {
 inline constexpr RelationSpec k_diffuse_and_specular[] = {
     {RelationType::sum_at_most_one, "kd", "ks", true, "the surface sends out more light than it receives"}};
 
-/// What a model's kernel reads of Surface beyond normal, to_observer and color: joined by |. Nothing else is
-/// filled.
+/// The members of Surface that a model's kernel reads in addition to normal, to_observer and color, joined by
+/// |. No others are filled.
 enum SurfaceReads : unsigned { reads_no_more = 0, reads_tangent = 1, reads_position = 2, reads_uv = 4 };
 constexpr SurfaceReads operator|(SurfaceReads a, SurfaceReads b) {
     return static_cast<SurfaceReads>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -70,8 +70,8 @@ CANDELA_KERNEL_INLINE SurfaceBatch part_of(const SurfaceBatch& surface, std::siz
     return part;
 }
 
-/// How many points pass through a loop in one go: few enough to stay in the first-level cache, and enough for
-/// four vectors side by side.
+/// The number of points that pass through a loop at once: few enough to stay in the first-level cache, enough
+/// to interleave four vectors.
 inline constexpr std::size_t k_pass_size = 64;
 
 struct PassVectors {
@@ -80,12 +80,11 @@ struct PassVectors {
     CANDELA_KERNEL_INLINE Vec3Span span() { return {x, y, z}; }
 };
 
-/// A batch, pass by pass, in which each point has a colour: its own, or the one that all of them have. The
-/// arrays of every pass have k_pass_size elements: where the batch does not fill its last pass, its last
-/// point does.
+/// A batch, split into passes, in which each point has a colour: its own or the common one. Each pass has
+/// arrays of k_pass_size elements; if the batch does not fill its last pass, its last point is repeated.
 class SurfacePasses {
   public:
-    // Not within the loops over points, whose vectorisation is watched.
+    // Not inside the loops over points, whose vectorisation is verified.
     explicit SurfacePasses(const SurfaceBatch& surface)
         : surface_(surface), whole_(surface.count / k_pass_size * k_pass_size) {
         if (!surface.point_color) {
@@ -111,7 +110,7 @@ class SurfacePasses {
     SurfacePasses& operator=(const SurfacePasses&) = delete;
 
     CANDELA_KERNEL_INLINE std::size_t count() const { return surface_.count; }
-    /// How many points are in passes that they fill.
+    /// The number of points in full passes.
     CANDELA_KERNEL_INLINE std::size_t whole() const { return whole_; }
     CANDELA_KERNEL_INLINE SurfaceBatch from(std::size_t first) const {
         SurfaceBatch pass = first < whole_ ? part_of(surface_, first, k_pass_size) : rest_;
@@ -176,19 +175,19 @@ struct ReflectAmbientLoop {
     }
 };
 
-/// Points on their way through one light after another.
+/// Points that are lit by one light after another.
 struct PunctualBatch {
     PassVectors to_observer, to_light;
     alignas(64) float attenuation[k_pass_size];
 };
 
-/// The positions of a pass as w times themselves: what is infinitely far away looks the same from everywhere.
+/// The positions of a pass multiplied by w: what is infinitely far away looks the same from everywhere.
 CANDELA_KERNEL_INLINE ConstVec3Span seen_from(const ConstVec3Span& position, float w) {
     alignas(64) static constexpr float k_zero[k_pass_size] = {};
     return w != 0 ? position : ConstVec3Span{k_zero, k_zero, k_zero};
 }
 
-/// The way to a light, and its attenuation. At the light itself, L is N.
+/// The direction to a light, and its attenuation. At the light itself, L is N.
 /// `position`: see seen_from().
 CANDELA_KERNEL_INLINE void look_at(PunctualLight light, const ConstVec3Span& position,
                                    const ConstVec3Span& normal, PunctualBatch& batch) {
@@ -251,7 +250,7 @@ struct ReflectPunctualLoop {
         }
     }
 
-    /// `rest`: what the last pass reflects, where the batch does not fill it.
+    /// `rest`: the reflection of the last pass, if the batch does not fill it.
     CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes,
                                        PunctualLighting lighting, Vec3Span intensity, PassVectors* rest) {
         for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
@@ -316,7 +315,8 @@ class KernelReflection : public ReflectionModel {
                                                           &candela::kernel::prefix##_reflect_ambient>), \
                           prefix, Material, fields, __VA_ARGS__)
 
-/// The same for a model that reads more of Surface: `reads` is, for example, reads_position | reads_uv.
+/// Like CANDELA_REFLECTION_PLUGIN, for a model that reads more of Surface: `reads` is, for example,
+/// reads_position | reads_uv.
 #define CANDELA_REFLECTION_PLUGIN_READING(reads, prefix, Material, fields, ...)                \
     CANDELA_KERNEL_PLUGIN(                                                                     \
         reflection,                                                                            \
@@ -325,6 +325,6 @@ class KernelReflection : public ReflectionModel {
                                         &candela::kernel::prefix##_reflect_ambient, (reads)>), \
         prefix, Material, fields, __VA_ARGS__)
 
-/// The same for a model that reads Surface::tangent.
+/// Like CANDELA_REFLECTION_PLUGIN, for a model that reads Surface::tangent.
 #define CANDELA_ANISOTROPIC_REFLECTION_PLUGIN(prefix, Material, fields, ...) \
     CANDELA_REFLECTION_PLUGIN_READING(candela::sdk::reads_tangent, prefix, Material, fields, __VA_ARGS__)

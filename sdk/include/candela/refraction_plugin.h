@@ -1,4 +1,4 @@
-// A reflection model that shows the object's surroundings, from five kernel functions:
+// Makes a reflection model that shows the object's surroundings from five kernel functions:
 //
 //     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
 //     vec3 x_reflect_ambient(XMaterial m, Surface s)
@@ -6,9 +6,9 @@
 //     Refracted x_leave(XMaterial m, vec3 direction, vec3 normal)
 //     vec3 x_transmit(XMaterial m, vec3 color, float distance)
 //
-// The first two are those of reflection_plugin.h. The others say what happens where the line of sight enters,
-// what happens where it meets the surface from within, and how much light remains after a distance in the
-// material.
+// The first two are those of reflection_plugin.h. The others define what happens where the line of sight
+// enters, what happens where it meets the surface from inside, and how much light remains after a distance in
+// the material.
 //
 // The material has a member `int internal_reflections`.
 #pragma once
@@ -19,31 +19,32 @@
 
 namespace candela::sdk {
 
-/// A ray is not followed where what is left of it can change no channel of what it shows by more than this
-/// share: less than a quarter of the smallest step of a picture with eight bits.
+/// A ray is no longer followed if its remainder can change no channel of what it shows by more than this
+/// fraction: less than a quarter of the smallest step of an 8-bit picture.
 inline constexpr float k_negligible = 1.0f / 1024;
 
 /// Lines of sight that are followed together. Those that have ended are removed.
 struct Rays {
     static constexpr std::size_t k_size = k_pass_size;
 
-    PassVectors origin{}, direction{}, weight{};  // `weight`: the share of what they meet that is visible
+    PassVectors origin{}, direction{}, weight{};  // `weight`: the fraction of what they meet that is visible
     PassVectors color{};                          // C_o where they enter
-    PassVectors towards{}, share{}, seen{};       // where they look, and how much of that is visible
-    PassVectors total{};                          // all that was visible so far
+    PassVectors towards{}, share{}, seen{};       // their outward directions, and the visible fraction of
+                                                  // what lies there
+    PassVectors total{};                          // everything visible so far
     PassVectors exit_position{}, exit_normal{};
     alignas(64) float distance[k_size]{};
-    std::uint32_t point[k_size];  // at which they entered
+    std::uint32_t point[k_size];  // where they entered
     std::size_t count = 0;
 
-    /// As many, in whole vectors: loops over them have no remainder, and what ended rays have left is no
-    /// harm.
+    /// Their number in whole vectors, so that loops over them have no remainder; what ended rays have left
+    /// there is harmless.
     std::size_t filled() const {
         constexpr std::size_t k_vector = 16;
         return (count + k_vector - 1) / k_vector * k_vector;
     }
 
-    /// Removes the rays of which nothing is left, or all of them, and adds what they have shown.
+    /// Removes the rays that have no weight left, or all of them, and adds what they have shown.
     void remove_ended(bool all, const Vec3Span& sum) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +63,7 @@ struct Rays {
     }
 };
 
-/// At the surface: a part looks towards the mirror image, the rest enters.
+/// At the surface: one part looks towards the mirror image, the rest enters.
 template <class Material, auto enter, SurfaceReads reads>
 struct EnterLoop {
     CANDELA_BATCH_LOOP static void run(Material material, SurfaceBatch surface, Rays* rays) {
@@ -84,7 +85,7 @@ struct EnterLoop {
     }
 };
 
-/// At the surface, from within: a part leaves and looks outwards, the rest stays.
+/// At the surface, from inside: one part leaves and looks outwards, the rest stays.
 template <class Material, auto leave, auto transmit>
 struct LeaveLoop {
     CANDELA_BATCH_LOOP static void run(Material material, Rays* rays, bool is_last, float max_intensity) {
@@ -103,8 +104,8 @@ struct LeaveLoop {
             const vec3 change =
                 weight * (refracted.mirrored * max_intensity) - k_negligible * load(r.total, i);
             const bool is_negligible = kernel::max(kernel::max(change.x, change.y), change.z) <= 0.0f;
-            // Finally everything that is left exits, so that no light is lost; straight on if it cannot be
-            // refracted.
+            // At the end, everything that is left exits, so that no light is lost; straight on if it cannot
+            // be refracted.
             const float out = is_lost || is_negligible ? 1.0f : kernel::max(1.0f - refracted.mirrored, last);
             const float refracts = !is_lost && is_free ? 1.0f : 0.0f;
             const vec3 towards = refracts * refracted.direction + (1.0f - refracts) * direction;
@@ -162,8 +163,8 @@ class KernelRefraction : public ReflectionModel {
     }
 
   private:
-    /// The mirrored part, then what leaves at the far side, then what leaves after another internal
-    /// reflection …
+    /// The mirrored part, then the part that leaves at the far side, then the part that leaves after another
+    /// internal reflection …
     void follow(const SurfaceBatch& surface, Surroundings& surroundings, const Vec3Span& sum) const {
         Rays rays;
         rays.count = surface.count;

@@ -1,21 +1,22 @@
-// A shading model from one kernel function:
+// Makes a shading model from one kernel function:
 //
 //     vec3 x_normal(ShadingPoint p)                  the unit normal at a point, or
 //     vec3 x_normal(XShading shading, ShadingPoint p)    with parameters
 //
-// For vertex normals that are a weighted sum of the face normals, also
+// For vertex normals that are a weighted sum of the face normals, also:
 //
 //     float x_corner_weight(FaceCorner c)                 the weight of a face at one of its corners, or
 //     float x_corner_weight(XShading shading, FaceCorner c)
 //
-// A model that reads the vertices of its triangle, and their normals, takes it as the last argument:
+// A model that reads the vertices of its triangle, and their normals, takes the triangle as the last
+// argument:
 //
 //     vec3 x_normal(ShadingPoint p, Triangle t)          or
 //     vec3 x_normal(XShading shading, ShadingPoint p, Triangle t)
 //
 // A model that needs texture coordinates or derivatives, or does not read all of the face normal, the vertex
-// normal and the barycentric coordinates, names its ShadingNeeds as the last argument of KernelShading, in
-// CANDELA_KERNEL_PLUGIN. What it does not need is zero.
+// normal and the barycentric coordinates, passes its ShadingNeeds as the last argument of KernelShading, in
+// CANDELA_KERNEL_PLUGIN. Anything it does not need is zero.
 #pragma once
 
 #include <algorithm>
@@ -32,11 +33,11 @@
 
 namespace candela::sdk {
 
-/// The needs of models that read nothing but one normal.
+/// The needs of models that read only one normal.
 inline constexpr ShadingNeeds k_face_normal{.vertex_normal = false, .barycentric = false};
 inline constexpr ShadingNeeds k_vertex_normal{.face_normal = false, .barycentric = false};
 
-/// Whether a kernel's x_normal takes a Triangle: what it does not take is not filled.
+/// Whether a kernel's x_normal takes a Triangle. If not, the triangle is not filled.
 template <class Params, auto normal>
 inline constexpr bool takes_triangle =
     std::is_invocable_v<decltype(normal), Params, kernel::ShadingPoint, kernel::Triangle> ||
@@ -127,7 +128,7 @@ struct CornerWeightLoop {
 };
 
 /// A power of two that scales the mesh to about one unit, so that products of its edges stay within a float's
-/// range; exact, so that nothing else changes.
+/// range; being exact, it changes nothing else.
 inline float unit_scale(const MeshView& mesh) {
     float largest = 0;
     for (const float* const axis : {mesh.position.x, mesh.position.y, mesh.position.z}) {
@@ -138,7 +139,7 @@ inline float unit_scale(const MeshView& mesh) {
     return is_usual ? std::ldexp(1.0f, -std::ilogb(largest)) : 1.0f;
 }
 
-/// Sums the normals of the faces that share a vertex, weighted by `weight` of the face's corner there.
+/// Sums the normals of the faces that share a vertex, each weighted by `weight` of the face's corner there.
 template <class Params, auto weight>
 class WeightedNormals {
   public:
@@ -195,8 +196,7 @@ class WeightedNormals {
     std::array<float, k_batch> weights_;
 };
 
-/// Weighted vertex normals; the plain sum is used where no face has a weight, and authored normals take
-/// precedence.
+/// Weighted vertex normals. If no face has a weight, the plain sum is used; authored normals take precedence.
 template <class Params, ShadingRate rate, auto normal, auto weight, ShadingNeeds needs_ = ShadingNeeds{}>
 class WeightedShading : public KernelShading<Params, rate, normal, needs_> {
     using Base = KernelShading<Params, rate, normal, needs_>;
@@ -223,7 +223,8 @@ class WeightedShading : public KernelShading<Params, rate, normal, needs_> {
 #define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...) \
     CANDELA_SHADING_PLUGIN_NEEDING(candela::ShadingNeeds{}, prefix, rate, Params, fields, __VA_ARGS__)
 
-/// The same for a model that says what it reads: `needs` is a ShadingNeeds, for example k_vertex_normal.
+/// Like CANDELA_SHADING_PLUGIN, for a model that declares what it reads: `needs` is a ShadingNeeds, for
+/// example k_vertex_normal.
 #define CANDELA_SHADING_PLUGIN_NEEDING(needs, prefix, rate, Params, fields, ...)                           \
     CANDELA_KERNEL_PLUGIN(                                                                                 \
         shading,                                                                                           \
@@ -231,7 +232,8 @@ class WeightedShading : public KernelShading<Params, rate, normal, needs_> {
                                      &candela::kernel::prefix##_normal, (needs)>),                         \
         prefix, Params, fields, __VA_ARGS__)
 
-/// The same with vertex normals weighted by the kernel function `prefix_corner_weight`.
+/// Like CANDELA_SHADING_PLUGIN_NEEDING, with vertex normals weighted by the kernel function
+/// `prefix_corner_weight`.
 #define CANDELA_WEIGHTED_SHADING_PLUGIN(needs, prefix, rate, Params, fields, ...)                            \
     CANDELA_KERNEL_PLUGIN(                                                                                   \
         shading,                                                                                             \

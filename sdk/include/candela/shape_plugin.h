@@ -1,5 +1,5 @@
-// Shapes. A parametric surface comes from three kernel functions, with u and v from 0 to 1 and dpdu x dpdv
-// pointing outwards:
+// Makes shapes. A parametric surface comes from three kernel functions, with u and v from 0 to 1 and dpdu x
+// dpdv pointing outwards:
 //
 //     vec3 x_position(XShape s, float u, float v)
 //     vec3 x_dpdu(XShape s, float u, float v)
@@ -31,7 +31,7 @@ constexpr Field<P> segments(std::int32_t P::* member, std::int32_t default_value
 
 /// How the edges of a surface's parameter square are connected.
 struct Topology {
-    bool u_is_periodic = false;  // u = 1 is the same as u = 0
+    bool u_is_periodic = false;  // u = 0 and u = 1 are the same edge
     bool v_is_periodic = false;
     bool v_ends_in_poles = false;  // v = 0 and v = 1 are single points
 };
@@ -91,7 +91,7 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
         }
     }
 
-    // Coinciding vertices get one position to the last bit, and one normal.
+    // Coinciding vertices get exactly one position, and one normal.
     const auto same = [&](std::size_t vertex, std::size_t as) {
         mesh.position.set(vertex, mesh.position[as]);
         mesh.smooth_group[vertex] = mesh.smooth_group[as];
@@ -130,7 +130,8 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
     }
 }
 
-/// A shape whose parameters have a member `segments`: the number of faces along u, and half as many along v.
+/// A shape whose parameters have a member `segments`: the number of faces along u. There are half as many
+/// along v.
 template <class Params, auto position, auto dpdu, auto dpdv, Topology topology>
 class ParametricShape : public Shape {
   public:
@@ -151,7 +152,7 @@ class ParametricShape : public Shape {
     Params params_;
 };
 
-/// Assigns vertices at one position, to the last bit, to one smooth group.
+/// Assigns vertices at exactly one position to one smooth group.
 inline void weld_by_position(ConstVec3Span position, std::size_t count,
                              std::span<std::uint32_t> smooth_group) {
     std::ranges::copy(welded(position, count), smooth_group.begin());

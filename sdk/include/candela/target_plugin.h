@@ -1,10 +1,10 @@
-// A target plugin: a class derived from candela::Target with a constructor that takes its parameters
-// (candela::sdk::NoParams, usually), and
+// A target plugin: a class derived from candela::Target whose constructor takes its parameters (usually
+// candela::sdk::NoParams), and
 //
 //     CANDELA_PLUGIN(target, MyTarget, candela::sdk::k_no_fields, {.title = …, .summary = …})
 //
-// What targets have in common (templates, literals, kernels as text, GLSL) is in the library candela::target,
-// whose headers are candela/target/*.h.
+// The library candela::target has what targets share (templates, literals, kernels as text, GLSL); its
+// headers are candela/target/*.h.
 #pragma once
 
 #include "candela/plugin.h"

@@ -1,6 +1,6 @@
-// What must match between the host and a plugin, as one line of text compiled into both: all that changes the
-// layout of what crosses the boundary, or how it is called. Not the compiler: g++ and clang follow the same
-// Itanium C++ ABI.
+// The ABI that the host and a plugin must agree on, as one line of text compiled into both: everything that
+// changes the layout of what crosses the boundary, or how it is called. The compiler need not match: g++ and
+// clang follow the same Itanium C++ ABI.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 #define CANDELA_ABI_TEXT(x) CANDELA_ABI_TEXT_(x)
 #define CANDELA_ABI_TEXT_(x) #x
 
-// Below 1002 lies what g++ 3.3 and older did.
+// Values below 1002 are the ABIs of g++ 3.3 and older.
 #if defined(__GXX_ABI_VERSION) && __GXX_ABI_VERSION >= 1002
 #define CANDELA_ABI_CXX "itanium c++ abi"
 #else
@@ -30,14 +30,14 @@
 #else
 #define CANDELA_ABI_LIBRARY "libstdc++ old"
 #endif
-// Its containers are then larger.
+// Makes the library's containers larger.
 #if defined(_GLIBCXX_DEBUG)
 #define CANDELA_ABI_DEBUG " debug"
 #else
 #define CANDELA_ABI_DEBUG ""
 #endif
 
-// The host asks of which class an instance is, and an exception of either side may pass through the other.
+// The host queries the class of an instance, and exceptions of either side may cross the boundary.
 #if defined(__cpp_rtti)
 #define CANDELA_ABI_RTTI "rtti"
 #else
@@ -51,12 +51,12 @@
 
 namespace candela::abi {
 
-/// Without a type of its own: as large as the compiler's switches say.
+/// Has no underlying type: its size depends on compiler switches.
 enum PlainEnum { plain_enum };
 
 using Text = std::array<char, 160>;
 
-/// `before`, the sizes that switches such as -fpack-struct and -fshort-enums change, and a null.
+/// Appends to `before` the sizes that switches such as -fpack-struct and -fshort-enums change, and a null.
 constexpr Text with_sizes(std::string_view before) {
     Text text{};
     std::size_t end = 0;

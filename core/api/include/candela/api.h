@@ -1,4 +1,4 @@
-// Visibility of what libcandela_core.so exports. A macro, because macros do not cross modules.
+// Visibility of what libcandela_core.so exports: a macro, because modules do not export macros.
 #pragma once
 
 #if __cplusplus < 202002L

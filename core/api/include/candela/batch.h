@@ -1,6 +1,6 @@
 // Loads and stores of structure-of-arrays batches: element i of three arrays as a vector of the kernel
-// language, for the bodies of batch loops. Works on whatever has members x, y and z that can be indexed:
-// Vec3Span, ConstVec3Span, arrays. Arrays have `count` elements, and nothing behind the
+// language, for the bodies of batch loops. Works with anything whose members x, y and z can be indexed:
+// Vec3Span, ConstVec3Span, arrays. Arrays have `count` elements, and nothing past the
 // last one may be read, whatever `count` is: the renderer fills whole vectors, other callers do not.
 #pragma once
 
@@ -22,8 +22,8 @@ CANDELA_KERNEL_INLINE void store(Arrays&& to, std::size_t i, vec3 v) {
     to.z[i] = v.z;
 }
 
-/// Adds a * b, channel by channel, each in one expression: where the processor can, product and sum are
-/// rounded once.
+/// Adds a * b, channel by channel, each in one expression: where the processor supports it, product and sum
+/// are rounded once.
 template <class Arrays>
 CANDELA_KERNEL_INLINE void add_product(Arrays&& to, std::size_t i, vec3 a, vec3 b) {
     to.x[i] += a.x * b.x;

@@ -1,4 +1,4 @@
-// Colours, and how they are encoded in scenes and pictures.
+// Colours, and their encoding in scenes and pictures.
 #pragma once
 
 #include "candela/api.h"

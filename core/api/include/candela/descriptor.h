@@ -1,4 +1,4 @@
-// What a plugin says about itself, and the base class of everything it creates.
+// A plugin's description of itself, and the base class of everything it creates.
 #pragma once
 
 #include <array>
@@ -31,9 +31,9 @@ class CANDELA_API Instance {
     Instance& operator=(const Instance&) = delete;
     virtual ~Instance();
 
-    /// The numbers of the `Table` that a parameter, an index of the descriptor's, has in the struct of the
-    /// plugin's kernel; empty where it has none. Owned by the instance. From them programs are generated that
-    /// neither read the parameter's file nor compute what the plugin has made of it.
+    /// The numbers of the `Table` that `parameter`, an index into the descriptor's parameters, has in the
+    /// struct of the plugin's kernel; empty if it has none. Owned by the instance. Programs generated from
+    /// them neither read the parameter's file nor repeat what the plugin computed from it.
     virtual std::span<const float> table(std::size_t parameter) const noexcept;
 };
 
@@ -55,17 +55,17 @@ struct FileFormat {
 /// A function of a kernel that programs call: <prefix>_<name>.
 struct KernelFunction {
     const char* name = "";          // "reflect", "corner_weight"
-    bool takes_parameters = false;  // its first argument is the struct of the parameters
+    bool takes_parameters = false;  // its first argument is the parameter struct
 };
 
-/// The mathematics of a plugin as text, for programs that are generated from it.
+/// The mathematics of a plugin as text, from which programs are generated.
 struct KernelText {
     const char* text = nullptr;    // the whole .kernel file; null if there is none
-    const char* prefix = nullptr;  // its functions are called <prefix>_reflect, <prefix>_normal, …
+    const char* prefix = nullptr;  // its functions are named <prefix>_reflect, <prefix>_normal, …
     const char* parameters =
-        "";  // the struct that they take first; its members are named after the parameters
+        "";  // the struct that is their first argument; its members have the parameters' names
     std::span<const KernelFunction> functions{};
-    std::span<const std::size_t> members{};  // the struct's members in their order: indices of parameters
+    std::span<const std::size_t> members{};  // the struct's members in order, as indices of parameters
 };
 
 /// Everything about one plugin. Plain data with static lifetime in the plugin's library.

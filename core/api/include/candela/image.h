@@ -11,20 +11,19 @@
 
 namespace candela {
 
-/// A finished picture: red, green, blue interleaved, rows from the top, no padding, between rows or at the
-/// end.
+/// A finished picture: red, green, blue interleaved, rows from the top, no padding between or after rows.
 struct PictureView {
     int width = 0;
     int height = 0;
-    PixelType pixels = PixelType::byte;            // as the descriptor asks: `bytes` or `reals` is filled
+    PixelType pixels = PixelType::byte;            // the descriptor's choice: fills `bytes` or `reals`
     ColorEncoding encoding = ColorEncoding::srgb;  // how `bytes` are encoded; `reals` are linear if srgb
     std::span<const std::uint8_t> bytes{};
     std::span<const float> reals{};
 };
 
-/// One number for each pixel of a picture in layers, rows from the top, no padding.
+/// One number per pixel of a picture with layers, rows from the top, no padding.
 struct PictureChannel {
-    const char* name = "";  // "R", or with the layer's name before it: "diffuse.R"
+    const char* name = "";  // "R", or with the layer's name as a prefix: "diffuse.R"
     std::span<const float> values{};
 };
 
@@ -45,8 +44,8 @@ class CANDELA_API PictureSink {
     /// `is_encoded`: the values are sRGB-encoded, 0 to 1; otherwise they are intensities. May throw if the
     /// picture is too large.
     virtual std::span<float> allocate(int width, int height, bool is_encoded) = 0;
-    /// Called after allocate() by plugins of formats with opacity: memory for how opaque each pixel is, 0 to
-    /// 1, filled with 1; empty where nobody asks for it.
+    /// Called after allocate() by plugins whose format has opacity. Returns memory for the opacity of each
+    /// pixel, 0 to 1, filled with 1; empty if the caller does not need it.
     virtual std::span<float> allocate_opacity();
 };
 
@@ -58,13 +57,13 @@ class CANDELA_API ImageFormat : public Instance {
     /// Writes `picture` in the format of `extension`, one of the descriptor's. May throw std::exception.
     virtual void write(const PictureView& picture, const char* extension, ByteSink& sink) const = 0;
 
-    /// Writes a picture of any number of channels, in a format that the descriptor declares to have layers.
+    /// Writes a picture with any number of channels, in a format that the descriptor declares to have layers.
     /// The first three are the red, green and blue of the picture itself, all values are linear and unbounded
     /// (infinity included), and names are unique UTF-8. May throw std::exception.
     virtual void write_layers(int width, int height, std::span<const PictureChannel> channels,
                               const char* extension, ByteSink& sink) const;
 
-    /// Reads the picture at `path`, in a format that the descriptor declares as read. May throw
+    /// Reads the picture at `path`, in a format that the descriptor declares as readable. May throw
     /// std::exception.
     virtual void read(const char* path, PictureSink& sink) const;
 };

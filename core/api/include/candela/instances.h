@@ -1,5 +1,5 @@
-// Instances made as a host makes them, for tests of plugins, which any compiler builds. Programs use the
-// module candela.registry.
+// Makes instances as a host does, for tests of plugins built by any compiler. Programs use the module
+// candela.registry.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,15 @@
 
 namespace candela {
 
-/// The value of a parameter as a person writes it in a scene: degrees, colours 0-255.
+/// The value of a parameter as written in a scene: degrees, colours 0-255.
 struct ParamSetting {
     std::string_view name;
     std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, NumberList> value;
 };
 
-/// An instance of the plugin in `directory`, which has both its library and its manifest; parameters that are
-/// not among `settings` have their defaults. Throws std::exception, with the message that a user would see.
+/// Creates an instance of the plugin in `directory`, which must contain both its library and its manifest.
+/// Parameters not among `settings` have their defaults. Throws std::exception with the message that a user
+/// would see.
 CANDELA_API std::unique_ptr<Instance> make_instance(std::string_view directory, PluginKind kind,
                                                     std::string_view name,
                                                     std::span<const ParamSetting> settings);

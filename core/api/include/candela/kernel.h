@@ -3,8 +3,8 @@
 // A kernel is in the common subset of C++ and GLSL: structs of float, int, vec2, vec3, vec4, mat3 and Table;
 // functions marked KERNEL that take and return values; locals, ternaries, arithmetic; reading swizzles such
 // as v.zyx; float literals written 0.5f; and the functions below, which have GLSL's names and meanings. Every
-// function is inlined into the batch loop that calls it and written so that the compiler vectorises that
-// loop: no branches, no calls, no errno, and no results in the denormal range.
+// function is inlined into the batch loop that calls it, and written so that the compiler can vectorise that
+// loop: it has no branches, calls, errno or denormal results.
 //
 // Include kernels inside `namespace candela::kernel { ... }`, where the names resolve to these functions.
 #pragma once
@@ -20,8 +20,8 @@
 
 namespace candela::kernel {
 
-// std::bit_cast() would do, but its header and <cmath> are slower to compile than all the rest of a kernel,
-// and kernels are compiled while somebody waits.
+// std::bit_cast() would do, but its header and <cmath> take longer to compile than the rest of a kernel, and
+// users wait for kernels to compile.
 
 CANDELA_KERNEL_INLINE constexpr std::int32_t float_bits_to_int(float x) {
     return __builtin_bit_cast(std::int32_t, x);
@@ -46,8 +46,8 @@ CANDELA_KERNEL_INLINE constexpr float smoothstep(float edge0, float edge1, float
 CANDELA_KERNEL_INLINE constexpr float sign(float x) { return x > 0.0f ? 1.0f : (x < 0.0f ? -1.0f : 0.0f); }
 CANDELA_KERNEL_INLINE float abs(float x) { return __builtin_fabsf(x); }
 
-/// To the nearest integer, halves to even, for |x| < 2^22. Adding and subtracting 1.5 * 2^23 needs no SSE
-/// 4.1, so the baseline loop is vectorised too.
+/// Rounds to the nearest integer, halves to even, for |x| < 2^22. Adding and subtracting 1.5 * 2^23 needs no
+/// SSE 4.1, so the baseline loop is vectorised as well.
 CANDELA_KERNEL_INLINE float round_to_even(float x) { return (x + 12582912.0f) - 12582912.0f; }
 /// For |x| < 2^22; larger floats have hardly any fraction.
 CANDELA_KERNEL_INLINE float floor(float x) {
@@ -61,12 +61,12 @@ CANDELA_KERNEL_INLINE float trunc(float x) { return x < 0.0f ? ceil(x) : floor(x
 CANDELA_KERNEL_INLINE float fract(float x) { return x - floor(x); }
 CANDELA_KERNEL_INLINE float mod(float x, float y) { return x - y * floor(x / y); }
 
-// Powers. Polynomials by Remez exchange, with their largest relative error in brackets.
+// Powers: polynomials by Remez exchange, with their largest relative error in brackets.
 
 CANDELA_KERNEL_INLINE float sqrt(float x) { return __builtin_sqrtf(x); }
-/// For x > 0; a large number for zero [1.9e-8]. An estimate from the bits (Blinn 1997, "Floating-point
-/// tricks") and a polynomial in what its square is wrong by: a fifth of the time of a square root and a
-/// division, which a processor computes in one unit, element by element.
+/// For x > 0; returns a large number for zero [1.9e-8]. Takes an estimate from the bits (Blinn 1997,
+/// "Floating-point tricks") and corrects it by a polynomial in the error of its square. This takes a fifth of
+/// the time of a square root and a division, which a processor computes in one unit, element by element.
 CANDELA_KERNEL_INLINE float inversesqrt(float x) {
     const float bounded = min(x, 3.4e38f);
     const auto guess = int_bits_to_float(0x5f330000 - (float_bits_to_int(bounded) >> 1));
@@ -81,7 +81,7 @@ CANDELA_KERNEL_INLINE float inversesqrt(float x) {
 /// 2^x, clamped to [2^-100, 2^127], because denormals would triple the frame time [9.3e-8].
 CANDELA_KERNEL_INLINE float exp2(float x) {
     const float bounded = clamp(x, -100.0f, 127.0f);
-    // As round_to_even() does it; the integer stands in the last bits.
+    // Rounds like round_to_even(); the integer is in the last bits.
     const float shifted = bounded + 12582912.0f;
     const float f = bounded - (shifted - 12582912.0f);
     float p = 0.0013269535266f;
@@ -93,7 +93,7 @@ CANDELA_KERNEL_INLINE float exp2(float x) {
     return int_bits_to_float(float_bits_to_int(p) + (float_bits_to_int(shifted) << 23));
 }
 
-/// Base-two logarithm of x; that of 2^-126 for anything smaller [1.7e-7].
+/// Base-two logarithm of x; for anything smaller than 2^-126, that of 2^-126 [1.7e-7].
 CANDELA_KERNEL_INLINE float log2(float x) {
     const auto bits = float_bits_to_int(max(x, 1.17549435e-38f));
     const std::int32_t exponent = (bits - 0x3f3504f3) >> 23;  // mantissa in [sqrt(1/2), sqrt(2))
@@ -119,7 +119,7 @@ CANDELA_KERNEL_INLINE float pow(float x, float y) { return exp2(y * log2(x)); }
 CANDELA_KERNEL_INLINE constexpr float radians(float degrees) { return 0.0174532925f * degrees; }
 CANDELA_KERNEL_INLINE constexpr float degrees(float radians) { return 57.2957795f * radians; }
 
-/// Distance of x from the nearest multiple of pi, and whether that multiple is odd; for |x| up to a few
+/// The distance of x from the nearest multiple of pi, and whether that multiple is odd; for |x| up to a few
 /// thousand.
 struct ReducedAngle {
     float rest;
@@ -206,8 +206,8 @@ CANDELA_KERNEL_INLINE float atan(float y, float x) {
 
 namespace candela::kernel {
 
-// GLSL constructs structs with parentheses, which clang knows from version 16 on. A struct of a kernel's own
-// has to be filled member by member for older ones.
+// GLSL constructs structs with parentheses, which clang supports from version 16 on. For older versions, fill
+// a struct of your own kernel member by member.
 #if !defined(__cpp_aggregate_paren_init)
 #define Reflected(...) \
     Reflected { __VA_ARGS__ }

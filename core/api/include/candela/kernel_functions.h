@@ -1,12 +1,12 @@
-// The functions of vectors of the kernel language: those of numbers, component by component, and geometry.
-// Included by kernel.h, which has the functions of numbers.
+// The vector functions of the kernel language: the scalar functions component by component, and geometry.
+// Included by kernel.h, which has the scalar functions.
 #pragma once
 
 #include "candela/kernel_vectors.h"
 
 namespace candela::kernel {
 
-// f(v), f(v, w), f(v, w, u), of vectors of one size.
+// f(v), f(v, w), f(v, w, u) of vectors of one size.
 #define CANDELA_OF_ONE(f)                                                         \
     CANDELA_KERNEL_INLINE vec2 f(vec2 a) { return vec2(f(a.x), f(a.y)); }         \
     CANDELA_KERNEL_INLINE vec3 f(vec3 a) { return vec3(f(a.x), f(a.y), f(a.z)); } \
@@ -61,7 +61,7 @@ CANDELA_OF_THREE(smoothstep)
 #undef CANDELA_OF_TWO
 #undef CANDELA_OF_THREE
 
-// Where GLSL also takes a number for all components alike.
+// GLSL also accepts a number for all components here.
 #define CANDELA_WITH_NUMBERS(V)                                                                     \
     CANDELA_KERNEL_INLINE V mod(V a, float b) { return mod(a, V(b)); }                              \
     CANDELA_KERNEL_INLINE V min(V a, float b) { return min(a, V(b)); }                              \

@@ -1,4 +1,4 @@
-// The vectors and matrices of the kernel language, and their operators, as GLSL has them.
+// The vectors and matrices of the kernel language, with GLSL's operators.
 #pragma once
 
 #include "candela/swizzles.h"
@@ -110,7 +110,7 @@ struct mat3 {
         return *this;
     }
 
-    /// A column, to be read.
+    /// A column, read-only.
     CANDELA_KERNEL_INLINE constexpr vec3 operator[](int i) const {
         return i == 0 ? first : (i == 1 ? second : third);
     }
@@ -149,7 +149,7 @@ CANDELA_KERNEL_INLINE constexpr mat3 transpose(mat3 m) {
                 vec3(m.first.z, m.second.z, m.third.z));
 }
 CANDELA_KERNEL_INLINE constexpr float determinant(mat3 m) { return dot(m.first, cross(m.second, m.third)); }
-/// Of a matrix whose determinant is not zero.
+/// The inverse of a matrix whose determinant is not zero.
 CANDELA_KERNEL_INLINE constexpr mat3 inverse(mat3 m) {
     return (1.0f / determinant(m)) *
            transpose(mat3(cross(m.second, m.third), cross(m.third, m.first), cross(m.first, m.second)));

@@ -8,9 +8,9 @@
 
 namespace candela {
 
-/// Asks the system for pages of two megabytes where whole ones fit into `size` bytes at `memory`: it takes as
-/// long to find forty small ones as to zero a large one. Only advice: without a large page at hand the system
-/// uses small ones. Before the memory is touched.
+/// Asks the system for two-megabyte pages where whole ones fit into `size` bytes at `memory`: finding forty
+/// small pages takes as long as zeroing a large one. This is only advice: if no large page is available, the
+/// system uses small ones. Call it before the memory is touched.
 inline void prefer_large_pages(void* memory, std::size_t size) noexcept {
     constexpr std::size_t k_large_page = std::size_t{2} << 20;
     const std::size_t before = -reinterpret_cast<std::uintptr_t>(memory) % k_large_page;

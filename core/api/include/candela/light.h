@@ -17,40 +17,42 @@ struct ReceiverBatch {
     ConstVec3Span normal;
 };
 
-/// Where one sample of a light comes from, and what it sends to each receiver; written by the light.
+/// The directions from which one sample of a light arrives, and what each receiver gets from it. Written by
+/// the light.
 struct IncidentBatch {
     Vec3Span to_light;  // unit vectors from the receiver towards the light
     Vec3Span diffuse;   // intensity per channel, >= 0, attenuated
-    Vec3Span specular;  // the same for highlights
+    Vec3Span specular;  // like `diffuse`, for highlights
 };
 
 /// A light. Any thread, any batch size from 1; arrays have `count` elements, and nothing outside them may be
-/// read or written; they need no alignment and do not alias. All intensities are >= 0 and finite, even where
-/// a receiver coincides with the light.
+/// read or written; they may be unaligned and do not alias. All intensities are >= 0 and finite, even where a
+/// receiver coincides with the light.
 class CANDELA_API Light : public Instance {
   public:
     ~Light() override;
 
-    /// From how many directions the light reaches a point: 0 for ambient light, 1 for a point light, more for
-    /// a source modelled by several points (RE: "we model a distributed source by using a number of point
-    /// light sources").
+    /// The number of directions from which the light reaches a point: 0 for ambient light, 1 for a point
+    /// light, more for a source modelled by several points (RE: "we model a distributed source by using a
+    /// number of point light sources").
     virtual int sample_count() const noexcept = 0;
 
     /// Writes what sample `sample`, 0 <= sample < sample_count(), sends. The samples of a light add up.
     virtual void illuminate(int sample, const ReceiverBatch& receivers, const IncidentBatch& incident) const;
 
-    /// Whether the light also has a part that comes from everywhere (CA DD3).
+    /// Whether the light has a part that comes from everywhere (CA DD3).
     virtual bool has_ambient() const noexcept = 0;
 
     /// Writes the intensity of the ambient part, per channel. Never attenuated.
     virtual void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const;
 
-    /// Says in `light` what illuminate() does for that sample, if it can be said as data: it then sends the
-    /// same to each receiver, but for rounding, and reflection models may evaluate it without asking again.
-    /// False where it cannot.
+    /// Describes sample `sample` as data, if possible: the data then sends the same to each receiver as
+    /// illuminate(), up to rounding, and reflection models may evaluate it without calling the light again.
+    /// Returns false if data cannot express it.
     virtual bool describe(int sample, PunctualLight& light) const;
 
-    /// Says what illuminate_ambient() writes, if that is the same for all receivers. False where it is not.
+    /// Returns what illuminate_ambient() writes, if that is the same for all receivers; otherwise returns
+    /// false.
     virtual bool describe_ambient(Rgb& ambient) const;
 };
 

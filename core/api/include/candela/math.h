@@ -26,7 +26,7 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 
-/// The unit vector along `a`, however short or long; zero if `a` is zero or not finite.
+/// The unit vector along `a`, whatever its length; zero if `a` is zero or non-finite.
 inline Vec3 normalized(Vec3 a) {
     const float size = length(a);
     if (size > 1e-15f && size < 1e15f) return (1 / size) * a;
@@ -37,10 +37,10 @@ inline Vec3 normalized(Vec3 a) {
     return {static_cast<float>(x / exact), static_cast<float>(y / exact), static_cast<float>(z / exact)};
 }
 
-/// Three rows of three numbers, one row after the other.
+/// A 3x3 matrix, row by row.
 using Matrix = std::array<float, 9>;
 
-/// Three arrays of equal length, read only. Non-owning; the batch that contains it knows the length.
+/// Three read-only arrays of equal length. Non-owning; the batch that contains it knows the length.
 struct ConstVec3Span {
     const float* x = nullptr;
     const float* y = nullptr;
@@ -51,7 +51,7 @@ struct ConstVec3Span {
     constexpr explicit operator bool() const { return x != nullptr; }
 };
 
-/// Three arrays of equal length, to be written. Non-owning; the batch that contains it knows the length.
+/// Three writable arrays of equal length. Non-owning; the batch that contains it knows the length.
 struct Vec3Span {
     float* x = nullptr;
     float* y = nullptr;

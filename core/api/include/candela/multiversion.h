@@ -1,4 +1,4 @@
-// One batch loop, compiled for every instruction set and chosen when it is called.
+// One batch loop, compiled for every instruction set and dispatched at run time.
 //
 //     struct AddLoop {
 //         CANDELA_BATCH_LOOP static void run(std::size_t count, const float* a, float* sum) {
@@ -8,19 +8,20 @@
 //     };
 //     candela::multiversion<AddLoop>(count, a, sum);
 //
-// Everything the loop calls must be inlined into it, or it is neither vectorised nor compiled for the wider
-// set; clang warns if a CANDELA_VECTORIZE loop stayed scalar. Mark it [[gnu::always_inline]]. A lambda cannot
-// be marked before C++23, and without optimisation its results may round differently.
+// Everything the loop calls must be inlined into it; otherwise it is neither vectorised nor compiled for the
+// wider set. clang warns if a CANDELA_VECTORIZE loop remains scalar. Mark what it calls
+// [[gnu::always_inline]]. A lambda cannot be marked before C++23, and without optimisation its results may
+// round differently.
 //
 // CANDELA_VECTORIZE_CHAIN is for a loop whose body is one long chain of dependent operations, such as pow:
-// two vectors side by side keep the processor busy where one would wait for itself. A loop with enough
+// interleaving two vectors keeps the processor busy where one would wait for itself. A loop with enough
 // independent work only loses registers to it.
 //
-// CANDELA_VECTORIZE_FOUR is for such a chain where there are nearly always 64 iterations or a multiple: four
-// vectors side by side. Fewer iterations take longer than with two.
+// CANDELA_VECTORIZE_FOUR is for such a chain whose iteration count is nearly always a multiple of 64: it
+// interleaves four vectors. Fewer iterations take longer than with two.
 //
-// CANDELA_VECTORIZE_SIXTEEN is for a loop of sixteen iterations inside another, which would otherwise be
-// unrolled before it can be vectorised, or take a few iterations of narrower vectors.
+// CANDELA_VECTORIZE_SIXTEEN is for a loop of sixteen iterations inside another. Such a loop would otherwise
+// be unrolled before it can be vectorised, or run as a few iterations of narrower vectors.
 #pragma once
 
 #include "candela/api.h"
@@ -40,9 +41,9 @@
 #define CANDELA_VECTORIZE_SIXTEEN CANDELA_VECTORIZE
 #endif
 
-// For clang, tuned for processors with fast gathers: otherwise it reads table entries and indexed values one
-// by one. g++ inlines nothing into a function that is tuned for another processor but what must be inlined;
-// the copies of a kernel's structs are not marked, and their calls would keep every loop scalar.
+// Tunes clang's code for processors with fast gathers: otherwise it reads table entries and indexed values
+// one by one. g++ inlines into a function tuned for another processor only what is marked always_inline; the
+// copy constructors of kernels' structs are not, and calling them would keep every loop scalar.
 #if defined(__clang__)
 #define CANDELA_TARGET_AVX2 "arch=x86-64-v3,tune=skylake"
 #else
@@ -51,7 +52,8 @@
 
 namespace candela {
 
-/// candela::instruction_set() as a number, for headers, which import nothing: 0 baseline, 1 AVX2, 2 AVX-512.
+/// candela::instruction_set() as a number, for headers, which cannot import modules: 0 baseline, 1 AVX2, 2
+/// AVX-512.
 CANDELA_API int instruction_set_level() noexcept;
 
 /// The versions of one loop. Not inlined, so that each can be found by name in a profile and in the
@@ -70,8 +72,8 @@ struct Multiversion {
 };
 
 /// Runs `Loop::run(arguments...)` with the instruction set in use. Arguments are taken by const reference; a
-/// loop copies what it reads into locals or takes it by value, so that the compiler knows its stores do not
-/// change it.
+/// loop copies what it reads into locals or takes it by value, so that the compiler knows that its stores do
+/// not change it.
 template <class Loop, class... Arguments>
 inline void multiversion(const Arguments&... arguments) {
     using Versions = Multiversion<Loop, Arguments...>;

@@ -1,4 +1,4 @@
-// Parallel loops behind two functions, so that nobody else pays for oneTBB's headers.
+// Parallel loops behind two functions, so that only one file includes oneTBB's headers.
 #pragma once
 
 #include <cstddef>
@@ -31,14 +31,14 @@ class FunctionRef {
 };
 
 /// Runs `work` with `threads` threads available to every parallel_for() within it. 0 means all available
-/// threads, but only this one if the others have not been started yet and `milliseconds`, a single thread's
-/// estimated time for the work, is not worth starting them.
+/// threads; but if the other threads have not been started yet, and `milliseconds`, the estimated
+/// single-threaded time of the work, does not justify starting them, only this one.
 CANDELA_API void with_threads(int threads, FunctionRef<> work,
                               double milliseconds = std::numeric_limits<double>::infinity());
 
 /// Calls `body(begin, end)` for ranges that partition [0, count), each of at least `grain` elements except
-/// the last. An exception ends the work and is rethrown here. Work of one grain, or with one thread, starts
-/// no other thread.
+/// the last. An exception ends the work and is rethrown here. If the work fits into one grain, or only one
+/// thread is available, no other thread is started.
 CANDELA_API void parallel_for(std::size_t count, std::size_t grain,
                               FunctionRef<std::size_t, std::size_t> body);
 

@@ -1,5 +1,5 @@
-// Parameters as a plugin declares them (`ParamSpec`) and as it receives their values (`ParamValue`): plain
-// data that crosses the plugin's boundary.
+// Parameters as a plugin declares them (`ParamSpec`), and their values as it receives them (`ParamValue`):
+// plain data that crosses the plugin's boundary.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace candela {
 
-/// A list of numbers as a value. A class of its own, since libstdc++ 12 takes a variant of nothing but
-/// trivial types, strings and vectors for one that always holds something: if copying it runs out of memory,
-/// it destroys what was never made.
+/// A list of numbers as a value. A class of its own because libstdc++ 12 assumes that a variant of trivial
+/// types, strings and vectors is never valueless: if copying one runs out of memory, it destroys an object
+/// that was never constructed.
 struct NumberList : std::vector<float> {
     using std::vector<float>::vector;
     NumberList(std::vector<float> numbers) : std::vector<float>(std::move(numbers)) {}
@@ -60,7 +60,7 @@ struct ParamSpec {
     const char* unit = "";       // "m", "deg", or empty
     const char* meaning = "";    // one sentence
     bool required = false;       // no default: the scene must set it
-    ParamValue default_value{};  // as a person writes it: degrees, colours 0-255
+    ParamValue default_value{};  // as written in a scene: degrees, colours 0-255
     float minimum = k_no_minimum;
     float maximum = k_no_maximum;
     bool minimum_excluded = false;
@@ -79,19 +79,19 @@ struct RelationSpec {
     const char* meaning = "";  // why, as the end of the sentence "... because "
 };
 
-/// A value of one parameter in a preset.
+/// The value of one parameter in a preset.
 struct PresetValue {
     const char* parameter = "";
-    ParamValue value{};  // as a person writes it: degrees, colours 0-255
+    ParamValue value{};  // as written in a scene: degrees, colours 0-255
 };
 
-/// Values that belong together under a name, such as those of a material ("brass"), for people to choose.
-/// Parameters that it does not have stay as they are.
+/// Values that belong together under a name that users choose, such as those of a material ("brass").
+/// Parameters without a value in the preset are unchanged.
 struct PresetSpec {
-    const char* name = "";    // what people call it; unique within the plugin
-    const char* source = "";  // of the figures: author, year, title
+    const char* name = "";    // the name that users see; unique within the plugin
+    const char* source = "";  // where the values come from: author, year, title
     std::span<const PresetValue> values{};
-    bool has_color = false;  // of a reflection model: the object's own colour belongs to it
+    bool has_color = false;  // of a reflection model: the preset includes the object's own colour
     float color[3] = {};     // 0-255
 };
 

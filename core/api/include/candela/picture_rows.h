@@ -1,4 +1,4 @@
-// What an image plugin may implement beside ImageFormat, so that pictures need not fit into memory.
+// An optional interface next to ImageFormat, for pictures that do not fit into memory.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace candela {
 
-/// A picture whose rows are made when they are asked for, from the top. Owned by the host.
+/// A picture whose rows are made on request, from the top. Owned by the host.
 class CANDELA_API PictureRows {
   public:
     virtual ~PictureRows();
-    /// The next `count` rows, at least 1, or as many as there are left: a view of their height. It is valid
+    /// Returns the next `count` rows (at least 1), or those that are left, as a picture of that height. Valid
     /// until the next call. May throw.
     virtual PictureView next(int count) = 0;
 };
@@ -40,17 +40,17 @@ class CANDELA_API RandomAccessSink : public ByteSink {
     virtual void write_at(std::uint64_t offset, std::span<const std::byte> bytes) = 0;
 };
 
-/// Writes one or more formats row by row. To be a base of an ImageFormat's class, which the host asks for.
-/// Any thread.
+/// Writes one or more formats row by row. The class that implements ImageFormat may derive from it; the host
+/// finds out with a dynamic_cast. Any thread.
 class CANDELA_API RowFormat {
   public:
     virtual ~RowFormat();
 
-    /// Whether the format of an extension can be written so.
+    /// Whether the format of that extension can be written row by row.
     virtual bool writes_rows(const char* extension) const = 0;
 
-    /// Writes the bytes that ImageFormat::write() writes for the same pixels. `whole`: the picture without
-    /// its pixels. The sink is a RandomAccessSink if the file allows that. May throw std::exception.
+    /// Writes the same bytes as ImageFormat::write() for the same pixels. `whole`: the picture without its
+    /// pixels. The sink is a RandomAccessSink if the file allows it. May throw std::exception.
     virtual void write_rows(const PictureView& whole, PictureRows& rows, const char* extension,
                             ByteSink& sink) const = 0;
 };

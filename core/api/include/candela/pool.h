@@ -7,12 +7,12 @@
 
 namespace candela {
 
-/// Objects of which each range of a parallel loop needs one, and which cost more to create than to reuse.
+/// Objects that each range of a parallel loop needs for itself, and that cost more to create than to reuse.
 template <class Thing>
 class Pool {
   public:
-    /// Calls `use(thing)` with one that no other thread is using; if all are in use, `make()` creates another
-    /// as a std::unique_ptr. One whose use ended in an exception is not reused. Any thread.
+    /// Calls `use(thing)` with an object that no other thread is using; if all are in use, `make()` creates
+    /// another as a std::unique_ptr. An object whose use ended in an exception is not reused. Any thread.
     template <class Make, class Use>
     void with(Make make, Use use) {
         std::unique_ptr<Thing> thing = take();
@@ -22,7 +22,7 @@ class Pool {
         free_.push_back(std::move(thing));
     }
 
-    /// Calls `visit(thing)` for each while none is in use.
+    /// Calls `visit(thing)` for each object. None may be in use.
     template <class Visit>
     void each(Visit visit) {
         for (const std::unique_ptr<Thing>& thing : free_) visit(*thing);

@@ -1,4 +1,4 @@
-// Punctual lights as data: what a reflection model can evaluate in its own loop, for many lights at once.
+// Punctual lights as data that reflection models evaluate in their own loop, for many lights at once.
 #pragma once
 
 #include <span>
@@ -11,20 +11,20 @@ namespace candela {
 /// A light, or one sample of a light, that reaches each point from one direction: a point, spot or
 /// directional light (RTR4 section 5.2, "punctual lights"; glTF's KHR_lights_punctual). World space.
 struct PunctualLight {
-    /// Homogeneous: a position in metres with w = 1, or with w = 0 the unit vector towards a light that is
-    /// infinitely far away.
+    /// Homogeneous: with w = 1 a position in metres; with w = 0 the unit vector towards an infinitely distant
+    /// light.
     Vec3 position{};
     float w = 1;
     Rgb diffuse{};  // intensity per channel, >= 0, before attenuation
     Rgb specular{};
-    /// Attenuation at the distance r, at least a tenth of a millimetre: 1 / (constant + linear r +
-    /// quadratic r^2).
+    /// Attenuation at distance r, at least a tenth of a millimetre: 1 / (constant + linear r + quadratic
+    /// r^2).
     float constant = 1;
     float linear = 0;
     float quadratic = 0;
-    /// The cone of a spot light: with t = clamp((cos - cos_outer) cone_scale, 0, 1), where cos is that of the
-    /// angle between `axis`, a unit vector, and the way to the point, the light is multiplied by
-    /// t^2 (3 - 2t) if the cone is smooth, else by t.
+    /// The cone of a spot light. With t = clamp((cos - cos_outer) cone_scale, 0, 1), where cos is the cosine
+    /// of the angle between the unit vector `axis` and the direction to the point, the light is multiplied by
+    /// t^2 (3 - 2t) if the cone is smooth, otherwise by t.
     bool has_cone = false;
     bool is_smooth = false;
     Vec3 axis{};
@@ -34,11 +34,11 @@ struct PunctualLight {
 
 /// All the light that a batch of points receives, as data.
 struct PunctualLighting {
-    /// Homogeneous: the eye, in metres, with w = 1, or with w = 0 the unit vector towards an observer that is
-    /// infinitely far away. V is the direction of observer - w position.
+    /// Homogeneous: with w = 1 the eye, in metres; with w = 0 the unit vector towards an infinitely distant
+    /// observer. V is the direction of observer - w position.
     Vec3 observer{};
     float w = 1;
-    Rgb ambient{};  // the same from everywhere
+    Rgb ambient{};  // equal at all points
     std::span<const PunctualLight> lights{};
 };
 

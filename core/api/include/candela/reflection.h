@@ -21,17 +21,17 @@ struct SurfaceBatch {
     Rgb color;                    // C_o, the object's colour, 0 to 1
     ConstVec3Span position{};     // metres
     ConstVec2Span uv{};           // texture coordinates; null unless needs_uv()
-    ConstVec3Span point_color{};  // C_o of each point, where the object has more than one; else null
+    ConstVec3Span point_color{};  // C_o of each point if the object has more than one colour; otherwise null
 };
 
-/// What one sample of a light sends to each of the points.
+/// The light that one sample of a light source sends to each of the points.
 struct LightingBatch {
     ConstVec3Span to_light;  // L
     ConstVec3Span diffuse;   // intensity per channel
     ConstVec3Span specular;
 };
 
-/// Reflected intensity per channel, in separate parts (CA IM3, IM4; DD6 adds them up). A model adds to the
+/// Reflected intensity per channel, in separate parts (CA IM3, IM4), which DD6 adds up. A model adds to the
 /// existing values.
 struct ReflectedBatch {
     Vec3Span ambient;   // I_a
@@ -39,36 +39,36 @@ struct ReflectedBatch {
     Vec3Span specular;  // I_s
 };
 
-/// Where rays within an object leave it. World space.
+/// The points at which rays leave an object from inside. World space.
 struct ExitBatch {
     Vec3Span position;
     Vec3Span normal;            // unit, from the object's shading model; points away from the surface
-    float* distance = nullptr;  // along the ray, metres; negative where the surface is open: no exit
+    float* distance = nullptr;  // along the ray, metres; negative if the ray meets an opening: no exit
 };
 
-/// What surrounds an object. Light stays local (CA AS2): no other object is seen. Owned by the host; used for
-/// one batch, by one thread.
+/// The world around an object. Light stays local (CA AS2): other objects are not seen. Owned by the host;
+/// used for one batch, by one thread.
 class CANDELA_API Surroundings {
   public:
     virtual ~Surroundings();
 
-    /// Writes the intensity, per channel, that arrives from far away in the directions `towards` (unit
+    /// Writes the intensity, per channel, that arrives from infinity in the directions `towards` (unit
     /// vectors).
     virtual void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) = 0;
 
-    /// The largest intensity, of all channels, that arrives from anywhere: what bounds the light that is lost
-    /// where a ray is not followed any further.
+    /// The largest intensity, over all channels, that arrives from any direction: an upper bound for the
+    /// light lost when a ray is no longer followed.
     virtual float max_intensity() const noexcept = 0;
 
-    /// Follows rays within the object from `origin`, on its surface, along `direction` (unit vectors) to
-    /// where they leave it. Arrays do not alias.
+    /// Follows rays inside the object from `origin`, on its surface, along `direction` (unit vectors) to the
+    /// points where they leave it. Arrays do not alias.
     virtual void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
                        const ExitBatch& exit) = 0;
 };
 
 /// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays have
-/// `count` elements, and nothing outside them may be read or written; they need no alignment and do not
-/// alias. Results are finite and, unless the model declares otherwise, not negative.
+/// `count` elements, and nothing outside them may be read or written; they may be unaligned and do not alias.
+/// Results are finite and, unless the model declares otherwise, non-negative.
 class CANDELA_API ReflectionModel : public Instance {
   public:
     ~ReflectionModel() override;
@@ -79,11 +79,11 @@ class CANDELA_API ReflectionModel : public Instance {
     /// Whether SurfaceBatch::uv must be filled. Zero on a mesh without texture coordinates.
     virtual bool needs_uv() const noexcept { return false; }
 
-    /// Whether the model's kernel reads Surface::position, for programs that are generated from it;
-    /// SurfaceBatch::position is there in any case.
+    /// Whether the model's kernel reads Surface::position; generated programs depend on it.
+    /// SurfaceBatch::position is always filled.
     virtual bool needs_position() const noexcept { return false; }
 
-    /// Adds what each point reflects of the light to `reflected.diffuse` and `reflected.specular`.
+    /// Adds what each point reflects of `light` to `reflected.diffuse` and `reflected.specular`.
     virtual void reflect(const SurfaceBatch& surface, const LightingBatch& light,
                          const ReflectedBatch& reflected) const = 0;
 
@@ -91,10 +91,10 @@ class CANDELA_API ReflectionModel : public Instance {
     virtual void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
                                  const ReflectedBatch& reflected) const = 0;
 
-    /// Writes all that each point reflects of `lighting`: what reflect_ambient() and, for each light,
-    /// reflect() add up to, but for rounding. Models that are made of kernel functions have it: what it saves
-    /// is writing and reading vectors for each light. False, with nothing written, if the model leaves it to
-    /// those. Never called for models that show their surroundings.
+    /// Writes all that each point reflects of `lighting`: up to rounding, the sum of reflect_ambient() and,
+    /// for each light, reflect(). Models made of kernel functions implement it, which avoids writing and
+    /// reading vectors for each light. Returns false, and writes nothing, if the model does not support it.
+    /// Never called for models that show their surroundings.
     virtual bool reflect_punctual(const SurfaceBatch& surface, const PunctualLighting& lighting,
                                   const Vec3Span& intensity) const;
 

@@ -19,7 +19,7 @@ enum class ShadingRate : int {
     fragment,  // once per pixel that sees the triangle
 };
 
-/// A mesh in world space, as far as vertex normals depend on it.
+/// The parts of a mesh, in world space, that vertex normals depend on.
 struct MeshView {
     ConstVec3Span position;                  // per vertex
     std::span<const std::uint32_t> indices;  // three per triangle, counter-clockwise seen from outside
@@ -29,10 +29,10 @@ struct MeshView {
     std::size_t vertex_count = 0;
     std::size_t group_count = 0;
     ConstVec3Span authored_normal;  // per vertex, unit, from the object's file; null if it has none, zero at
-                                    // a vertex that has none
+                                    // a vertex without one
 };
 
-/// What a shading model reads of ShadingPointBatch. What a model does not read is not computed for it.
+/// The members of ShadingPointBatch that a shading model reads. Others are not computed for it.
 struct ShadingNeeds {
     bool face_normal = true;
     bool vertex_normal = true;
@@ -44,7 +44,7 @@ struct ShadingNeeds {
     bool default_vertex_normals = false;
 };
 
-/// The triangle of each point, by its vertices, counter-clockwise seen from outside. World space.
+/// The triangle of each point, as its vertices, counter-clockwise seen from outside. World space.
 struct TriangleBatch {
     std::array<ConstVec3Span, 3> position;  // metres
     std::array<ConstVec3Span, 3> normal;    // vertex normals, unit
@@ -54,7 +54,7 @@ struct TriangleBatch {
 /// space.
 struct ShadingPointBatch {
     std::size_t count = 0;
-    // Null, each of them, unless needed.
+    // Each is null unless needed.
     ConstVec3Span face_normal;    // unit
     ConstVec3Span vertex_normal;  // interpolated perspective-correctly between the vertices; not unit
     ConstVec3Span barycentric;    // weights of the triangle's vertices; of the first one at rate `vertex`
@@ -66,7 +66,7 @@ struct ShadingPointBatch {
 
 /// A shading model (CA: "how the normal vector is calculated for polygons in the scene"). Any thread, any
 /// batch size from 1; arrays have as many elements as there are points, vertices or triangles, and nothing
-/// outside them may be read or written; they need no alignment and do not alias.
+/// outside them may be read or written; they may be unaligned and do not alias.
 class CANDELA_API ShadingModel : public Instance {
   public:
     ~ShadingModel() override;

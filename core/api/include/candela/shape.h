@@ -14,28 +14,28 @@
 
 namespace candela {
 
-/// Which optional arrays the renderer can use. A shape omits those that are not requested, and those it has
-/// no values for.
+/// Which optional arrays the renderer uses. A shape omits those that are not requested and those for which it
+/// has no values.
 struct MeshRequest {
     bool uv = false;
     bool derivatives = false;
     bool color = false;
-    /// Whether normals will be used: authored ones, and what a shape does for those that a shading model
-    /// makes. Without, it may give its triangles in as few vertices as they have.
+    /// Whether normals are needed: authored ones, and the smooth groups from which shading models compute
+    /// theirs. If not, the shape may share vertices wherever it can.
     bool normals = true;
-    bool facets = false;  // whether the renderer can use a mesh that is faceted
-    ColorEncoding color_management = ColorEncoding::srgb;  // of the scene: what colours of files are read as
+    bool facets = false;  // whether the renderer supports a faceted mesh
+    ColorEncoding color_management = ColorEncoding::srgb;  // the scene's: how colours in files are decoded
 };
 
-/// What a shape knows about its surface.
+/// Whether a shape knows its surface to be closed.
 enum class Closedness : int {
-    unknown,    // the host finds out
+    unknown,    // the host determines it
     closed,     // every edge is shared by two triangles that agree on which side is outside
     open,       // visible from both sides
-    one_sided,  // visible only from the front, open or not: a room that is looked into over its walls
+    one_sided,  // visible only from the front, open or not: a room that is viewed through its walls
 };
 
-/// The arrays that a shape asks for.
+/// The arrays that a shape requests.
 struct MeshLayout {
     std::size_t vertices = 0;
     std::size_t triangles = 0;
@@ -43,12 +43,13 @@ struct MeshLayout {
     bool has_uv = false;
     bool has_derivatives = false;
     bool has_color = false;
-    bool has_smooth_groups = false;  // otherwise every vertex has a normal of its own
-    /// Every triangle is flat: its normal is that of its points, and its vertices, shared or not, have none.
+    bool has_smooth_groups = false;  // otherwise every vertex has its own normal
+    /// Every triangle is flat: the normal at its points is its own, and its vertices, shared or not, have none.
     /// Only if facets are requested.
     bool is_faceted = false;
     Closedness closedness = Closedness::unknown;
-    std::size_t open_edges = 0;  // of one_sided shapes; of open ones, if counted: else the host does
+    std::size_t open_edges = 0;  // of one_sided shapes; of open ones only if counted, otherwise the host
+                                 // counts them
 };
 
 /// Arrays of the requested sizes, zero-filled; null or empty if not requested. Nothing outside them may be
@@ -62,7 +63,7 @@ struct MeshSpans {
     Vec3Span dpdv;
     std::span<std::uint32_t>
         smooth_group;  // per vertex, 0 … vertices - 1; vertices of one group share a normal
-    Vec3Span color{};  // red, green, blue: intensities, 0 to 1, which the object's colour is multiplied with
+    Vec3Span color{};  // red, green, blue: intensities, 0 to 1, which multiply the object's colour
 };
 
 /// Receives a shape's triangles. Owned by the host; used only during tessellate().
@@ -71,10 +72,11 @@ class CANDELA_API MeshSink {
     virtual ~MeshSink();
     /// Must be called exactly once. May throw std::bad_alloc.
     virtual MeshSpans allocate(const MeshLayout& layout) = 0;
-    /// Tells the user, at the object's position in the scene, about something that is not as a file says: a
-    /// whole sentence, without a full stop. Any number of times; the same sentence is shown once per scene.
+    /// Warns the user, at the object's position in the scene, about a file that is not what it claims to be.
+    /// `sentence`: a whole sentence without a full stop. Call it as often as you like; equal sentences are
+    /// shown once per scene.
     virtual void warn(std::string_view sentence);
-    /// Says how much of the work has been done, 0 … 1, where it may take seconds. Any number of times.
+    /// Reports progress in [0, 1]. Call it as often as you like, if the work may take seconds.
     virtual void progress(double fraction);
 };
 

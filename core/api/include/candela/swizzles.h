@@ -1,6 +1,6 @@
-// Reading swizzles of the kernel language, v.xy and v.zyx, as GLSL has them: empty members of a vector, one
-// for each two, three or four of its components, that convert to the vector of these components. They take no
-// room and, once inlined, no time.
+// Reading swizzles of the kernel language, v.xy and v.zyx, as in GLSL: empty members of a vector, one for
+// each two, three or four of its components, which convert to the vector of those components. They take no
+// space and, once inlined, no time.
 #pragma once
 
 #define CANDELA_KERNEL_INLINE [[gnu::always_inline]] inline
@@ -11,7 +11,7 @@ struct vec2;
 struct vec3;
 struct vec4;
 
-/// A member of `Whole`, at whose address it is. It is read only: GLSL would also assign to it, C++ refuses.
+/// A member of `Whole`, at the same address. It is read-only: GLSL also allows assignment, C++ rejects it.
 template <class Whole, class Part, float Whole::*... components>
 struct Swizzle {
     Swizzle() = default;
@@ -19,7 +19,7 @@ struct Swizzle {
     Swizzle& operator=(const Swizzle&) = delete;
     ~Swizzle() = default;
 
-    // Kernels are GLSL, which converts nothing explicitly here.
+    // Kernels are GLSL, which has no explicit conversion here.
     // NOLINTNEXTLINE(google-explicit-constructor,hicpp-explicit-conversions)
     CANDELA_KERNEL_INLINE operator Part() const {
         const auto* const whole = reinterpret_cast<const Whole*>(this);
@@ -29,8 +29,8 @@ struct Swizzle {
 
 }  // namespace candela::kernel
 
-// CANDELA_SWIZZLES_OF_2(V), _3 and _4 declare those of a vector V. A macro cannot call itself, hence one for
-// each position and number of components.
+// CANDELA_SWIZZLES_OF_2(V), _3 and _4 declare the swizzles of a vector V. A macro cannot call itself, hence
+// one macro per position and number of components.
 #define CANDELA_SWIZZLE_2(V, a, b) [[no_unique_address]] Swizzle<V, vec2, &V::a, &V::b> a##b;
 #define CANDELA_SWIZZLE_3(V, a, b, c) [[no_unique_address]] Swizzle<V, vec3, &V::a, &V::b, &V::c> a##b##c;
 #define CANDELA_SWIZZLE_4(V, a, b, c, d) \

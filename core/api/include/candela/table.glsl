@@ -1,4 +1,4 @@
-// A table of a model: a part of the numbers of all, which are a texture with 1024 in a row.
+// A model's table: a part of the numbers of all tables, which are in a texture with 1024 in a row.
 struct Table {
     int first;
     int count;

@@ -1,4 +1,4 @@
-// The interface of target plugins: what a scene can be turned into.
+// The interface of target plugins, which turn scenes into programs, pages and files.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,17 @@
 
 namespace candela {
 
-/// Values of a plugin's parameters, in the order of its descriptor's.
+/// Values of a plugin's parameters, in the order of its descriptor.
 struct ExportedValues {
+    std::span<const ParamValue> written;  // as written in a scene: degrees, colours 0-255; a file as its path
     std::span<const ParamValue>
-        written;  // as a person writes them: degrees, colours 0-255, text of a file its path
-    std::span<const ParamValue>
-        delivered;  // as an instance receives them: radians, intensities, unit directions. Of a parameter
-                    // that is a Table of the kernel: `list` is the table's numbers, a part of
-                    // ExportedScene::tables, and `integer` where it begins there
+        delivered;  // as an instance receives them: radians, intensities, unit directions. For a parameter
+                    // that is a Table of the kernel, `list` is its numbers, a part of ExportedScene::tables,
+                    // and `integer` their offset in it
 };
 
-/// A plugin that the scene uses, or may be switched to. Its descriptor lives as long as the process and has
-/// the formula, the parameters and the kernel's text.
+/// A plugin that the scene uses or may switch to. Its descriptor lives as long as the process and has the
+/// formula, the parameters and the kernel's text.
 struct ExportedModel {
     const PluginDescriptor* plugin = nullptr;
 };
@@ -39,50 +38,51 @@ struct ExportedReflection : ExportedModel {
     bool needs_tangent = false;       // its kernel reads Surface::tangent
     bool needs_position = false;      // its kernel reads Surface::position
     bool needs_uv = false;            // its kernel reads Surface::uv
-    bool shows_surroundings = false;  // it shows what is behind and around an object
+    bool shows_surroundings = false;  // it shows the world behind and around an object
 };
 
 struct ExportedLight {
-    const char* label = "";  // as messages call it: 'lamp', in quotes, or number 2
-    std::size_t model = 0;   // of ExportedScene::light_models
+    const char* label = "";  // as messages name it: 'lamp', in quotes, or number 2
+    std::size_t model = 0;   // index into ExportedScene::light_models
     ExportedValues values{};
-    bool is_data = false;  // whether it can say what it sends (Light::describe()), as follows
-    std::span<const PunctualLight> punctual{};  // a sample each
+    bool is_data = false;  // whether the light describes itself as data (Light::describe()), in the next two
+                           // members
+    std::span<const PunctualLight> punctual{};  // one per sample
     Rgb ambient{};                              // the part that comes from everywhere
 };
 
-/// One of a texture's levels, each half as wide and high as the one before, down to a single texel.
+/// One level of a texture: half as wide and high as the one before, down to a single texel.
 struct ExportedTextureLevel {
     int width = 0;
     int height = 0;
-    std::span<const std::uint16_t>
-        texels{};  // red, green, blue, nothing: 65535 is an intensity of 1; rows from the top
+    std::span<const std::uint16_t> texels{};  // four channels per texel: red, green, blue, padding; 65535 is
+                                              // an intensity of 1; rows from the top
 };
 
-/// A picture that the colours of surfaces are multiplied with. Both its levels and what lies between them are
-/// looked up as candela.texture does.
+/// A picture that multiplies the colours of surfaces. Levels, and values between them, are looked up as
+/// candela.texture does.
 struct ExportedTexture {
-    const char* file = "";  // its absolute path
+    const char* file = "";  // absolute path
     std::span<const ExportedTextureLevel> levels{};
 };
 
 struct ExportedObject {
     static constexpr std::size_t k_no_texture = static_cast<std::size_t>(-1);
 
-    const char* label = "";                       // the name that its author gave it, or number 2
+    const char* label = "";                       // the author's name for it, or number 2
     Vec3 color{};                                 // 0-255
-    std::size_t shading = 0;                      // its own: of ExportedScene::shadings
-    std::size_t reflection = 0;                   // its own: of ExportedScene::reflections
+    std::size_t shading = 0;                      // its own: index into ExportedScene::shadings
+    std::size_t reflection = 0;                   // its own: index into ExportedScene::reflections
     std::span<const ExportedValues> shadings{};   // values for each shading model of the scene
     std::span<const ExportedValues> materials{};  // values for each reflection model of the scene
     ExportedModel shape{};
     ExportedValues shape_values{};
     Transform transform{};
-    std::size_t color_texture = k_no_texture;  // of ExportedScene::textures
-    bool color_texture_repeats = true;         // beyond its edges; else the colours there go on
+    std::size_t color_texture = k_no_texture;  // index into ExportedScene::textures
+    bool color_texture_repeats = true;         // beyond its edges; otherwise the edge colours continue
 };
 
-/// Where within a pixel it is looked at, in pixels from its top left.
+/// The position of a sample within its pixel, in pixels from the top left.
 struct ExportedSample {
     float x = 0;
     float y = 0;
@@ -93,7 +93,7 @@ struct ExportedImage {
     int height = 0;
     std::span<const ExportedSample> samples{};
     Vec3 background{};             // 0-255
-    const char* environment = "";  // absolute path of a picture all around; empty: the background
+    const char* environment = "";  // absolute path of an environment map; empty: the background
     ColorEncoding color_management = ColorEncoding::srgb;
 };
 
@@ -103,90 +103,91 @@ struct ExportedObserver {
     Vec3 up{};
     Projection projection = Projection::perspective;
     float fov = 0;     // perspective: full vertical angle, degrees
-    float height = 0;  // orthographic: metres that fit the picture's height
-    // As the scene has them, for users who edit it: `frame_aspect` may have made the above larger for a
-    // narrow picture.
+    float height = 0;  // orthographic: the height of the picture, metres
+    // As the scene specifies them, for users who edit it: `frame_aspect` may have enlarged the values above
+    // for a narrow picture.
     float unfitted_fov = 0;
     float unfitted_height = 0;
 };
 
-/// The triangles of one object. Arrays that there are not are null or empty.
+/// The triangles of one object. Absent arrays are null or empty.
 struct ExportedMesh {
     std::size_t vertex_count = 0;
     std::span<const std::uint32_t>
-        indices{};                    // three vertices a triangle, counter-clockwise seen from outside
+        indices{};                    // three vertices per triangle, counter-clockwise seen from outside
     ConstVec3Span position{};         // metres
-    ConstVec3Span authored_normal{};  // unit, from the shape; zero at a vertex that has none
-    std::span<const std::uint32_t> smooth_group{};  // a vertex each: vertices of one group share a normal
+    ConstVec3Span authored_normal{};  // unit, from the shape; zero at a vertex without one
+    std::span<const std::uint32_t> smooth_group{};  // per vertex: vertices of one group share a normal
     ConstVec2Span uv{};
-    ConstVec3Span color{};  // intensities, 0 to 1, which the object's colour is multiplied with
+    ConstVec3Span color{};  // intensities, 0 to 1, which multiply the object's colour
     ConstVec3Span dpdu{};   // partial derivatives of position
     ConstVec3Span dpdv{};
-    bool closed = false;  // else it is seen, and lit, from both sides
-    // World space alone:
-    std::span<const ConstVec3Span> normals{};   // sets of unit vertex normals, no two of them equal
-    std::span<const std::size_t> normals_of{};  // for each shading model of the scene: which of the sets
+    bool closed = false;  // otherwise visible, and lit, from both sides
+    // In world space only:
+    std::span<const ConstVec3Span> normals{};   // sets of unit vertex normals, all different
+    std::span<const std::size_t> normals_of{};  // for each shading model of the scene, the index of its set
 
     constexpr std::size_t triangle_count() const { return indices.size() / 3; }
 };
 
-/// Makes the triangles of a scene's objects when they are asked for. Owned by the host. One thread at a time.
+/// Makes the triangles of a scene's objects on request. Owned by the host. One thread at a time.
 class CANDELA_API ExportedGeometry {
   public:
     virtual ~ExportedGeometry();
 
     /// As the shape makes them, before the object's transform; with texture coordinates, and with derivatives
-    /// where a model of the scene needs them. Valid until the next call. May throw.
+    /// if a model of the scene needs them. Valid until the next call. May throw.
     virtual ExportedMesh in_object_space(std::size_t object) = 0;
 
-    /// Placed, with vertex normals for each shading model; with texture coordinates and derivatives where a
-    /// model of the scene needs them. Valid until the next call. May throw.
+    /// In their place in the world, with vertex normals for each shading model; with texture coordinates, and
+    /// with derivatives if a model of the scene needs them. Valid until the next call. May throw.
     virtual ExportedMesh in_world_space(std::size_t object) = 0;
 
-    /// Whether a shading model of the scene makes the object's vertex normals as models do by default: the
-    /// authored ones, else the normalised sum of the normals of the faces around. May throw.
+    /// Whether a shading model of the scene makes the object's vertex normals by the default rule: the
+    /// authored ones, otherwise the normalised sum of the adjacent faces' normals. May throw.
     virtual bool has_default_normals(std::size_t object, std::size_t shading) = 0;
 };
 
-/// A scene that has passed all checks, as a target sees it. All memory is the host's and is valid while
-/// write() runs. Right-handed, y up, metres.
+/// A validated scene, as a target sees it. All memory belongs to the host and is valid during write().
+/// Right-handed, y up, metres.
 struct ExportedScene {
     const char* title = "";  // any text
     ExportedImage image{};
     ExportedObserver observer{};
-    Vec3 room{};  // the extent of the box around the origin that everything is in; zero: there is none
+    Vec3 room{};  // the size of a box around the origin that contains everything; zero: there is none
     std::span<const ExportedModel> light_models{};
     std::span<const ExportedLight> lights{};
-    std::span<const ExportedShading> shadings{};        // those of the objects, then those to switch to
-    std::span<const ExportedReflection> reflections{};  // likewise
+    std::span<const ExportedShading> shadings{};        // the objects' models, then those to switch to
+    std::span<const ExportedReflection> reflections{};  // in the same order
     std::span<const ExportedObject> objects{};
-    std::span<const float> tables{};  // the numbers of all kernels' tables, equal ones once
+    std::span<const float> tables{};  // the numbers of all kernels' tables; equal tables are stored once
     std::span<const ExportedTexture> textures{};
     bool needs_uv = false;           // a model reads texture coordinates, or an object has a texture
     bool needs_derivatives = false;  // a model reads partial derivatives of positions
     ExportedGeometry* geometry = nullptr;
 };
 
-/// Where a target puts its files. Owned by the host, which writes them whole, and none of them where write()
+/// Receives a target's files. Owned by the host, which writes each file whole, and none of them if write()
 /// throws.
 class CANDELA_API FileSink {
   public:
     virtual ~FileSink();
     /// `name` is relative to the program's folder ("shaders/lit.glsl"), without ".."; each is written once.
-    /// Throws std::exception where it is not so.
+    /// Otherwise throws std::exception.
     virtual void write(const char* name, std::span<const std::byte> content) = 0;
 
-    /// Says that the files express a part of the scene only approximately, or leave it out: a sentence
-    /// without a full stop that names the part, such as "reflection/ggx becomes a highlight of the same
-    /// width". The host refuses the files unless the user accepts approximations; each sentence is said once.
-    /// Unless overridden, nothing is done.
+    /// Declares that the files express a part of the scene only approximately, or leave it out. `sentence`,
+    /// without a full stop, names that part: "reflection/ggx becomes a highlight of the same width". The host
+    /// refuses the files unless the user accepts approximations; equal sentences are shown once. Does nothing
+    /// unless overridden.
     virtual void approximate(const char* sentence);
 };
 
-/// What became of a program that has ended.
+/// The result of a program that has ended.
 struct ProgramResult {
-    int exit_code = 0;     // 128 + signal where a signal ended it
-    const char* out = "";  // what it printed; both belong to the runner and are valid until its next call
+    int exit_code = 0;     // 128 + signal if a signal ended it
+    const char* out = "";  // what it printed; both strings belong to the runner and are valid until its next
+                           // call
     const char* err = "";
 };
 
@@ -196,50 +197,51 @@ class CANDELA_API ProgramRunner {
     virtual ~ProgramRunner();
     /// Whether PATH has an executable of that name.
     virtual bool has(const char* program) = 0;
-    /// Runs a program, found on PATH where its name has no '/', without input, and waits for it. Throws
-    /// std::exception where it cannot be started.
+    /// Runs a program without input and waits for it. A name without '/' is looked up on PATH. Throws
+    /// std::exception if the program cannot be started.
     virtual ProgramResult run(std::span<const char* const> words) = 0;
-    /// The same with the streams of the user, who is to see it. Returns its exit code.
+    /// Like run(), but inherits the user's terminal. Returns the exit code.
     virtual int show(std::span<const char* const> words) = 0;
 };
 
-/// What a target can express. The host refuses a scene that needs more before write() is called.
+/// The abilities of a target. The host refuses a scene that needs more before calling write().
 struct TargetAbilities {
-    bool models_without_kernel = false;  // of lights, shading and reflection; shapes always have triangles.
-                                         // Its files are not made from kernels, but have models of their own
-    bool surroundings = false;           // pictures all around, and models that show what is behind an object
-    bool triangle = false;               // kernels of shading models that see their triangle: ShadingNeeds
-    bool vertex_colors = false;  // ExportedMesh::color; a mesh that has it is refused when it is asked for
-    bool textures = false;       // ExportedObject::color_texture
+    bool models_without_kernel = false;  // light, shading and reflection models without a kernel: the
+                                         // target's files use models of their own (shapes always export
+                                         // triangles)
+    bool surroundings = false;           // environment maps, and models that show what is behind an object
+    bool triangle = false;               // kernels of shading models that read their triangle: ShadingNeeds
+    bool vertex_colors = false;          // ExportedMesh::color; otherwise the host refuses a mesh that has it
+    bool textures = false;               // ExportedObject::color_texture
 };
 
-/// Something that a scene can be turned into: a program, a page, a file. Any thread.
+/// Turns a scene into something else: a program, a page, a file. Any thread.
 class CANDELA_API Target : public Instance {
   public:
     ~Target() override;
 
     virtual TargetAbilities abilities() const noexcept { return {}; }
 
-    /// Writes all files of the scene; the same ones for the same scene. Throws std::exception where it cannot
+    /// Writes all files of the scene; equal scenes yield equal files. Throws std::exception if it cannot
     /// express the scene.
     virtual void write(const ExportedScene& scene, FileSink& files) const = 0;
 
-    /// The name of the file that a person opens first, one of those that write() writes.
+    /// The name of the file that users open first, one of those that write() writes.
     virtual const char* main_file() const noexcept = 0;
 
-    /// Whether draw() can be called: only then can the target be verified.
+    /// Whether draw() is implemented; a target without it cannot be verified.
     virtual bool can_draw() const noexcept { return false; }
 
-    /// Makes what was written in `directory` ready to run. Unless overridden, nothing has to be done. Throws
-    /// std::exception with what the compiler says.
+    /// Builds what write() wrote to `directory`, so that it is ready to run. Does nothing unless overridden.
+    /// Throws std::exception with the compiler's message.
     virtual void build(const char* directory, ProgramRunner& programs) const;
 
-    /// Has what was built draw the scene as it is, without a display, to a PNG file of the image's size.
+    /// Makes the built program draw the scene as it is, without a display, to a PNG file of the image's size.
     /// Throws std::exception.
     virtual void draw(const char* directory, const char* picture, ProgramRunner& programs) const;
 
-    /// Shows a person what was built; returns an exit code. Unless overridden, the desktop opens the main
-    /// file.
+    /// Shows the built program to the user; returns an exit code. Unless overridden, the desktop opens the
+    /// main file.
     virtual int show(const char* directory, ProgramRunner& programs) const;
 };
 

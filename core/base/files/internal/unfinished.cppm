@@ -1,4 +1,4 @@
-// Names of temporary files, where a signal handler finds them.
+// Names of temporary files, where signal handlers find them.
 module;
 
 #include <atomic>
@@ -10,7 +10,7 @@ module candela.files:unfinished;
 
 namespace candela {
 
-/// A new name in a directory for a file to be; the file of that name goes away with this, and in
+/// A new name in a directory for a temporary file. The file is removed with this object, and by
 /// remove_unfinished_files().
 class UnfinishedName {
   public:

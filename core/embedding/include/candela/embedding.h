@@ -1,5 +1,5 @@
-// Candela in a program of any C++20 compiler: scenes from files or from text, pictures in memory. Programs
-// that want more, and are built by clang with modules, import candela.core instead (docs/embedding.md).
+// Candela in a program built by any C++20 compiler: scenes from files or text, pictures in memory. Programs
+// that need more, and are built by clang with modules, import candela.core instead (docs/embedding.md).
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace candela::embedding {
 
-/// What is wrong, or worth knowing, and where. Lines and columns count from 1; 0: the file as a whole.
+/// An error or a warning, and its position. Lines and columns count from 1; 0 means the file as a whole.
 struct Problem {
     bool is_error = true;  // otherwise a warning
     std::string file;
@@ -26,13 +26,13 @@ struct Problem {
     std::string hint;  // what to do about it; may be empty
 };
 
-/// Why there is no scene or no picture. `what()` has all problems, one a line, as "file:line:column: error:
+/// Why there is no scene or no picture. `what()` has all problems, one per line, as "file:line:column: error:
 /// …".
 class CANDELA_API Error : public std::runtime_error {
   public:
     explicit Error(const std::string& message, std::vector<Problem> problems = {});
     ~Error() override;
-    /// Empty if it is not the scene that is wrong: no memory, a plugin that fails.
+    /// Empty if the scene is not at fault: no memory, a plugin that fails.
     const std::vector<Problem>& problems() const noexcept { return problems_; }
 
   private:
@@ -45,7 +45,7 @@ struct BytePicture {
     std::vector<std::uint8_t> rgb;  // width * height * 3, rows from the top, no padding
 };
 
-/// Intensities as computed: linear, 1 being what bytes show as 255, and not clamped.
+/// Intensities as computed: linear, not clamped; 1 corresponds to 255 in bytes.
 struct FloatPicture {
     int width = 0, height = 0;
     std::vector<float> rgb;  // as in BytePicture
@@ -56,15 +56,15 @@ struct Options {
     std::vector<std::filesystem::path> plugin_folders{};
     /// 0: all cores, or one for a small picture.
     int threads = 0;
-    /// Called while a picture is rendered, by any thread, by several at once.
+    /// Called while a picture is rendered, by any thread, possibly several at once.
     std::function<void(std::size_t done, std::size_t all)> progress{};
 };
 
-/// A scene, read and checked, with its triangles: rendered as often as one likes, with changes between
+/// A scene, read and checked, with its triangles. Render it as often as you like, with changes between
 /// pictures. Owns everything it needs. One thread at a time; different scenes at the same time.
 class CANDELA_API Scene {
   public:
-    /// One scene file, or several that together are one; none: the default scene. Throws Error.
+    /// One scene file, or several that are merged; none: the default scene. Throws Error.
     explicit Scene(const std::vector<std::filesystem::path>& files, Options options = {});
     /// The text of a scene file. `name` stands for the file in messages; paths in the text are relative to
     /// the working directory. Throws Error.
@@ -74,19 +74,18 @@ class CANDELA_API Scene {
     Scene& operator=(Scene&&) noexcept;
     ~Scene();
 
-    /// Overrides a value, as `--set` of the command does: path "light.lamp.intensity", value "3.5", as it
-    /// would stand in a scene file. Reads the scene anew. Throws Error, and then the scene is what it was.
+    /// Overrides a value, like the command's `--set`: path "light.lamp.intensity", value "3.5", as written in
+    /// a scene file. Reads the scene again. Throws Error and then leaves the scene unchanged.
     void set(std::string_view path, std::string_view value);
 
-    /// What reading the scene has to say that is no error, such as a plugin used instead of one that is
-    /// refused.
+    /// Warnings from reading the scene, such as a plugin used instead of one that was refused.
     const std::vector<Problem>& warnings() const noexcept;
     int width() const noexcept;   // pixels
     int height() const noexcept;  // pixels
 
     /// The same values as in the files that the command writes, for any number of threads. Throws Error.
     BytePicture render();
-    /// As render(), before clamping and encoding.
+    /// Like render(), before clamping and encoding.
     FloatPicture render_floats();
 
   private:

@@ -1,4 +1,4 @@
-// What stands behind the spans of an ExportedScene.
+// Owns the memory behind the spans of an ExportedScene.
 module;
 
 #include <cstddef>
@@ -40,7 +40,7 @@ struct ExportStorage : ExportedGeometry {
     /// The values of a set, which is kept as long as they are.
     ExportedValues kept(const ParamSet& values);
 
-    /// The same of a plugin whose kernel may have tables: those of the instance that `make` makes.
+    /// Like kept(), for a plugin whose kernel may have tables: those of the instance that `make` creates.
     template <class Make>
     ExportedValues kept(const PluginDescriptor& plugin, const ParamSet& values, Make make) {
         const ExportedValues result = kept(values);
@@ -48,7 +48,7 @@ struct ExportStorage : ExportedGeometry {
         return result;
     }
 
-    /// When all tables are there, and stay where they are.
+    /// Call it when all tables exist and no longer move.
     void connect_tables();
 
     struct PlacedTable {
@@ -60,24 +60,24 @@ struct ExportStorage : ExportedGeometry {
     bool has_vertex_colors = false;  // the target's ability
     std::string title, environment;
     std::vector<ExportedSample> samples;
-    std::deque<ParamSet> sets;                    // whose texts the values point into
-    std::deque<std::vector<ParamValue>> numbers;  // a deque, so that what is there stays where it is
+    std::deque<ParamSet> sets;                    // the values point into its texts
+    std::deque<std::vector<ParamValue>> numbers;  // a deque, so that its elements do not move
     std::deque<std::string> labels;
     std::vector<float> tables;
     std::vector<PlacedTable> placed_tables;
     std::vector<ExportedModel> light_models;
     std::vector<ExportedLight> lights;
-    std::deque<std::vector<PunctualLight>> punctual;  // which the lights point into
+    std::deque<std::vector<PunctualLight>> punctual;  // the lights point into it
     std::vector<ExportedShading> shadings;
     std::vector<ExportedReflection> reflections;
     std::vector<ExportedObject> exported_objects;
     std::vector<Object> objects;
-    std::deque<std::shared_ptr<const MipMap>> mip_maps;  // which the textures point into
+    std::deque<std::shared_ptr<const MipMap>> mip_maps;  // the textures point into it
     std::deque<std::vector<ExportedTextureLevel>> levels;
     std::vector<ExportedTexture> textures;
     ExportedScene scene;
 
-    // Of the mesh that was asked for last:
+    // Of the mesh that was last requested:
     PlacedShape placed;
     std::vector<Vec3Arrays> normal_sets;
     std::vector<ConstVec3Span> normals_view;
@@ -85,12 +85,12 @@ struct ExportStorage : ExportedGeometry {
 
   private:
     static bool has_tables(const PluginDescriptor& plugin);
-    /// Of an instance whose values were kept last.
+    /// Puts the tables of an instance whose values were kept last.
     void put_tables(const PluginDescriptor& plugin, const Instance& instance);
     void put_table(std::span<const float> table, ParamValue& value);
 
     MeshRequest request(bool needs_uv) const;
-    /// Unless the target can express them.
+    /// Throws if the object's mesh has colours that the target cannot express.
     void require_no_colors(std::size_t object) const;
 };
 

@@ -21,7 +21,7 @@ inline Indices corners_of(const Mesh& mesh, std::uint32_t triangle) {
     return {mesh.indices[first], mesh.indices[first + 1], mesh.indices[first + 2]};
 }
 
-/// Colour, uv, derivatives and triangle of points whose barycentric coordinates are known.
+/// Computes colour, uv, derivatives and triangle of points with known barycentric coordinates.
 void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
                       std::size_t count, SurfacePoints& points);
 
@@ -29,7 +29,7 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
 void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
                     SurfacePoints& points);
 
-/// All points as seen from the front. Writes nothing where those of the last batch were, too.
+/// Marks all points as seen from the front. Writes nothing if the last batch's points were as well.
 void face_forward(SurfacePoints& points);
 
 }  // namespace candela

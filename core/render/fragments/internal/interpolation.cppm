@@ -19,32 +19,32 @@ struct TriangleAttributes {
     float u[3]{}, v[3]{};
 };
 
-/// What is computed at a fragment.
+/// The attributes computed at a fragment.
 enum class Interpolated {
-    barycentric,                 // nothing else
-    position_and_normal,         // position and vertex normal: what smooth surfaces are lit from
-    position_and_normal_and_uv,  // and texture coordinates with their derivatives
+    barycentric,                 // only barycentric coordinates
+    position_and_normal,         // position and vertex normal: what lighting of smooth surfaces needs
+    position_and_normal_and_uv,  // also texture coordinates with their derivatives
     all_but_uv,
     all,
 };
 
-/// Whether `what` has texture coordinates, which come with their derivatives.
+/// Whether `what` includes texture coordinates, which come with their derivatives.
 constexpr bool has_uv(Interpolated what) {
     return what == Interpolated::position_and_normal_and_uv || what == Interpolated::all;
 }
-/// Whether `what` has barycentric coordinates and face normals.
+/// Whether `what` includes barycentric coordinates and face normals.
 constexpr bool has_faces(Interpolated what) {
     return what == Interpolated::all_but_uv || what == Interpolated::all;
 }
 
-/// Where it goes.
+/// Destinations of interpolated values.
 struct InterpolatedSpans {
     Vec3Span barycentric, position, vertex_normal, face_normal;
     Vec2Span uv, uv_per_x, uv_per_y;
 };
 
-/// Interpolates over `count` fragments of one triangle, at (x, y), and writes whole vectors, beyond `count`
-/// if need be.
+/// Interpolates over `count` fragments of one triangle, at (x, y), and writes whole vectors, past `count` if
+/// necessary.
 void interpolate(Interpolated what, const TriangleAttributes& triangle, std::size_t count, const float* x,
                  const float* y, const InterpolatedSpans& points);
 
@@ -54,11 +54,11 @@ struct IndexedMesh {
     const ProjectedVertex* projected;
     const MeshVertex* vertices;
     ConstVec3Span face_normal;
-    ConstVec2Span uv;  // empty where the mesh has none
+    ConstVec2Span uv;  // empty if the mesh has none
 };
 
-/// Interpolates over `count` fragments of one triangle each, at (x, y), and writes whole vectors, beyond
-/// `count` if need be. Yields the same numbers as interpolate().
+/// Interpolates over `count` fragments of one triangle each, at (x, y), and writes whole vectors, past
+/// `count` if necessary. Yields the same numbers as interpolate().
 void interpolate_each(Interpolated what, const IndexedMesh& mesh, std::size_t count,
                       const std::uint32_t* triangle, const float* x, const float* y,
                       const InterpolatedSpans& points);

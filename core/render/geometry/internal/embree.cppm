@@ -1,4 +1,4 @@
-// Intel's Embree, loaded when a model first asks for rays.
+// Intel's Embree, loaded when a model first needs rays.
 module;
 
 #include "embree_headers.h"
@@ -11,7 +11,7 @@ module candela.geometry:embree;
 
 namespace candela {
 
-/// Embree's functions, and a device that they work with. One for the process, which lives until its end.
+/// Embree's functions, and the device that they use. One per process, which lives until its end.
 struct Embree {
     boost::dll::shared_library library;
 
@@ -33,25 +33,25 @@ struct Embree {
 
     RTCDevice device;
 
-    /// Rays that are traced together.
+    /// The number of rays that are traced together.
     static constexpr std::size_t k_packet_size = 16;
 
-    /// Builds the scene's tree, on this thread alone, so that it is the same one however many there are.
+    /// Builds the scene's tree on this thread alone, so that it does not depend on the number of threads.
     void commit(RTCScene scene) const;
 
-    /// A scene's flag with which trace() may have a filter.
+    /// The scene flag that lets trace() use a filter.
 #if RTC_VERSION_MAJOR >= 4
     static constexpr RTCSceneFlags k_filters_by_call = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 #else
     static constexpr RTCSceneFlags k_filters_by_call = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 #endif
 
-    /// Finds the nearest hits of rays that are close to each other, but for those that `filter` refuses, if
+    /// Finds the nearest hits of rays that are close to each other, except those that `filter` rejects, if
     /// there is one.
     void trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCFilterFunctionN filter,
                RTCRayHit16& rays) const;
 
-    /// Throws an Error that names the library where it cannot be loaded, and std::bad_alloc.
+    /// Throws an Error that names the library if it cannot be loaded, and std::bad_alloc.
     static const Embree& instance();
 
   private:

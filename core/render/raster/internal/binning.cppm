@@ -11,8 +11,8 @@ import candela.mesh;
 
 namespace candela {
 
-/// Where a vertex lies: beyond which plane of the view volume, or beyond the guard band, where its
-/// fixed-point pixels are useless; or nowhere, if its position is not finite.
+/// The planes of the view volume that a vertex is beyond, or the guard band, beyond which its fixed-point
+/// pixels are useless; or nowhere, if its position is non-finite.
 struct Outside {
     static constexpr std::uint32_t near = 1, left = 2, right = 4, top = 8, bottom = 16;
     static constexpr std::uint32_t view = near | left | right | top | bottom;

@@ -21,7 +21,7 @@ namespace candela {
 struct SampleBounds {
     std::int32_t width, height;  // of the picture
     int bits;                    // of a pixel's fraction
-    bool is_sparse;              // one sample per pixel, in its centre
+    bool is_sparse;              // one sample per pixel, at its centre
 
     explicit SampleBounds(const ProjectedScene& scene)
         : width(scene.camera.width << scene.subpixel_bits),

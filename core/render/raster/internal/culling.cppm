@@ -18,20 +18,20 @@ struct IndexedTriangles {
     bool two_sided;
 };
 
-/// Decides which triangles are worth sorting into tiles, many at once: those that face the observer, have an
-/// area and may cover a sample.
+/// Selects the triangles that are worth sorting into tiles, many at once: those that face the observer, have
+/// an area and may cover a sample.
 struct Culling {
     static constexpr std::size_t k_size = 64;
 
-    // A bit for each triangle.
+    // One bit per triangle.
     std::uint64_t kept;
     std::uint64_t reversed;  // seen from behind
-    std::uint64_t clipped;   // reaches beyond the guard band: it has to be clipped to know
+    std::uint64_t clipped;   // reaches beyond the guard band: must be clipped to find out
 
-    // The kept ones' boxes.
+    // The boxes of the kept ones.
     alignas(64) std::int32_t left[k_size], right[k_size], top[k_size], bottom[k_size];
 
-    /// Looks at k_size of `triangles` from `first` on, or at as many as there are.
+    /// Examines k_size of `triangles` from `first` on, or as many as there are.
     void look_at(const IndexedTriangles& triangles, std::size_t first, const SampleBounds& bounds);
 };
 

@@ -2,7 +2,7 @@ module;
 
 #include <string>
 
-// Calls of plugins, whose exceptions become errors that name them.
+// Calls plugins, and turns their exceptions into errors that name them.
 module candela.shade:guarded;
 
 import candela.descriptor;

@@ -16,10 +16,10 @@ import candela.reflection;
 
 namespace candela {
 
-/// The normals from an object's shading model, on the side from which triangles are seen from the front.
+/// The normals from an object's shading model, on the side of each triangle that is its front.
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
 
-/// What the models of one object see of the world around it.
+/// The world around one object, as its models see it.
 class ObjectSurroundings final : public Surroundings {
   public:
     explicit ObjectSurroundings(const Environment& environment) : environment_(environment) {}

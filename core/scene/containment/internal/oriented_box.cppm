@@ -1,5 +1,5 @@
-// A box that fits a body in any orientation: long bodies side by side overlap in their axis-aligned boxes
-// only.
+// A box that fits a body in any orientation: long bodies next to each other overlap in their axis-aligned
+// boxes only.
 module;
 
 #include <array>
@@ -11,8 +11,8 @@ namespace candela {
 
 using Double3 = std::array<double, 3>;
 
-/// Along the principal axes of the points that it encloses. (Plain arrays: clang 19 does not find Eigen's own
-/// functions in units that see Eigen through a partition as well.)
+/// Aligned to the principal axes of the points that it encloses. (Plain arrays: clang 19 does not find
+/// Eigen's own functions in units that also see Eigen through a partition.)
 struct OrientedBox {
     Double3 centre{};
     std::array<Double3, 3> axes{};  // unit vectors
@@ -22,9 +22,9 @@ struct OrientedBox {
 /// `points`: at least one.
 OrientedBox oriented_box(std::span<const Double3> points);
 
-/// Whether two boxes may have a point in common; `false` is certain. `shift`: of `b`. The separating axis
-/// test of Gottschalk, Lin, Manocha (1996), "OBBTree: a hierarchical structure for rapid interference
-/// detection", section 5.
+/// Whether two boxes may have a point in common; `false` is certain. `shift` is added to `b`'s position. The
+/// separating axis test of Gottschalk, Lin, Manocha (1996), "OBBTree: a hierarchical structure for rapid
+/// interference detection", section 5.
 bool may_meet(const OrientedBox& a, const OrientedBox& b, const Double3& shift);
 
 }  // namespace candela

@@ -20,7 +20,7 @@ namespace candela {
 /// The contents of the files, the includes and the settings combined.
 struct MergedDocument {
     SourcePlace place;                         // of the first file
-    TableNode root;                            // as if everything were in one file, `include` followed
+    TableNode root;                            // as if everything were in one file, with `include` resolved
     std::vector<std::filesystem::path> files;  // absolute
 };
 
@@ -46,12 +46,12 @@ class ElementIndex {
     Kind lights_, objects_;
 };
 
-/// Sets the value at a setting's path; false if the path leads nowhere, which is reported at `place`, and
-/// that is where the key will be said to stand. `index`: that of `root`, for many calls.
+/// Sets the value at a setting's path. Returns false if the path leads nowhere, which is reported at `place`;
+/// `place` also becomes the key's position. `index`: that of `root`, for many calls.
 bool set_value(TableNode& root, std::string_view path, Node value, const SourcePlace& place,
                Diagnostics& diagnostics, const ElementIndex* index = nullptr);
 
-/// The same for a path that parts_of() has split.
+/// Like the above, for a path that parts_of() has split.
 bool set_value(TableNode& root, std::vector<std::string> parts, Node value, const SourcePlace& place,
                Diagnostics& diagnostics, const ElementIndex* index = nullptr);
 

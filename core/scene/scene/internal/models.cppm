@@ -20,7 +20,7 @@ namespace candela {
 inline constexpr const char* k_default_shading = "phong";
 inline constexpr const char* k_default_reflection = "phong";
 
-/// Which shading and reflection model each object gets: the command line's, its own, the scene's, or (R12,
+/// Chooses each object's shading and reflection model: the command line's, its own, the scene's, or (R12,
 /// R13) the default, if the user agrees.
 class ModelChooser {
   public:
@@ -31,7 +31,7 @@ class ModelChooser {
     Model reflection_for(const TableNode& object, const std::string& label, const SourcePlace& place);
 
   private:
-    /// A model named somewhere.
+    /// A model's name, and where it stands.
     struct Named {
         std::string name;
         SourcePlace place;

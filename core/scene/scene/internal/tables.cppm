@@ -1,4 +1,4 @@
-// What is asked of all tables of a scene.
+// Reads the tables of a scene in a common way.
 module;
 
 #include <initializer_list>
@@ -54,7 +54,7 @@ class SceneTables {
     TableContext context_of(const std::string& name) const;
     /// All values of a table without a plugin.
     ParamSet read_plain(const std::string& name);
-    /// Whether the table is one, or missing, and all of these keys have valid values.
+    /// Whether the table is valid as such, or missing, and all of these keys have valid values.
     bool has_valid(const std::string& name, std::initializer_list<std::string_view> keys);
     /// The installed plugin of that name, or null, with a message at `place`.
     const PluginFile* known(PluginKind kind, const std::string& name, const SourcePlace& place);

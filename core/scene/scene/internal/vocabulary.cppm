@@ -1,4 +1,4 @@
-// Keys as other programs call them, or in a table that is not theirs.
+// Keys as other programs call them, or in the wrong table.
 module;
 
 #include <functional>
@@ -11,9 +11,9 @@ import candela.registry;
 
 namespace candela {
 
-/// For TableContext::hint: says of an unknown key of a table what it is called here ("did you mean
-/// 'position'?"), or where it belongs. `table`: a name in scene_schema(); empty for the top of the file;
-/// "material" for an object's material.
+/// For TableContext::hint: returns what an unknown key is called here ("did you mean 'position'?"), or where
+/// it belongs. `table`: a name in scene_schema(); empty for the top of the file; "material" for an object's
+/// material.
 std::function<std::string(const std::string& key)> hints_for(std::string_view table, Registry& registry);
 
 }  // namespace candela

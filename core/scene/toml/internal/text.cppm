@@ -1,4 +1,4 @@
-// The text of a document before toml++ sees it, and what toml++ says of it.
+// The text of a document before toml++ parses it, and toml++'s messages.
 module;
 
 #include <cstddef>
@@ -19,11 +19,11 @@ namespace candela {
 std::optional<std::string> text_of_file(const std::filesystem::path& file, const std::string& shown_name,
                                         std::uintmax_t& bytes_left, Diagnostics& diagnostics);
 
-/// Same, of bytes that have been read already.
+/// Like text_of_file(), for bytes that have been read already.
 std::optional<std::string> text_of_bytes(std::string bytes, const std::string& shown_name,
                                          std::uintmax_t& bytes_left, Diagnostics& diagnostics);
 
-/// The place of a byte of a text.
+/// The position of a byte of a text.
 SourcePlace place_at(std::string_view text, std::size_t offset, const std::string& shown_name);
 
 struct Excess {
@@ -31,8 +31,8 @@ struct Excess {
     std::string message;
 };
 
-/// Where brackets nest so deeply, or keys have so many parts, that recursion would be dangerous; or where
-/// there are more than `values_left` values. Otherwise subtracts their number.
+/// Finds the position where brackets nest so deeply, or keys have so many parts, that recursion would be
+/// dangerous, or where the number of values exceeds `values_left`. Otherwise subtracts their number.
 std::optional<Excess> first_excess(std::string_view text, std::size_t& values_left);
 
 struct SyntaxProblem {

@@ -1,4 +1,4 @@
-// A kernel as the parser has read it and the checker has understood it.
+// A kernel as read by the parser and understood by the checker.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace candela::kernel_language {
 
-/// Where something begins: the byte, and in which of a kernel's texts (see Kernel::sources).
+/// Where something begins: the byte, and the index of its text among the kernel's (see Kernel::sources).
 struct Place {
     std::uint32_t offset = 0;
     std::uint8_t source = 0;
 };
 
-/// The types of the language. A struct is known by its number among all structs (see Checker).
+/// The types of the language. A struct is identified by its number among all structs (see Checker).
 struct Type {
     enum class Kind : std::uint8_t { none, boolean, integer, real, vec2, vec3, vec4, mat3, table, structure };
     Kind kind = Kind::none;
@@ -23,7 +23,7 @@ struct Type {
     friend bool operator==(const Type&, const Type&) = default;
 };
 
-/// A type as it is written, and what it turns out to be.
+/// A type as written, and what it resolves to.
 struct TypeName {
     std::string name{};
     Type type{};
@@ -49,7 +49,7 @@ struct Expression {
     std::string text{};  // the literal, the name or the operator
     std::vector<Expression> operands{};
     std::uint32_t depth = 1;    // of the tree
-    bool becomes_real = false;  // an integer where a number with a fraction is expected
+    bool becomes_real = false;  // an integer where a real number is expected
 };
 
 struct Statement {
@@ -60,11 +60,11 @@ struct Statement {
     TypeName type{};           // of `declare`
     std::string name{};        // what is declared, or the operator of `assign`: "=", "+=", "++"
     Place name_place{};
-    /// declare: the initialiser, if any. assign: what is assigned to, then the value, except for ++ and --.
-    /// branch: the condition. loop: the condition. result: the value.
+    /// declare: the initialiser, if any. assign: the target, then the value, except for ++ and --. branch:
+    /// the condition. loop: the condition. result: the value.
     std::vector<Expression> expressions{};
-    /// block: all. branch: what is done if so, and else, if there is one. loop: the first declaration, the
-    /// step, and the body.
+    /// block: all. branch: the true branch and, if there is one, the else branch. loop: the first
+    /// declaration, the step, and the body.
     std::vector<Statement> statements{};
 };
 
@@ -80,7 +80,7 @@ struct Structure {
     Place place{};
     std::vector<Variable> members{};
     Place end{};
-    std::uint64_t numbers = 0;  // that it holds, those of its members' structs included
+    std::uint64_t numbers = 0;  // in it, including those of its members' structs
 };
 
 struct Constant {
@@ -93,18 +93,19 @@ struct Function {
     Place place{};  // of KERNEL
     Place name_place{};
     std::vector<Variable> parameters{};
-    Place begin{};  // of the body's brace
+    Place begin{};  // of the body's opening brace
     std::vector<Statement> body{};
     Place end{};
-    std::uint64_t steps = 0;  // that a call takes at most
-    std::uint64_t size = 0;   // numbers that its text computes, with those of the functions that it calls
+    std::uint64_t steps = 0;  // at most, in one call
+    std::uint64_t size = 0;   // numbers that its text computes, including those of the functions that it
+                              // calls
 };
 
 using Declaration = std::variant<Structure, Constant, Function>;
 
 /// One of the texts that a kernel is made of.
 struct Source {
-    std::string name{};  // as messages call it
+    std::string name{};  // its name in messages
     std::string text{};
 };
 

@@ -1,4 +1,4 @@
-// Files that targets write.
+// Writes the files of targets.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@ namespace candela::target {
 
 void write(FileSink& files, const char* name, std::string_view content);
 
-/// A folder in `parent` that is new, and gone when this is.
+/// A new folder in `parent`, which is removed with this object.
 class TemporaryFolder {
   public:
-    /// Throws std::runtime_error where none can be made.
+    /// Throws std::runtime_error if it cannot be created.
     explicit TemporaryFolder(std::string_view name,
                              const std::filesystem::path& parent = std::filesystem::temp_directory_path());
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -26,7 +26,7 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-/// Writes a file of this machine whole, or not at all. Throws std::exception.
+/// Writes a file of this machine completely or not at all. Throws std::exception.
 void write_whole(const std::filesystem::path& file, std::string_view content);
 
 /// A part of a C++17 program that writes 8-bit pictures, put_number() to write_picture(): PNG and PPM.

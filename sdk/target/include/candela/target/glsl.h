@@ -1,4 +1,4 @@
-// The shaders of a scene, in parts: GLSL 3.30 and GLSL ES 3.00, whichever the header says.
+// The shaders of a scene, in parts: GLSL 3.30 or GLSL ES 3.00, depending on the header.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 namespace candela::target {
 
 /// An object's vertex shader is: header, "#define TWO_SIDED" if it is open, prelude, texture if it has one,
-/// lights, its reflection model, its shading model, vertex; the fragment shader likewise. The others are of
-/// passes over the whole screen.
+/// lights, its reflection model, its shading model, vertex. The fragment shader is built in the same way. The
+/// others are for passes over the whole screen.
 struct GlslParts {
     std::string prelude;
     std::string texture;  // empty unless an object of the scene has one
     std::string lights;
-    std::vector<std::string> reflections, shadings;  // as in the scene
+    std::vector<std::string> reflections, shadings;  // in the scene's order
     std::string vertex, fragment;
     std::string screen, accumulate, encode;
 };
@@ -27,38 +27,38 @@ struct GlslDepth {
     const char* statement;
 };
 
-/// Depths grow towards the eye, from the uniform `near`; in perspective near / distance, which a float buffer
-/// holds with the same relative precision at all distances.
+/// Depths grow towards the eye, from the uniform `near`; in perspective they are near / distance, which a
+/// float buffer holds with the same relative precision at all distances.
 extern const GlslDepth k_reversed_depth;
 
-/// Throws std::runtime_error where the kernels cannot stand in one program.
+/// Throws std::runtime_error if the kernels cannot be combined in one program.
 GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth = k_reversed_depth);
 
-/// What GlslParts::prelude has, with all that a kernel may use, whether or not one of a scene does: for texts
-/// that nobody knows yet.
+/// GlslParts::prelude with everything that any kernel may use, whether or not one of the scene does: for
+/// kernels that are not yet known.
 std::string whole_glsl_prelude();
 
 /// Texels in a row of the texture `light_table`, from which shaders read lights. A texel has four 32-bit
-/// integers (RGBA32I) and holds a member of a light's struct: the bits of a vector's three floats, of one
-/// float, an integer, or where a Table begins and its size. A matrix takes three texels, its columns.
+/// integers (RGBA32I) and holds one member of a light's struct: the bits of a vector's three floats or of one
+/// float, an integer, or the offset and size of a Table. A matrix takes three texels, its columns.
 constexpr int k_light_table_width = 1024;
-/// Texels of a member of that type.
+/// The number of texels of a member of that type.
 std::size_t texels_of(ParamType type);
 
 /// Numbers in a row of the texture `table_numbers` (R32F), which holds ExportedScene::tables.
 constexpr int k_table_width = 1024;
 
 /// Where the lights of one model are in the table: one after the other, each with its struct's members in
-/// their order (KernelText::members).
+/// order (KernelText::members).
 struct LightBlock {
-    std::string count;       // the uniform, an int, of how many of them shine: "point_light_count"
-    std::size_t lights = 0;  // how many there is room for: those of the scene
-    std::size_t first = 0;   // the texel where they begin
+    std::string count;       // the int uniform with the number of active lights: "point_light_count"
+    std::size_t lights = 0;  // capacity: the number of lights in the scene
+    std::size_t first = 0;   // first texel
     std::size_t size = 0;    // texels per light
 };
-/// Whether a shading model of the scene sees its triangle. If so, shaders read more of each vertex than the
+/// Whether a shading model of the scene reads its triangle. If so, shaders read more per vertex than the
 /// first nine attributes: at locations 9 to 11 the positions of its triangle's vertices, at 12 to 14 their
-/// unit normals. A target says that it provides them with TargetAbilities::triangle.
+/// unit normals. A target declares by TargetAbilities::triangle that it provides them.
 ///
 /// Shaders of an object with a texture read it from `color_texels` (RGBA16UI, NEAREST): the picture, and its
 /// mip levels in a row along its longer side, each from `longer - (longer >> (level - 1))` on: below a
@@ -70,7 +70,7 @@ struct LightBlock {
 /// perspective.
 bool sees_triangles(const ExportedScene& scene);
 
-/// Of each light model of the scene.
+/// The blocks of the scene's light models.
 std::vector<LightBlock> light_blocks(const ExportedScene& scene);
 
 /// "face", "vertex", "fragment".

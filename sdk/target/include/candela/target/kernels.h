@@ -10,22 +10,23 @@
 
 namespace candela::target {
 
-/// The structs and functions that kernels start from, in the kernel language.
+/// The structs and functions of every kernel's prelude, in the kernel language.
 std::string_view kernel_prelude();
 
-/// What kernel texts call Table, as GLSL; `table_numbers` is a texture (R32F) of ExportedScene::tables with
-/// k_table_width numbers in a row.
+/// Table in GLSL; `table_numbers` is a texture (R32F) of ExportedScene::tables with k_table_width numbers in
+/// a row.
 std::string_view glsl_tables();
 
 /// Whether a model's kernel has a struct of parameters.
 bool has_parameters(const ExportedModel& model);
 /// Whether its kernel has the function <prefix>_<name>.
 bool has_function(const ExportedModel& model, std::string_view name);
-/// The type of what its functions get: the struct of its parameters, or what <prefix>_prepare makes of it.
+/// The type of its functions' first argument: the struct of its parameters, or what <prefix>_prepare makes of
+/// it.
 std::string constants_type(const ExportedModel& model);
-/// The constants as an expression, from one for the parameters: "x_prepare(material)", or the same.
+/// The constants as an expression of the parameters: "x_prepare(material)", or the parameters themselves.
 std::string prepared(const ExportedModel& model, const std::string& parameters);
-/// A call of that function: with the constants as `parameters` where it takes them, then `arguments`.
+/// A call of that function: with the constants as `parameters` if it takes them, then `arguments`.
 std::string call(const ExportedModel& model, std::string_view name, std::string_view parameters,
                  std::string_view arguments);
 /// The struct of a model's parameters with these values: "PhongMaterial{vec3(0.1f), ...}", prepared.
@@ -33,18 +34,18 @@ std::string struct_text(const ExportedModel& model, const ExportedValues& values
 
 /// "reflection/phong".
 std::string id_of(const ExportedModel& model);
-/// The models of light, reflection and shading of a scene, each once.
+/// The light, reflection and shading models of a scene, each once.
 std::vector<ExportedModel> models_of(const ExportedScene& scene);
 
-/// Throws std::runtime_error where two kernels declare the same name, with which they cannot stand in one
-/// program: neither C++ nor GLSL would tell the two apart.
+/// Throws std::runtime_error if two kernels declare the same name. They cannot be combined in one program,
+/// because neither C++ nor GLSL could tell the two apart.
 void require_different_names(const ExportedScene& scene);
 
 /// A kernel's text, or any other C++ or GLSL, without comments.
 std::string without_comments(const std::string& text);
 
-/// The paragraphs of `library` (parted by empty lines) that declare something which `users`, or a paragraph
-/// that is needed itself, speak of, and those that declare nothing.
+/// The paragraphs of `library` (separated by empty lines) that declare something used by `users` or by
+/// another needed paragraph, and those that declare nothing.
 std::string needed_parts(std::string_view library, const std::string& users);
 
 }  // namespace candela::target

@@ -12,17 +12,17 @@
 
 namespace candela::target {
 
-/// Each is the text of an element of its own, and the scene's JSON has its name, which is made from its
-/// bytes. So a page that shows an earlier state of the scene fetches, decodes and uploads only what is new to
-/// it, and equal arrays are there once.
+/// Each array is the text of its own element, and the scene's JSON has its name, which is derived from its
+/// bytes. A page that shows an earlier state of the scene therefore fetches, decodes and uploads only what is
+/// new to it, and equal arrays are stored once.
 class PageArrays {
   public:
     /// Returns the array's name.
     std::string put(std::span<const std::byte> bytes);
 
-    /// Each once, in the order in which they came.
+    /// The names of the arrays, each once, in order of insertion.
     const std::vector<std::string>& names() const { return names_; }
-    /// A script element for each: its id is the name, its text base64.
+    /// A script element per array: its id is the name, its text base64.
     const std::string& html() const { return html_; }
 
   private:
@@ -35,7 +35,7 @@ class PageArrays {
     std::string html_;
 };
 
-/// A picture of which a page makes the levels.
+/// A picture whose mip levels the page computes.
 struct PageTexture {
     std::string title;
     int width = 0;
@@ -44,7 +44,7 @@ struct PageTexture {
     std::string pixels;       // the array's name
 };
 
-/// Puts the pictures of the scene's textures. Throws std::runtime_error where they are too large for a page.
+/// Puts the pictures of the scene's textures. Throws std::runtime_error if they are too large for a page.
 std::vector<PageTexture> put_textures(const ExportedScene& scene, PageArrays& arrays);
 
 }  // namespace candela::target

@@ -7,8 +7,8 @@
 
 namespace candela::target {
 
-/// Has headless Chromium draw the page, which puts the picture into itself when its URL ends in "#verify",
-/// and writes it to a PNG file. Throws std::exception.
+/// Makes headless Chromium draw the page, which embeds its picture in itself if its URL ends in "#verify",
+/// and writes that picture to a PNG file. Throws std::exception.
 void draw_page(const std::filesystem::path& page, const std::filesystem::path& picture,
                ProgramRunner& programs);
 

@@ -1,4 +1,4 @@
-// Texts with places to fill.
+// Text templates with placeholders.
 #pragma once
 
 #include <string>
@@ -8,15 +8,16 @@
 
 namespace candela::target {
 
-/// What stands where: {"TITLE", "..."} for @TITLE@.
+/// Placeholders and their values: {"TITLE", "..."} for @TITLE@.
 using Values = std::vector<std::pair<std::string, std::string>>;
-/// The same of texts that are kept elsewhere.
+/// Like Values, for texts that are stored elsewhere.
 using ValueViews = std::vector<std::pair<std::string_view, std::string_view>>;
 
 ValueViews views_of(const Values& values);
 
-/// `text` with its places filled, in one pass: what is filled in is never looked at again. A line of nothing
-/// but a place goes where the value is empty. Throws std::logic_error for a place that has no value.
+/// `text` with its placeholders replaced in one pass: replacements are not searched again. A line that
+/// consists of a placeholder with an empty value is removed. Throws std::logic_error for a placeholder
+/// without a value.
 std::string filled(std::string_view text, const ValueViews& values);
 
 }  // namespace candela::target

@@ -1,4 +1,4 @@
-// Textures, as programs keep them and look them up.
+// Textures, and how programs store and look them up.
 #pragma once
 
 #include <cstddef>
@@ -11,37 +11,39 @@
 
 namespace candela::target {
 
-/// A texture's picture without the levels that programs make of it, in as few bytes as hold it exactly.
+/// A texture's picture without its mip levels, which programs compute, in the fewest bytes that hold it
+/// exactly.
 struct TexturePixels {
     int width = 0;
     int height = 0;
-    bool is_encoded = false;  // as colours are, 8 bits a channel; else intensities, 65535 for 1, big-endian
+    bool is_encoded = false;  // 8 bits per channel, encoded like colours; otherwise intensities, 65535 for 1,
+                              // big-endian
     std::vector<std::byte> bytes;  // red, green, blue; rows from the top
 };
 
 /// `encoding`: the scene's.
 TexturePixels pixels_of(const ExportedTexture& texture, ColorEncoding encoding);
 
-/// A PPM file (P6) of 8 or of 16 bits.
+/// A PPM file (P6) with 8 or 16 bits.
 std::string ppm_of(const TexturePixels& pixels);
 
-/// Writes the pictures of the scene's textures, as PPM (P6) of 8 or of 16 bits, for programs with
+/// Writes the pictures of the scene's textures, as PPM (P6) with 8 or 16 bits, for programs with
 /// texture_file_source().
 void write_textures(const ExportedScene& scene, FileSink& files);
 
-/// The name of the file that the scene's texture of that number is written to.
+/// The name of the file for the scene's texture of that number.
 std::string texture_file(std::size_t number);
 
-/// A texture's own file name without folders, for comments.
+/// A texture's file name without folders, for comments.
 std::string title_of(const ExportedTexture& texture);
 
-/// How textures are looked up, in the kernel language: the exact footprint, bilinear, trilinear. What uses it
-/// declares before it a struct ColorTexture, with a member `repeats`, and color_texture_levels(), _width(),
-/// _height() and _texel().
+/// Texture look-ups in the kernel language: the exact footprint, bilinear, trilinear. A program that uses it
+/// must declare, before it, a struct ColorTexture with a member `repeats`, and color_texture_levels(),
+/// _width(), _height() and _texel().
 std::string_view texture_kernel();
 
-/// A part of a C++17 program that has decoded(): it reads pictures from its source's folder and makes their
-/// levels, texture_levels().
+/// A part of a C++17 program that defines decoded(): it reads pictures from its source's folder and makes
+/// their levels, texture_levels().
 std::string_view texture_file_source();
 
 }  // namespace candela::target
