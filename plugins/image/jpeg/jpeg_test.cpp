@@ -142,5 +142,5 @@ TEST_CASE("a JPEG whose header speaks of more pixels than its bytes can hold is 
     content.replace(frame + 5, 4, "\xff\x00\xff\x00", 4);
     const fs::path file = scratch_directory() / "claimed.jpg";
     write_file(file, content);
-    CHECK(problem_of("jpeg", file).find("too small a file for its pixels") != std::string::npos);
+    CHECK(problem_of("jpeg", file).find("too small for its pixels") != std::string::npos);
 }

@@ -162,7 +162,7 @@ TEST_CASE("a PNG whose header speaks of more pixels than its bytes can hold is r
         ::crc32(0, reinterpret_cast<const Bytef*>(header.data()), static_cast<uInt>(header.size())));
     for (std::size_t i = 0; i < 4; ++i) checksum[i] = static_cast<char>(crc >> (24 - 8 * i));
     write_file(picture, whole.substr(0, 12) + header + checksum + whole.substr(33));
-    CHECK(problem_of("png", picture).find("too small a file for its pixels") != std::string::npos);
+    CHECK(problem_of("png", picture).find("too small for its pixels") != std::string::npos);
 }
 
 TEST_CASE("what is no PNG is said to be none, and a JPEG by its name") {
