@@ -15,7 +15,7 @@ namespace {
 
 [[noreturn]] void fail(const fs::path& folder, const std::string& reason) {
     throw Error(ErrorCategory::failure,
-                fmt::format("the folder '{}' cannot be made: {}", folder.string(), reason));
+                fmt::format("the folder '{}' cannot be created: {}", folder.string(), reason));
 }
 
 /// The folder itself, or the nearest above it that there is: what is written there can be moved without a
@@ -37,9 +37,9 @@ void require_no_obstacle(const fs::path& from, const fs::path& to) {
         if (!fs::exists(there)) continue;
         const bool is_folder = fs::is_directory(fs::symlink_status(from / name));
         if (is_folder && !fs::is_directory(there))
-            fail(to / name, "something else is there, a link or a file; remove it");
+            fail(to / name, "a link or a file is in its place; remove it");
         if (!is_folder && fs::is_directory(there)) {
-            throw Error(ErrorCategory::failure, fmt::format("'{}' is a directory; a file is to be written",
+            throw Error(ErrorCategory::failure, fmt::format("'{}' is a directory; expected a file name",
                                                             (to / name).lexically_normal().string()));
         }
         if (is_folder) require_no_obstacle(from / name, to / name);

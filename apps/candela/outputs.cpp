@@ -27,10 +27,11 @@ void require_free(const std::string& output, Existing existing) {
         throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and --no-clobber was given", output));
     const fs::path folder = fs::path(output).parent_path();
     if (!folder.empty() && fs::status(folder, problem).type() == fs::file_type::not_found)
-        throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' cannot be written: there is no folder '{}'; make it first, or give "
-                                "another name",
-                                output, folder.string()));
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format(
+                "'{}' cannot be written: there is no folder '{}'; create it first, or choose another name",
+                output, folder.string()));
 }
 
 void require_no_terminal(const std::string& output, const std::string& what) {

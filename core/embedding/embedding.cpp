@@ -55,10 +55,10 @@ Problem warning_of(const Refusal& refusal) {
     return {.is_error = false,
             .file = refusal.file.string(),
             .message = refusal.reason,
-            .hint = fmt::format("'{}' is used instead", refusal.used_instead.string())};
+            .hint = fmt::format("using '{}' instead", refusal.used_instead.string())};
 }
 
-/// Calls a function; what the core throws becomes what this interface promises.
+/// Calls a function, and translates the core's exceptions to those that this interface documents.
 template <typename Function>
 auto translated(const Function& function) {
     try {
@@ -85,7 +85,7 @@ struct Scene::Parts {
         compile(request);
     }
 
-    /// The scene stays what it was if this one has errors.
+    /// Keeps the previous scene if the new one has errors.
     void compile(const SceneRequest& wanted) {
         Diagnostics diagnostics;
         const auto draft = draft_scene(wanted, registry, diagnostics);
@@ -96,7 +96,7 @@ struct Scene::Parts {
             const std::string text = text_of(problems);
             throw Error(text, std::move(problems));
         }
-        // Triangles of another compilation are others even where they are at the same address.
+        // Triangles of another compilation differ, even at the same address.
         renderer.forget();
         scene = std::move(compiled);
         warnings = std::move(problems);
@@ -114,8 +114,8 @@ struct Scene::Parts {
     }
 
     Options options;
-    std::vector<Problem> replaced;  // plugins, of which the registry tells once
-    Registry registry;              // outlives what its plugins made
+    std::vector<Problem> replaced;  // plugins, which the registry reports once
+    Registry registry;              // outlives what its plugins created
     SceneRequest request;
     std::optional<CompiledScene> scene;
     std::vector<Problem> warnings;

@@ -37,7 +37,7 @@ namespace candela {
 
 namespace {
 
-/// A scene and what it was compiled to, for the next to take from what is the same in it.
+/// A scene and what it was compiled to, from which the next frame takes whatever is unchanged.
 struct Before {
     Scene scene;
     CompiledScene compiled;
@@ -49,7 +49,7 @@ bool is_placed_as(const Scene& a, const Scene& b) {
     const auto is_same_light = [](const LightSource& x, const LightSource& y) {
         return x.label == y.label && position_of(x) == position_of(y);
     };
-    // Warnings are said again in every frame.
+    // Warnings are reported again in every frame.
     return a.constraints == b.constraints && a.constraints.overlap != Severity::warning && a.room == b.room &&
            a.observer.position == b.observer.position &&
            std::ranges::equal(a.lights, b.lights, is_same_light);
@@ -57,7 +57,7 @@ bool is_placed_as(const Scene& a, const Scene& b) {
 
 class Compiler {
   public:
-    /// `before`, if not null, loses what is taken from it.
+    /// Moves reusable parts out of `before`, if it is not null.
     Compiler(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics, const Progress& progress,
              Before* before = nullptr)
         : scene_(draft.scene),
@@ -102,7 +102,7 @@ class Compiler {
   private:
     /// `part` of the next step has been done already.
     void tell(double part = 0) const {
-        constexpr std::size_t k_steps = 3;  // that each object takes
+        constexpr std::size_t k_steps = 3;  // per object
         constexpr std::size_t k_parts = 1000;
         if (!progress_) return;
         const auto parts = static_cast<std::size_t>(k_parts * std::clamp(part, 0.0, 1.0));
@@ -162,7 +162,7 @@ class Compiler {
         }
     }
 
-    /// Those that are said of an object at the place of its texture. Objects share pictures.
+    /// Problems are reported for an object at the place of its texture. Objects share pictures.
     void make_textures() {
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object& object = scene_.objects[i];
@@ -182,7 +182,7 @@ class Compiler {
                     if (read.was_clamped)
                         diagnostics_.warning(object.texture_place,
                                              fmt::format("the texture '{}' has intensities above 1, which "
-                                                         "are clamped; a surface reflects no more",
+                                                         "are clamped: a surface cannot reflect more",
                                                          object.color_texture));
                 }
                 compiled_.objects[i].surface.color_texture = known->second;
@@ -192,13 +192,13 @@ class Compiler {
 
     void require_texture_coordinates(std::size_t i) {
         const Object& object = scene_.objects[i];
-        // What could not be read has been said already.
+        // Read errors have been reported already.
         if (compiled_.objects[i].surface.color_texture == nullptr) return;
         if (!placed_[i] || !placed_[i]->mesh.u.empty()) return;
         diagnostics_.error(
             object.texture_place,
-            fmt::format("object {} has no texture coordinates, by which a texture is placed", object.label),
-            "leave out color_texture, or give the shape texture coordinates");
+            fmt::format("object {} has no texture coordinates, which a texture needs", object.label),
+            "remove color_texture, or give the shape texture coordinates");
     }
 
     void make_environment() {
@@ -220,7 +220,7 @@ class Compiler {
             try {
                 work();
             } catch (const std::bad_alloc&) {
-                throw Error(ErrorCategory::failure, "there is not enough memory for its triangles");
+                throw Error(ErrorCategory::failure, "not enough memory for its triangles");
             } catch (...) {
                 rethrow_as_plugin_error(kind, plugin);
             }
@@ -239,7 +239,7 @@ class Compiler {
         const auto has_surface = [&](std::size_t i) {
             return i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
         };
-        // All exist before the first is placed: those that read the same file read it once.
+        // All are created before the first is placed, so that shapes that read the same file read it once.
         std::vector<std::unique_ptr<Shape>> shapes(placed_.size());
         for (std::size_t i = 0; i < placed_.size(); ++i) {
             const Object& object = scene_.objects[i];
@@ -261,7 +261,7 @@ class Compiler {
                                .color_management = encoding()},
                               object.transform, [this](double part) { tell(part); });
                 });
-                shapes[i].reset();  // a file's triangles need not stay until all others have been read
+                shapes[i].reset();  // frees a file's triangles before the next file is read
                 if (placed_[i]) warnings_[i] = placed_[i]->warnings;
                 if (has_surface(i)) require_texture_coordinates(i);
             }
@@ -274,7 +274,7 @@ class Compiler {
         return before_ != nullptr ? &before_->scene.objects[i] : nullptr;
     }
 
-    /// Takes an object's triangles from before, if they are the same, with what its models need of them.
+    /// Takes an object's triangles from before, if they are the same and have what its models need.
     bool keep(std::size_t i, const PointNeeds& needs) {
         const Object& object = scene_.objects[i];
         const Object* const old = object_before(i);
@@ -310,9 +310,9 @@ class Compiler {
         check_constraints(draft, surfaces, diagnostics_, [this] { count_step(); });
     }
 
-    /// What one thread takes to finish all objects.
+    /// An estimate of the time that one thread takes to finish all objects.
     double rough_milliseconds() const {
-        constexpr double k_normals = 2e-5, k_tree = 1e-3;  // of a triangle
+        constexpr double k_normals = 2e-5, k_tree = 1e-3;  // per triangle
         double sum = 0;
         for (std::size_t i = 0; i < placed_.size(); ++i) {
             if (!placed_[i]) continue;
@@ -348,7 +348,7 @@ class Compiler {
             multiply(solid.mesh.color, solid.surface.color);
         }
         if (object.encloses) {
-            solid.mesh.closed = solid.mesh.one_sided;  // otherwise seen from within, too
+            solid.mesh.closed = solid.mesh.one_sided;  // otherwise also seen from inside
         } else if (!solid.mesh.closed) {
             diagnostics_.warning(
                 object.place,
@@ -370,7 +370,7 @@ class Compiler {
     Diagnostics& diagnostics_;
     const Progress& progress_;
     std::size_t steps_done_ = 0;
-    Before* before_;        // what is the same is taken from there; null: nothing is
+    Before* before_;        // source of everything unchanged; null: nothing is
     std::size_t kept_ = 0;  // objects whose triangles were taken
     CompiledScene compiled_;
     std::vector<std::optional<PlacedShape>> placed_;
@@ -400,7 +400,7 @@ FrameCompiler::~FrameCompiler() = default;
 bool FrameCompiler::has_kept_triangles() const noexcept { return kept_->has_kept_triangles; }
 
 const CompiledScene* FrameCompiler::compile(const SceneDraft& draft, Diagnostics& diagnostics, int threads) {
-    // Nothing is left of the one before if this one throws.
+    // If this one throws, nothing of the previous frame is kept.
     std::optional<Before> before = std::exchange(kept_->before, std::nullopt);
     const Progress silent;
     Compiler compiler(draft, kept_->registry, diagnostics, silent, before ? &*before : nullptr);

@@ -1,4 +1,4 @@
-// All frames are validated before the first is rendered.
+// All frames are validated before the first one is rendered.
 module;
 
 #include <fmt/format.h>
@@ -23,13 +23,13 @@ namespace candela {
 
 namespace {
 
-/// What was found in one frame, and perhaps in others, where only numbers differ.
+/// A problem found in one frame, and perhaps in others with different numbers.
 struct Finding {
     Diagnostic diagnostic;
     bool is_failure = false;
     int first_frame = 0;
     std::size_t frames = 0;
-    int last_frame = -1;  // in which it was counted
+    int last_frame = -1;  // the last frame in which it was counted
 };
 
 std::string without_numbers(const std::string& text) {
@@ -40,7 +40,7 @@ std::string without_numbers(const std::string& text) {
     return result;
 }
 
-/// The track that has a key there.
+/// The track that has a key at that position.
 const Track* track_at(const std::optional<Animation>& animation, const SourcePlace& place) {
     if (!animation) return nullptr;
     const auto has_it = [&](const Track& track) {

@@ -1,5 +1,5 @@
-// The pipeline on one page, from a compiled scene to the film. By then, shapes have been tessellated and
-// vertex normals computed (compile.cpp); the image plugin writes the film (film/picture_file.cpp).
+// The pipeline on one page, from a compiled scene to the film. Shapes have been tessellated and vertex
+// normals computed before (compile.cpp); the image plugin writes the film afterwards (film/picture_file.cpp).
 module;
 
 #include <algorithm>
@@ -46,7 +46,8 @@ void project_scene(const CompiledScene& scene, int width, int height, RowRange r
     }
 }
 
-// Where there is nothing but background: in rows across many tiles, which take half of the time of a tile's.
+// Areas with nothing but background: filled in rows across many tiles, in half the time of filling them tile
+// by tile.
 void fill_empty_tiles(const ProjectedScene& projected, int row, Rgb background, Film& film,
                       std::span<std::uint8_t> is_done) {
     const int size = projected.tile_size, columns = projected.tile_columns;
@@ -75,8 +76,8 @@ void find_visible(const ProjectedScene& projected, int tile, TileVisibility& vis
 
 namespace {
 
-// Shading: at each point of a batch the shading plugin's normal, then, light by light, what arrives from the
-// light plugin and what the reflection plugin sends on to the observer (SurfaceShader::shade()).
+// Shading: at each point of a batch, the shading plugin's normal; then, light by light, the light plugin's
+// intensity and what the reflection plugin reflects of it to the observer (SurfaceShader::shade()).
 void shade_object(const CompiledScene& scene, const FragmentList& fragments, TileShader& shader) {
     if (shader.term() == Term::background) return;
     if (is_geometric(shader.term())) return shader.show_geometry(fragments);

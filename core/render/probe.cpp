@@ -103,7 +103,7 @@ PixelProbe probe(const CompiledScene& scene, int x, int y) {
     VisibleTile& visible = worker.visible;
     find_visible(projected, tile_row * projected.tile_columns + x / k_tile_size, worker.visibility, visible);
 
-    // The whole tile, by the pipeline itself: the pixel is the picture's by construction.
+    // Renders the whole tile by the pipeline itself, so that the pixel is the picture's by construction.
     PixelProbe result;
     Film film(width, height, PixelType::byte, scene.image.color_management, rows);
     shade_tile(scene, visible, worker, film);

@@ -18,7 +18,7 @@ namespace candela {
 
 namespace {
 
-/// Bands end where tiles do, so that none is rendered twice.
+/// Bands end at tile boundaries, so that no tile is rendered twice.
 constexpr int k_rows_of_tiles = 64;
 
 int rows_per_band_for(int width, PixelType pixels) {
@@ -50,7 +50,7 @@ RenderedRows::~RenderedRows() = default;
 void RenderedRows::render_band(int first) {
     const ImageSettings& image = scene_.image;
     const int end = std::min(first / k_rows_of_tiles * k_rows_of_tiles + rows_per_band_, rows_.end);
-    band_.reset();  // before memory is asked for
+    band_.reset();  // frees memory before more is allocated
     band_.emplace(image.width, image.height, pixels_, image.color_management, RowRange{first, end});
     RenderOptions options = options_;
     if (options_.progress) {

@@ -1,4 +1,4 @@
-// What is kept from picture to picture, threads, and statistics; the stages are in pipeline.cpp.
+// State kept from picture to picture, threads, and statistics; the stages are in pipeline.cpp.
 module;
 
 #include <algorithm>
@@ -69,8 +69,8 @@ struct SeenScene {
     friend bool operator==(const SeenScene&, const SeenScene&) = default;
 };
 
-/// What one thread takes to shade a whole picture: the times per point and light, and per triangle, on
-/// processors of 2020.
+/// An estimate of the time that one thread takes to shade a whole picture, from the times per point and
+/// light, and per triangle, on processors of 2020.
 double rough_milliseconds(const CompiledScene& scene, const Film& film) {
     double triangles = 0;
     for (const SolidObject& object : scene.objects)
@@ -79,7 +79,7 @@ double rough_milliseconds(const CompiledScene& scene, const Film& film) {
     return 5e-6 * points * static_cast<double>(std::max<std::size_t>(scene.lights.size(), 1)) +
            2e-5 * triangles;
 }
-/// Many pictures are worth more threads, however small each is.
+/// A sequence of pictures is worth more threads, however small each is.
 constexpr double k_again_and_again = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -163,7 +163,7 @@ void Renderer::forget() noexcept { kept_->seen.reset(); }
 RenderStatistics Renderer::render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
     SeenScene to_see(scene, film, options);
     const bool is_seen = kept_->what == Keep::visibility && kept_->seen == to_see;
-    // Until they are complete, the tiles show nothing: something may throw.
+    // Until they are complete, the tiles count as empty: something may throw.
     if (!is_seen) kept_->seen.reset();
     RenderStatistics statistics;
     with_threads(

@@ -66,7 +66,7 @@ std::uint32_t index_of(const ProjectedMesh& mesh, std::uint32_t triangle, std::s
     return 2 * mesh.mesh.indices[3 * std::size_t{triangle} + k] + (is_back ? 1 : 0);
 }
 
-/// What a pixel that shows no object has of a term of the objects.
+/// The value of an object's term at a pixel without an object.
 Rgb value_of_nothing(Term term) {
     switch (term) {
         case Term::depth:

@@ -29,7 +29,7 @@ namespace candela {
 
 namespace {
 
-/// Towards the observer, not unit.
+/// The vector towards the observer, not unit.
 Vec3 towards(const Camera& camera, Vec3 point) {
     return camera.projection == Projection::perspective ? camera.eye - point : -camera.forward;
 }
@@ -50,7 +50,7 @@ std::string unseen(const CompiledScene& scene, const Camera& camera) {
                      : "the observer looks away from all objects; " + towards_first;
 }
 
-/// What the lights send to the centroids of the faces turned towards the observer.
+/// The light that arrives at the centroids of the faces turned towards the observer.
 struct Received {
     float ambient = 0;
     float sent = 0;   // from any direction
@@ -124,13 +124,12 @@ Received received_in(const CompiledScene& scene, const Camera& camera) {
 
 std::string unlit(const Received& r) {
     if (r.ambient == 0 && r.sent == 0) {
-        return "no light reaches an object; look at the intensity and the colour of the lights, and at where "
-               "spots "
-               "are turned";
+        return "no light reaches an object; check the intensities and colours of the lights, and the "
+               "directions of spots";
     }
     if (r.ambient == 0 && r.faced == 0)
         return "every light is behind every face that the observer sees; move a light to the observer's side";
-    return "what light there is, the objects do not reflect; look at their colours and at ka, kd and ks";
+    return "the objects reflect none of the light; check their colours, ka, kd and ks";
 }
 
 /// One digit, rounded up: "2000"; "4e+07".
@@ -159,18 +158,17 @@ std::string why_black(const CompiledScene& scene, const Film& film, const Render
     const Received received = received_in(scene, camera);
     if (statistics.brightest <= 0) return unlit(received);
     const float arriving = std::max(received.ambient, received.faced);
-    // A tail of a highlight on what is black otherwise: brighter lights would not help.
+    // The tail of a highlight on an otherwise black surface: brighter lights would not help.
     constexpr float k_next_to_nothing = 1e-3f;
     if (statistics.brightest < k_next_to_nothing * arriving) {
         return fmt::format(
-            "of light with intensity {:.2g}, the objects reflect next to nothing ({:.2g}); look at their "
-            "colours "
-            "and at ka, kd and ks",
+            "the objects reflect next to nothing ({1:.2g}) of light with intensity {0:.2g}; check their "
+            "colours, ka, kd and ks",
             arriving, statistics.brightest);
     }
     return fmt::format(
-        "the brightest point has intensity {:.2g}, and below {:.2g} a pixel is black; multiply the "
-        "lights' intensity by {} or more, or move them nearer",
+        "the brightest point has intensity {:.2g}, and a pixel below {:.2g} is black; multiply the lights' "
+        "intensity by {} or more, or move them nearer",
         statistics.brightest, visible, factor_text(1 / statistics.brightest));
 }
 

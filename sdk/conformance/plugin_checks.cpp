@@ -90,7 +90,7 @@ TEST_CASE("instances: one can be made with every allowed set of values, and they
         } catch (const std::exception& problem) {
             FAIL("create() threw '" << problem.what() << "' with " << values.text);
         } catch (...) {
-            FAIL("create() threw something that is no std::exception, with " << values.text);
+            FAIL("create() threw an object that is not a std::exception, with " << values.text);
         }
         if (instance == nullptr) FAIL("create() returned nothing with " << values.text);
     }

@@ -191,7 +191,7 @@ TEST_CASE("what cannot be compared is an error that says why, and no sheet") {
     CHECK(holds(unknown, "did you mean 'phong'"));
     CHECK(holds(unknown, "those of the picture 'phnog'"));
     CHECK(holds(folder.error({"--reflection=lambert,phong", "-o", "face.toml"}, 2),
-                "of no format that an image plugin writes"));
+                "has a format that no image plugin writes"));
     CHECK(holds(folder.error({"--reflection=lambert,phong", "--columns=3"}, 2), "it can be 1 to 2"));
     CHECK(holds(folder.error({"--vary", "image.width=60,70"}, 2), "have one size"));
     CHECK(holds(folder.error({"--vary", "image.width"}, 2), "has no '='"));

@@ -93,7 +93,7 @@ TEST_CASE("includes that go round in circles, lead nowhere or come twice are err
     expect(included("\"c.toml\""), 3,
            {"scene.toml:2:11: error: 'include' is a string, \"c.toml\"; expected a list of paths"});
     expect(included("[3]"), 3,
-           {"scene.toml:2:12: error: 'include' holds the integer 3; expected a quoted path"});
+           {"scene.toml:2:12: error: 'include' contains the integer 3; expected a quoted path"});
     expect(included("[\".\"]"), 1, {"directory"});
     write_file(d / "broken.toml", "[room\n");
     expect(included("[\"broken.toml\"]"), 3, {"broken.toml:1:6: error"});
@@ -110,7 +110,7 @@ TEST_CASE("R11: each way of not being readable has its own message and exit code
            {"there is no such file", "there is no folder 'folder' either"});
     expect(check({""}, d), 2, {"the name of a scene is empty"});
     fs::create_directory(d / "folder");
-    expect(check({"folder"}, d), 1, {"folder: error: this is a directory; a scene is a file"});
+    expect(check({"folder"}, d), 1, {"folder: error: this is a directory; expected a scene file"});
     write_file(d / "empty.toml", "");
     expect(check({"empty.toml"}, d), 3, {"empty.toml:1:1: error: the file is empty"});
     write_file(d / "blank.toml", " \n\t\n");

@@ -131,14 +131,14 @@ TEST_CASE("files that include one another without end, or without number") {
     }
     const CommandSetup there{.input = "", .environment = {}, .directory = d};
     expect(run_candela({"check", "c0.toml"}, there), 3,
-           {"c32.toml:1:12: error: files include one another more than 32 deep"});
+           {"c32.toml:1:12: error: files include one another more than 32 levels deep"});
     std::string names;
     for (int i = 0; i < 1001; ++i) {
         write_file(d / ("w" + std::to_string(i) + ".toml"), "[[light]]\ntype = \"ambient\"\n");
         names += "\"w" + std::to_string(i) + ".toml\", ";
     }
     write_file(d / "wide.toml", "include = [" + names + "]\n" + k_start);
-    expect(run_candela({"check", "wide.toml"}, there), 3, {"the scene is of more than 1000 files"});
+    expect(run_candela({"check", "wide.toml"}, there), 3, {"the scene consists of more than 1000 files"});
     write_file(d / "same.toml", "include = [" + times(5000, "\"w0.toml\", ") + "]\n" + k_start);
     expect(run_candela({"check", "same.toml"}, there), 3, {"same.toml:1:23: error: 'w0.toml' is read twice"});
 }
@@ -184,7 +184,7 @@ TEST_CASE(
         INFO(megabytes << " MB\n" << result.err);
         if (result.exit_code == 0) continue;
         CHECK(result.exit_code == 1);
-        CHECK(result.err.find("there is not enough memory to load it; ulimit -v") != std::string::npos);
+        CHECK(result.err.find("not enough memory to load it; ulimit -v") != std::string::npos);
         CHECK(result.err.find("build it again") == std::string::npos);
     }
 }
@@ -206,8 +206,8 @@ TEST_CASE("manifests that are none are refused, and the other plugins still work
     for (const char* const name : {"deep", "objects", "latin"}) {
         INFO(name);
         CHECK(result.err.find(std::string("its manifest light-") + name +
-                              ".json cannot be used: it is no manifest") != std::string::npos);
+                              ".json cannot be used: it is not a manifest") != std::string::npos);
     }
     CHECK(result.err.find("light-large.json is larger than 1048576 bytes") != std::string::npos);
-    CHECK(result.err.find("its manifest light-pipe.json is not beside it") != std::string::npos);
+    CHECK(result.err.find("its manifest light-pipe.json is missing") != std::string::npos);
 }

@@ -331,7 +331,8 @@ TEST_CASE("a texture inside a glTF file is written beside the scene, and shown b
     fs::remove(folder / "a_textures" / "leaf_0.png");
     fs::rename(folder / "a_textures", folder / "elsewhere");
     fs::create_directory_symlink("elsewhere", folder / "a_textures");
-    CHECK(holds(candela(folder, {"import", "a.gltf", "--force"}).err, "a_textures' cannot be made: a link"));
+    CHECK(
+        holds(candela(folder, {"import", "a.gltf", "--force"}).err, "a_textures' cannot be created: a link"));
     CHECK(fs::is_empty(folder / "elsewhere"));
 }
 

@@ -155,9 +155,8 @@ TEST_CASE("links in the place of a job's or a picture's folders are refused by n
          {"frames/.candela", "frames/.candela/jobs", "frames/.candela/jobs/%04d.png"}) {
         const Place place;
         place.put_link(name, place.victims);
-        check_refused(
-            place.candela(k_submit), 1,
-            "'" + std::string(name) + "' cannot be made: something else is there, a link or a file");
+        check_refused(place.candela(k_submit), 1,
+                      "'" + std::string(name) + "' cannot be created: a link or a file is in its place");
         place.check_victims();
     }
     for (const char* const name : {"p.tif.parts", "p.tif.parts/.candela"}) {
@@ -395,7 +394,7 @@ TEST_CASE("a link in the place of a folder in a report is refused, and nothing i
     const Place place;
     place.put_link("report/cpp", place.victims);
     check_refused(place.candela({"verify", "scene.toml", "--target", "cpp", "--report", "report"}), 1,
-                  "'report/cpp' cannot be made: something else is there, a link or a file");
+                  "'report/cpp' cannot be created: a link or a file is in its place");
     place.check_victims();
     CHECK_FALSE(fs::exists(place.directory / "report/index.html"));
 }

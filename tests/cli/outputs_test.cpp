@@ -264,6 +264,6 @@ TEST_CASE("a page or a diagram is not written over a scene, whose name is not th
     expect(in(d, {"exercise", "new", "phong", "--blank", "reflect", "-o", "scene.toml"}), 2,
            {"'scene.toml' is not the name of a page; expected one that ends in .html"});
     expect(in(d, {"plot", "reflection/phong", "-o", "scene.toml"}), 2, {"neither .svg nor .csv"});
-    expect(in(d, {"render", "-o", "scene.toml"}), 2, {"is of no format that an image plugin writes"});
+    expect(in(d, {"render", "-o", "scene.toml"}), 2, {"has a format that no image plugin writes"});
     CHECK(changes_in(d, before) == "");
 }

@@ -189,7 +189,7 @@ TEST_CASE("of a file that is no part of a scene and lies elsewhere, nothing is s
         INFO(result.err);
         CHECK(result.exit_code == 3);
         CHECK(holds(result.err, "scene.toml:1:12: error: '"));
-        CHECK(holds(result.err, "is no part of a scene"));
+        CHECK(holds(result.err, "is not part of a scene"));
         CHECK_FALSE(holds(result.err, "hash"));
         CHECK_FALSE(holds(result.err, "password"));
     }

@@ -102,20 +102,20 @@ TEST_CASE("a plugin without its manifest, with one of another, or with one that 
     write_file(copy.manifest, read_file(fs::path(CANDELA_TEST_PLUGINS) / "shape-torus.json"));
     check_refused(copy, "its manifest is that of shape/torus");
     fs::remove(copy.manifest);
-    check_refused(copy, "is not beside it");
+    check_refused(copy, ".json is missing");
     fs::create_symlink("nowhere", copy.manifest);
-    check_refused(copy, "its manifest cannot be read: it is a link to nowhere");
+    check_refused(copy, "its manifest cannot be read: it is a dangling link");
     fs::remove(copy.manifest);
     write_file(copy.manifest, manifest);
     fs::remove(copy.library);
     fs::create_symlink("nowhere", copy.library);
-    check_refused(copy, "it cannot be read: it is a link to nowhere");
+    check_refused(copy, "it cannot be read: it is a dangling link");
 }
 
 TEST_CASE("a library that others can modify is refused, unless that is said to be all right") {
     const Copy copy("shape-cube");
     fs::permissions(copy.library, fs::perms::others_write, fs::perm_options::add);
-    check_refused(copy, "can be written to by every user");
+    check_refused(copy, "is writable by every user");
     CHECK(copy.render(true, {"--allow-untrusted-plugins"}).exit_code == 0);
 }
 

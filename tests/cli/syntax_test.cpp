@@ -30,29 +30,29 @@ void check_all(const std::vector<Case>& cases, const std::string& before = "") {
 
 TEST_CASE("mistakes in values are said at their place, with what is wrong") {
     check_all({
-        {"a = \"srgb\nb = 3\n", "1:10", "this text has no closing quote on its line"},
-        {"a = 'srgb\nb = 3\n", "1:10", "this text has no closing quote on its line"},
-        {"a = \"srgb", "1:10", "the file ends within a text: its closing quote is missing"},
-        {"a = \"\"\"srgb\n", "1:12", "the file ends within a text: its closing quote is missing"},
-        {"a = \"C:\\scenes\"\n", "1:9", "\\s means nothing in a text"},
-        {"a = \"x\x01y\"\n", "1:7", "a control character, which no text may hold"},
-        {"a = 12abc\n", "1:7", "'12abc' is no number"},
-        {"a = 1.\n", "1:7", "'1.' is no number"},
-        {"a = .5\n", "1:5", "'.5' is no number"},
-        {"a = 007\n", "1:8", "'007' is no number, because it begins with 0"},
-        {"a = 50%\n", "1:7", "'50%' is no number"},
-        {"a = 30\xc2\xb0\n", "1:7", "'30\xc2\xb0' is no number"},
+        {"a = \"srgb\nb = 3\n", "1:10", "this string has no closing quote on its line"},
+        {"a = 'srgb\nb = 3\n", "1:10", "this string has no closing quote on its line"},
+        {"a = \"srgb", "1:10", "the file ends within a string: its closing quote is missing"},
+        {"a = \"\"\"srgb\n", "1:12", "the file ends within a string: its closing quote is missing"},
+        {"a = \"C:\\scenes\"\n", "1:9", "\\s is not a valid escape"},
+        {"a = \"x\x01y\"\n", "1:7", "a control character, which strings must not contain"},
+        {"a = 12abc\n", "1:7", "'12abc' is not a number"},
+        {"a = 1.\n", "1:7", "'1.' is not a number"},
+        {"a = .5\n", "1:5", "'.5' is not a number"},
+        {"a = 007\n", "1:8", "'007' is not a number, because it begins with 0"},
+        {"a = 50%\n", "1:7", "'50%' is not a number"},
+        {"a = 30\xc2\xb0\n", "1:7", "'30\xc2\xb0' is not a number"},
         {"a = 99999999999999999999\n", "1:25", "'99999999999999999999' is too large for an integer"},
         {"a = 1,5\n", "1:6", "expected the end of the line after the value, found ','"},
         {"a = 3 m\n", "1:7", "expected the end of the line after the value, found 'm'"},
         {"a = 1 b = 2\n", "1:7", "expected the end of the line after the value, found 'b'"},
-        {"a = phong\n", "1:5", "'phong' is no value"},
-        {"a = \xe2\x80\x9cphong\xe2\x80\x9d\n", "1:5", "'\xe2\x80\x9cphong\xe2\x80\x9d' is no value"},
-        {"a = True\n", "1:5", "'True' is no value"},
-        {"a = NaN\n", "1:5", "'NaN' is no value"},
+        {"a = phong\n", "1:5", "'phong' is not a value"},
+        {"a = \xe2\x80\x9cphong\xe2\x80\x9d\n", "1:5", "'\xe2\x80\x9cphong\xe2\x80\x9d' is not a value"},
+        {"a = True\n", "1:5", "'True' is not a value"},
+        {"a = NaN\n", "1:5", "'NaN' is not a value"},
         {"a = [1, 2\n", "1:10", "the file ends within a list: its closing ] is missing"},
         {"a = [1 2]\n", "1:8", "expected ',' or ']' in this list, found '2'"},
-        {"a = [1,\nb = 3\n", "2:1", "'b' is no value"},
+        {"a = [1,\nb = 3\n", "2:1", "'b' is not a value"},
         {"a = {b = 1,}\n", "1:12", "a comma before the closing } is not allowed"},
         {"a = {b = 1\n", "1:11", "expected a key, ',' or '}' in this table, found the end of the line"},
         {"a = 1979-13-41\n", "1:12", "this is no date: expected month between 1 and 12"},
@@ -108,7 +108,7 @@ TEST_CASE("UTF-16 is named; a byte-order mark of UTF-8 is no mistake, and no col
               .find("the file's text is UTF-16; a scene is UTF-8") != std::string::npos);
     CHECK(checked("\xef\xbb\xbf"
                   "a = b\n")
-              .find("a.toml:1:5: error: 'b' is no value") != std::string::npos);
+              .find("a.toml:1:5: error: 'b' is not a value") != std::string::npos);
 }
 
 TEST_CASE("letters of all alphabets stand in texts and comments, also after the end of a continued line") {

@@ -64,11 +64,11 @@ TEST_CASE("a texture that cannot be read as a picture is one failure, which name
         expect(result, 1, {"scene.toml:11:17: error: object 'ring': ", file + "' " + reason});
         CHECK(result.err.find("error:") == result.err.rfind("error:"));
     };
-    refused("wood.txt", "is of no format that an image plugin reads");
+    refused("wood.txt", "has a format that no image plugin reads");
     refused("wood.png", "cannot be read as a picture");
     refused("plain.ppm", "cannot be read as a picture: it is neither a binary PPM (P6) nor a PFM (PF)");
     refused("short.ppm", "cannot be read as a picture: it ends before its last pixel");
-    refused("none.pfm", "cannot be read as a picture: it has a pixel that is no finite number");
+    refused("none.pfm", "cannot be read as a picture: a pixel is non-finite");
     // Within the header, the pixels and the last chunk, and without that one.
     for (const std::size_t length : {std::size_t{20}, png.size() / 2, png.size() - 1, png.size() - 12}) {
         write_file(d / "cut.png", png.substr(0, length));

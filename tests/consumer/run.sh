@@ -75,7 +75,7 @@ printf 'version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[[li
 code=0
 "$candela" generate --defaults --target csv --plugin-dir "$csv" "$scratch/red.toml" -o "$scratch/red" 2>"$scratch/out" || code=$?
 [ "$code" -eq 1 ] || fail "exit code $code for vertex colours that the target does not know"
-expect "$scratch/out" "has a colour at each vertex, which this target cannot express" "candela generate"
+expect "$scratch/out" "has vertex colours, which this target does not support" "candela generate"
 [ ! -e "$scratch/red" ] || fail "something was written of a scene that is refused"
 code=0
 "$candela" verify --target csv --plugin-dir "$csv" 2>"$scratch/out" || code=$?

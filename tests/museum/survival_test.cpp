@@ -38,9 +38,9 @@ TEST_CASE(
         {{"--reflection=throws-on-create"},
          "object 'cube': plugin reflection/throws-on-create: out of paint"},
         {{"--reflection=throws-a-number"},
-         "plugin reflection/throws-a-number threw something that is no std::exception"},
+         "plugin reflection/throws-a-number threw an object that is not a std::exception"},
         {{"--reflection=not-a-number", "--set", "light.lamp.position=[0, -0.9, -4]"},
-         "plugin reflection/not-a-number gives a result that is no finite number"},
+         "plugin reflection/not-a-number returned a non-finite value"},
     };
     for (const Survived& fault : faults) {
         const CommandResult result = rendered(fault.use, picture);
@@ -68,7 +68,7 @@ TEST_CASE("a plugin that writes past its batch, wherever that ends, is found or 
         INFO(size << "\n" << result.err);
         CHECK((result.exit_code == 0 || result.exit_code == 1));
         if (result.exit_code == 1)
-            CHECK(result.err.find("plugin reflection/writes-past-the-end writes beyond the batch") !=
+            CHECK(result.err.find("plugin reflection/writes-past-the-end wrote past the end of its batch") !=
                   std::string::npos);
     }
     const CommandResult hasty = rendered({"--reflection=hasty-at-the-end"}, directory / "d.png");
@@ -80,7 +80,8 @@ TEST_CASE("a plugin that writes past its batch, wherever that ends, is found or 
     const CommandResult added = rendered({"--reflection=adds-past-the-end"}, directory / "c.png");
     INFO(added.err);
     CHECK(added.exit_code == 1);
-    CHECK(added.err.find("plugin reflection/adds-past-the-end writes beyond the batch") != std::string::npos);
+    CHECK(added.err.find("plugin reflection/adds-past-the-end wrote past the end of its batch") !=
+          std::string::npos);
 }
 
 TEST_CASE("listing, checking and using other plugins never loads one that traps") {
@@ -111,8 +112,8 @@ TEST_CASE("the doctor survives a plugin that traps, and names what is wrong with
     for (const char* const part :
          {"reflection-traps-on-load.so    refused: loading it ends the process with signal",
           "in use: reflection/faultless 1.0.0", "hidden by",
-          "light-text.so                  refused: its manifest light-text.json is not beside it",
-          "shape-alone.so                 refused: its manifest is there, the library is not",
+          "light-text.so                  refused: its manifest light-text.json is missing",
+          "shape-alone.so                 refused: its manifest exists, but the library does not",
           "in use: light/point"}) {
         INFO(part);
         CHECK(result.out.find(part) != std::string::npos);
@@ -225,7 +226,7 @@ TEST_CASE("plugins that every user can change are refused, unless one says other
     CHECK(run_candela(words).exit_code == 0);
     const auto refused = [&] {
         const CommandResult result = run_candela(words);
-        CHECK(result.err.find("can be written to by every user, so that anybody's code could run here") !=
+        CHECK(result.err.find("is writable by every user, so anybody code could run here") !=
               std::string::npos);
         CHECK(result.exit_code == 1);
         std::vector<std::string> trusting = words;

@@ -150,7 +150,7 @@ class Breaker {
     std::optional<Change> version() {
         SceneTable& root = the("");
         root.set("version", "2");
-        return Change{"version", "version 2 of the scene file is not known", &root, "version"};
+        return Change{"version", "does not support version 2 of the scene file", &root, "version"};
     }
     std::optional<Change> unknown_key() {
         SceneTable& table = any_table();
@@ -198,7 +198,7 @@ class Breaker {
     }
     std::optional<Change> not_finite() {
         const auto place = any_parameter([](const Parameter& p) { return p.type == ParamType::real; });
-        return spoil(place, "not finite", below(2) != 0 ? "nan" : "-inf", "is not a number that can be used");
+        return spoil(place, "not finite", below(2) != 0 ? "nan" : "-inf", "is not a usable number");
     }
     std::optional<Change> wrong_type() {
         const auto place = any_parameter([](const Parameter& p) { return p.choices.empty(); });
@@ -261,13 +261,13 @@ class Breaker {
 
     std::optional<Change> view_of_nothing() {
         observer().set("look_at", std::string(*observer().find("position")));
-        return Change{"look_at", "the observer looks at the point where it is", &observer(), "look_at"};
+        return Change{"look_at", "the observer is at the point it looks at", &observer(), "look_at"};
     }
     std::optional<Change> up_along_view() {
         observer().set("position", "[0.0, 0.0, 0.0]");
         observer().set("look_at", "[0.0, 0.5, 1.0]");
         observer().set("up", "[0.0, -1.0, -2.0]");
-        return Change{"up", "'up' points the way the observer looks", &observer(), "up"};
+        return Change{"up", "'up' is parallel to the viewing direction", &observer(), "up"};
     }
     std::optional<Change> observer_outside() {
         observer().set("position", three({0.01f, -scene_.height, 0.02f}));

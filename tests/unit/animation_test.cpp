@@ -173,7 +173,7 @@ TEST_CASE("a mistake in the animation is explained where it stands") {
         {with_track("objct.box.rotation", "[[0, [0, 0, 0]]]"), "did you mean 'object'?"},
         {with_track("object.box.material.shinines", "[[0, 1]]"), "did you mean 'shininess'?"},
         {with_track("object.box.material.kd", "[[0, 1.5]]"), "'kd'"},
-        {with_track("image.width", "[[0, 10]]"), "all frames have the same size"},
+        {with_track("image.width", "[[0, 10]]"), "all frames must have the same size"},
         {with_track("animation.frames", "[[0, 10]]"), "cannot be animated"},
         {with_track("fov", "[[0, 10]]"), "the path needs a table and a key"},
         {with_track("light.lamp.intensity", "3"), "expected a list of [time, value]"},
@@ -188,13 +188,13 @@ TEST_CASE("a mistake in the animation is explained where it stands") {
         {with_track("light.lamp.intensity", "[[1, 2]]", "interpolation = \"smoth\""),
          "did you mean 'smooth'?"},
         {with_track("light.lamp.intensity", "[[1, 2]]", "speed = 3"), "unknown key 'speed'"},
-        {with_track("object.box.type", "[[1, \"cube\"]]"), "has no values in between"},
-        {with_track("image.samples", "[[0, 1], [3, 16]]"), "has no values in between"},
+        {with_track("object.box.type", "[[1, \"cube\"]]"), "cannot be interpolated"},
+        {with_track("image.samples", "[[0, 1], [3, 16]]"), "cannot be interpolated"},
         {with_track("light.lamp.intensity", "[[0, 1]]") +
              "[[animation.track]]\npath = \"light.0.intensity\"\nkeys = [[0, 2]]\n",
          "another track changes 'light.lamp.intensity' already"},
         {with_track("observer.position", "[[0, [0, 1, 4]]]") + "[animation.orbit]\n",
-         "[animation.orbit] says already where the observer is"},
+         "[animation.orbit] determines the observer's position already"},
     };
     for (const auto& [animation, part] : mistakes) {
         const std::string text = found_in(animation);

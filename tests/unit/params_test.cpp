@@ -114,12 +114,12 @@ TEST_CASE("a plugin's author and licence are short, and of characters that can b
     manifest.author = std::string(200, 'a');
     CHECK(is_refused().empty());
     manifest.author += 'a';
-    CHECK(is_refused() == "its author has 201 characters; at most 200 are possible");
+    CHECK(is_refused() == "its author has 201 characters; at most 200 are allowed");
     manifest.author = "an\x1b[31mybody";
-    CHECK(is_refused() == "its author 'an\\u{1b}[31mybody' has characters that cannot be seen");
+    CHECK(is_refused() == "its author 'an\\u{1b}[31mybody' contains invisible characters");
     manifest.author.clear();
     manifest.license = "MIT\n";
-    CHECK(is_refused() == "its license 'MIT\\u{a}' has characters that cannot be seen");
+    CHECK(is_refused() == "its license 'MIT\\u{a}' contains invisible characters");
     manifest.license.clear();
     CHECK(candela::to_json(manifest).find("license") == std::string::npos);
     CHECK(is_refused().empty());

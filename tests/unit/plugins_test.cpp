@@ -200,10 +200,10 @@ TEST_CASE("a plugin's manifest must be beside it, must be one, and must be its o
     fs::copy_file(k_shipped / "reflection-phong.so", directory / "reflection-other.so");
     fs::copy_file(k_shipped / "reflection-phong.json", directory / "reflection-other.json");
     fs::copy_file(k_shipped / "reflection-phong.json", directory / "reflection-bare.json");
-    CHECK(holds(refusal(directory, "alone"), "reflection-alone.json is not beside it"));
-    CHECK(holds(refusal(directory, "junk"), "it is no manifest"));
+    CHECK(holds(refusal(directory, "alone"), "reflection-alone.json is missing"));
+    CHECK(holds(refusal(directory, "junk"), "it is not a manifest"));
     CHECK(holds(refusal(directory, "other"), "its manifest is that of reflection/phong"));
-    CHECK(holds(refusal(directory, "bare"), "its manifest is there, the library is not"));
+    CHECK(holds(refusal(directory, "bare"), "its manifest exists, but the library does not"));
     Registry registry({directory, k_shipped});
     CHECK(registry.list().size() == folders().size());
     CHECK(registry.refusals().size() == 4);
@@ -273,9 +273,9 @@ TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
         for (const int threads : {1, 4}) {
             const std::string sentence =
                 message_of([&] { candela::render(*compiled, film, {.threads = threads}); });
-            CHECK(sentence == (is_point
-                                   ? "plugin reflection/throwing: out of photons"
-                                   : "plugin reflection/throwing threw something that is no std::exception"));
+            CHECK(sentence ==
+                  (is_point ? "plugin reflection/throwing: out of photons"
+                            : "plugin reflection/throwing threw an object that is not a std::exception"));
         }
     }
 }

@@ -60,7 +60,7 @@ void Diagnostics::remember_source(const std::string& file, std::string text) {
 std::vector<Diagnostic> Diagnostics::sorted() const {
     std::map<std::string_view, std::size_t> file_ranks;
     for (const std::string& file : files_) file_ranks.try_emplace(file, file_ranks.size());
-    using Rank = std::tuple<std::size_t, int, int, std::size_t>;  // last: the order in which they were found
+    using Rank = std::tuple<std::size_t, int, int, std::size_t>;  // last: the order of discovery
     std::vector<Rank> ranks;
     ranks.reserve(all_.size());
     for (std::size_t i = 0; i < all_.size(); ++i) {

@@ -26,7 +26,7 @@ namespace candela {
 
 namespace {
 
-/// A folder that is open, for what is in it.
+/// An open folder, through which its contents are accessed.
 class OpenFolder {
   public:
     explicit OpenFolder(int descriptor) : descriptor_(descriptor) {}
@@ -37,7 +37,7 @@ class OpenFolder {
     }
 
     int number() const { return descriptor_; }
-    /// Enters a folder in it, which need not be there; false, with errno, if that fails.
+    /// Enters a folder in it, creating it if necessary. Returns false, with errno, on failure.
     bool enter(const std::filesystem::path& name) {
         if (::mkdirat(descriptor_, name.c_str(), 0777) != 0 && errno != EEXIST) return false;
         const int inner = ::openat(descriptor_, name.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -53,7 +53,7 @@ class OpenFolder {
 
 [[noreturn]] void fail_to_make(const std::filesystem::path& folder, const char* reason) {
     throw Error(ErrorCategory::failure,
-                fmt::format("the folder '{}' cannot be made: {}", folder.string(), reason));
+                fmt::format("the folder '{}' cannot be created: {}", folder.string(), reason));
 }
 
 }  // namespace
@@ -68,10 +68,9 @@ void make_owned_folder(const std::filesystem::path& parent, const std::filesyste
     for (const std::filesystem::path& name : owned) {
         shown /= name;
         if (folder.enter(name)) continue;
-        // How the kernel refuses a link depends on what it leads to.
+        // The kernel's error for a link depends on the link's target.
         const bool is_other = errno == ENOTDIR || errno == ELOOP;
-        fail_to_make(
-            shown, is_other ? "something else is there, a link or a file; remove it" : std::strerror(errno));
+        fail_to_make(shown, is_other ? "a link or a file is in its place; remove it" : std::strerror(errno));
     }
 }
 

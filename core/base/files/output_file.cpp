@@ -29,15 +29,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the folder is missing, "No such file or directory" would sound as if the file were to exist already.
+/// If the folder is missing, "No such file or directory" would sound as if the file had to exist already.
 void require_folder_of(const std::string& shown) {
     const fs::path folder = fs::path(shown).parent_path();
     struct stat status{};
     if (folder.empty() || ::stat(folder.c_str(), &status) == 0 || errno != ENOENT) return;
-    throw Error(ErrorCategory::failure,
-                fmt::format("'{}' cannot be written: there is no folder '{}'; make it first, or give another "
-                            "name",
-                            shown, folder.string()));
+    throw Error(
+        ErrorCategory::failure,
+        fmt::format(
+            "'{}' cannot be written: there is no folder '{}'; create it first, or choose another name", shown,
+            folder.string()));
 }
 
 [[noreturn]] void fail(const std::string& shown, const char* what, int problem = errno) {
@@ -46,7 +47,7 @@ void require_folder_of(const std::string& shown) {
 
 /// The target of a link, even if nothing exists there yet.
 fs::path behind_links(fs::path path) {
-    constexpr int k_most_links = 40;  // as many as Linux follows
+    constexpr int k_most_links = 40;  // the limit of Linux
     std::error_code problem;
     for (int i = 0; i < k_most_links && fs::is_symlink(path, problem); ++i) {
         const fs::path next = fs::read_symlink(path, problem);
@@ -60,7 +61,8 @@ fs::path directory_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// What is at a path; false, with errno ENOENT, if there is nothing, or a link that is to be replaced.
+/// Queries what is at a path. Returns false, with errno ENOENT, if there is nothing, or a link that is to be
+/// replaced.
 bool found(const fs::path& path, Links links, struct stat& status) {
     if (links == Links::followed) return ::stat(path.c_str(), &status) == 0;
     if (::lstat(path.c_str(), &status) != 0) return false;
@@ -68,20 +70,21 @@ bool found(const fs::path& path, Links links, struct stat& status) {
     return !S_ISLNK(status.st_mode);
 }
 
-/// A file without a name, or -1 if the file system does not support that (or /proc, through which it gets its
-/// name, is not mounted).
+/// Opens a file without a name, or returns -1 if the file system does not support it (or /proc, through which
+/// the file gets its name, is not mounted).
 int open_unnamed(const fs::path& directory, mode_t mode) {
     if (::access("/proc/self/fd", X_OK) != 0) return -1;
     return ::open(directory.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
 }
 
-/// Gives a nameless file a name that is not in use; false, with errno, if that fails.
+/// Gives a nameless file an unused name. Returns false, with errno, on failure.
 bool name_file(int descriptor, const char* name) {
     const std::string self = fmt::format("/proc/self/fd/{}", descriptor);
     return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
 }
 
-/// Keeps a nameless file while it is closed: what closing it reports must be known before it gets its name.
+/// Keeps a nameless file while it is closed, because errors on closing it must be known before it gets its
+/// name.
 class Handle {
   public:
     explicit Handle(int of)
@@ -115,8 +118,7 @@ OutputFile::OutputFile(const fs::path& path, Existing existing, Links links)
     const bool is_there = found(path, links_, before);
     if (!is_there && errno != ENOENT) fail(shown_, "cannot be written");
     if (is_there && S_ISDIR(before.st_mode)) {
-        throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' is a directory; a file is to be written", shown_));
+        throw Error(ErrorCategory::failure, fmt::format("'{}' is a directory; expected a file name", shown_));
     }
     if (is_there && !S_ISREG(before.st_mode)) {
         if (links_ == Links::not_followed) {
@@ -133,7 +135,7 @@ OutputFile::OutputFile(const fs::path& path, Existing existing, Links links)
     if (is_there && existing_ == Existing::kept) fail_as_existing();
     if (!is_there) require_folder_of(shown_);
     target_ = links_ == Links::followed ? behind_links(path) : path;
-    // Nobody may read the new version of a private file while it is being written; see put_in_place().
+    // Nobody else may read the new version of a private file while it is being written; see put_in_place().
     const mode_t mode = is_there ? 0600 : 0666;
     descriptor_ = open_unnamed(directory_of(target_), mode);
     if (descriptor_ >= 0) return;
@@ -173,7 +175,7 @@ void OutputFile::finish(Durability durability) {
 }
 
 void OutputFile::sync() {
-    // Some file systems have nothing to sync.
+    // Some file systems do not support syncing.
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
         fail(shown_, "cannot be written to the disk");
 }
@@ -183,27 +185,27 @@ void OutputFile::close() {
 }
 
 void OutputFile::fail_as_existing() const {
-    throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and is not to be replaced", shown_));
+    throw Error(ErrorCategory::failure, fmt::format("'{}' already exists; not overwriting it", shown_));
 }
 
-/// Whether there is a file that will be replaced, of which the new one gets the permissions.
+/// Gives the new file the permissions of the file that it will replace. Returns whether there is one.
 bool OutputFile::give_permissions() {
     struct stat before{};
     const bool is_there = found(target_, links_, before);
     if (is_there && existing_ == Existing::kept) fail_as_existing();
-    // What set-user-ID allowed a program to do, its replacement has not earned.
+    // A set-user-ID program's replacement must not inherit its privileges.
     if (is_there && ::fchmod(descriptor_, before.st_mode & 0777) != 0)
-        fail(shown_, "cannot be given its rights");
+        fail(shown_, "cannot be given its permissions");
     return is_there;
 }
 
 void OutputFile::name_beside() {
     if (beside_ != nullptr) return close();
     const Handle handle(descriptor_);
-    if (!handle.is_open()) fail(shown_, "cannot be put in its place");
+    if (!handle.is_open()) fail(shown_, "cannot be moved into place");
     close();
     beside_ = std::make_unique<NameBeside>(directory_of(target_));
-    if (!handle.name(beside_->c_str())) fail(shown_, "cannot be put in its place");
+    if (!handle.name(beside_->c_str())) fail(shown_, "cannot be moved into place");
 }
 
 void OutputFile::complete() {
@@ -219,16 +221,16 @@ void OutputFile::put_in_place(Durability durability) {
     if (durability == Durability::durable) sync();
     if (beside_ == nullptr && (!is_there || existing_ == Existing::kept)) {
         const Handle handle(descriptor_);
-        if (!handle.is_open()) fail(shown_, "cannot be put in its place");
+        if (!handle.is_open()) fail(shown_, "cannot be moved into place");
         close();
         if (handle.name(target_.c_str())) return;
-        if (errno != EEXIST) fail(shown_, "cannot be put in its place");
+        if (errno != EEXIST) fail(shown_, "cannot be moved into place");
         if (existing_ == Existing::kept) fail_as_existing();
         beside_ = std::make_unique<NameBeside>(directory_of(target_));
-        if (!handle.name(beside_->c_str())) fail(shown_, "cannot be put in its place");
+        if (!handle.name(beside_->c_str())) fail(shown_, "cannot be moved into place");
     } else {
-        // Only an unused name can be given: between this and the renaming, a kill leaves a (complete) file
-        // beside the old one.
+        // Only an unused name can be given: if killed between this and the renaming, the process leaves a
+        // (complete) file next to the old one.
         name_beside();
     }
     rename_to_target();
@@ -238,7 +240,7 @@ void OutputFile::rename_to_target() {
     if (existing_ == Existing::kept) {
         if (::link(beside_->c_str(), target_.c_str()) == 0) return;
         if (errno == EEXIST) fail_as_existing();
-        fail(shown_, "cannot be put in its place");
+        fail(shown_, "cannot be moved into place");
     }
     if (::rename(beside_->c_str(), target_.c_str()) != 0) fail(shown_, "cannot be replaced");
 }

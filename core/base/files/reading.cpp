@@ -18,7 +18,7 @@ module candela.files;
 namespace candela {
 
 RegularFile::RegularFile(const std::filesystem::path& path, Links links)
-    // Whatever is not a regular file must not block.
+    // Opening anything but a regular file must not block.
     : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY |
                                            (links == Links::not_followed ? O_NOFOLLOW : 0))) {
     struct stat status{};

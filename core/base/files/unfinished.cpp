@@ -19,10 +19,10 @@ namespace candela {
 
 namespace {
 
-// If more files are written at once than there are slots, the rest are written as well; only a signal handler
-// does not find them.
+// If more files are written at once than there are slots, the rest are written as well, but a signal handler
+// will not find them.
 constinit std::array<std::atomic<std::string*>, 256> unfinished{};
-static_assert(std::atomic<std::string*>::is_always_lock_free, "a signal handler may not wait");
+static_assert(std::atomic<std::string*>::is_always_lock_free, "a signal handler must not wait");
 
 std::string new_name(const std::filesystem::path& directory) {
     std::random_device random;

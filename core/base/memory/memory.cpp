@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t k_unlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// The number in a file; none for "max", or if there is no such file.
+/// The number in a file; none for "max", or if the file does not exist.
 std::optional<std::uint64_t> number_in(const fs::path& file) {
     std::ifstream in(file);
     std::uint64_t number = 0;
@@ -49,7 +49,7 @@ std::uint64_t of_machine() {
     return k_unlimited;
 }
 
-/// Of the bytes that a group uses, those that the kernel would rather drop than deny memory: cached files.
+/// Of the bytes that a group uses, those that the kernel would discard rather than deny memory: cached files.
 std::uint64_t droppable_in(const fs::path& group, std::string_view prefix) {
     std::uint64_t droppable = 0;
     std::ifstream in(group / "memory.stat");
@@ -66,12 +66,12 @@ struct GroupFiles {
     const char* used;
     const char* stat_prefix;
 };
-// Beyond memory.high, a group is slowed down until it is no use.
+// Above memory.high, a group is throttled until it is unusable.
 constexpr GroupFiles k_version_2 = {{"memory.max", "memory.high"}, "memory.current", ""};
 constexpr GroupFiles k_version_1 = {
     {"memory.limit_in_bytes", "memory.memsw.limit_in_bytes"}, "memory.usage_in_bytes", "total_"};
 
-/// What one group leaves.
+/// The memory that one group leaves.
 std::uint64_t left_in(const fs::path& group, const GroupFiles& files) {
     std::uint64_t limit = k_unlimited;
     for (const char* const name : files.limits) {
@@ -81,7 +81,7 @@ std::uint64_t left_in(const fs::path& group, const GroupFiles& files) {
     return used ? left_of(limit, left_of(*used, droppable_in(group, files.stat_prefix))) : k_unlimited;
 }
 
-/// A limit holds for all groups below.
+/// A limit applies to all groups below it.
 std::uint64_t left_in_group_and_above(const fs::path& mount, const fs::path& group, const GroupFiles& files) {
     std::uint64_t left = left_in(mount, files);
     fs::path at = mount;
@@ -106,7 +106,7 @@ std::uint64_t memory_left_by_control_groups(const fs::path& mount, const fs::pat
     std::uint64_t left = k_unlimited;
     std::ifstream in(membership);
     // "0::/user.slice/session" (version 2), "4:cpu,memory:/docker/5f1a" (version 1). In a container, the path
-    // may be one outside of it, of which only the mount's own folder is to be seen.
+    // may be one outside it, of which only the mount's own folder is visible.
     for (std::string line; std::getline(in, line);) {
         const std::size_t first = line.find(':');
         const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
@@ -114,7 +114,7 @@ std::uint64_t memory_left_by_control_groups(const fs::path& mount, const fs::pat
         const std::string controllers = ',' + line.substr(first + 1, second - first - 1) + ',';
         const fs::path group = line.substr(second + 1);
         if (controllers == ",,") {
-            // Where both versions are mounted, version 2 is in a folder of its own.
+            // If both versions are mounted, version 2 has its own folder.
             for (const fs::path& at : {mount, mount / "unified"})
                 left = std::min(left, left_in_group_and_above(at, group, k_version_2));
         } else if (controllers.find(",memory,") != std::string::npos) {
@@ -131,7 +131,7 @@ std::uint64_t available_memory() {
 
 void require_memory(std::uint64_t bytes, std::string_view what) {
     constexpr std::uint64_t k_worth_a_look = 64'000'000;
-    constexpr std::uint64_t k_reserve = 128'000'000;  // for everything small
+    constexpr std::uint64_t k_reserve = 128'000'000;  // for small allocations
     static std::atomic<std::uint64_t> unseen{0};
     if (bytes < k_worth_a_look && unseen.fetch_add(bytes) + bytes < k_worth_a_look) return;
     unseen = 0;

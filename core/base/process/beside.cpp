@@ -54,7 +54,7 @@ class Descriptor {
         if (number < 0) {
             throw Error(
                 ErrorCategory::failure,
-                fmt::format("no connection to another program can be made: {}", std::strerror(errno)));
+                fmt::format("cannot create a connection to another program: {}", std::strerror(errno)));
         }
     }
     Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
@@ -68,14 +68,14 @@ class Descriptor {
     int number_;
 };
 
-/// A socket can be written to without SIGPIPE; a pipe cannot.
+/// Writing to a socket does not raise SIGPIPE; writing to a pipe may.
 std::array<Descriptor, 2> connected() {
     std::array<int, 2> ends{-1, -1};
     static_cast<void>(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()));
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// What a file in memory holds.
+/// The contents of a file in memory.
 std::string content_of(const Descriptor& file) {
     struct stat status{};
     if (::fstat(file.number(), &status) != 0) return {};
@@ -92,12 +92,12 @@ std::string content_of(const Descriptor& file) {
     return text;
 }
 
-/// A program that runs beside this one, and is told things through its standard input.
-class Beside {
+/// A program that runs in parallel with this one and receives input on its standard input.
+class ChildProcess {
   public:
-    /// `output`: the descriptor that it prints to; -1: what it is told by.
-    explicit Beside(const std::vector<std::string>& words, int output = -1)
-        // In memory, so that a program that says much does not wait for a reader.
+    /// `output`: the descriptor that it prints to; -1: the one that its input comes from.
+    explicit ChildProcess(const std::vector<std::string>& words, int output = -1)
+        // In memory, so that a program that prints much does not wait for a reader.
         : errors_(::memfd_create("errors", MFD_CLOEXEC)) {
         std::array<Descriptor, 2> ends = connected();
         const std::vector<std::string> arguments(words.begin() + 1, words.end());
@@ -117,9 +117,9 @@ class Beside {
         }
         connection_.emplace(std::move(ends[0]));
     }
-    Beside(const Beside&) = delete;
-    Beside& operator=(const Beside&) = delete;
-    ~Beside() {
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+    ~ChildProcess() {
         if (process_ < 0) return;
         ::kill(process_, SIGTERM);
         const auto end = steady_clock::now() + k_longest_end;
@@ -132,7 +132,7 @@ class Beside {
     const Descriptor& connection() const { return *connection_; }
     std::string errors() const { return content_of(errors_); }
 
-    /// False if it has ended.
+    /// Returns false if the program has ended.
     bool send(std::string_view text) const {
         while (!text.empty()) {
             const ssize_t count = ::send(connection_->number(), text.data(), text.size(), MSG_NOSIGNAL);
@@ -145,7 +145,7 @@ class Beside {
 
     ProgramEnd await(const Patience& patience) const { return Overseer(process_, patience).await(); }
 
-    /// Waits for its end. Its exit code, 128 + signal where a signal ended it.
+    /// Waits for its end. Returns its exit code, or 128 + signal if a signal ended it.
     int wait() {
         int status = 0;
         pid_t ended = -1;
@@ -153,13 +153,13 @@ class Beside {
             ended = ::waitpid(process_, &status, 0);
         } while (ended < 0 && errno == EINTR);
         process_ = -1;
-        // Whoever ends all programs may have waited for this one, too.
+        // Code that ends all programs may have waited for this one already.
         if (ended < 0) return 128 + SIGKILL;
         return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     }
 
   private:
-    /// Likewise.
+    /// May also have been waited for already.
     bool is_running() const { return ::waitpid(process_, nullptr, WNOHANG) == 0; }
 
     Descriptor errors_;
@@ -191,7 +191,7 @@ class AnsweringProgram::Implementation {
     std::string errors() const { return program_.errors(); }
 
   private:
-    /// False at the end of the program, or of patience.
+    /// Returns false at the end of the program, or when patience runs out.
     bool receive(milliseconds patience) {
         const int connection = program_.connection().number();
         pollfd source{.fd = connection, .events = POLLIN, .revents = 0};
@@ -205,7 +205,7 @@ class AnsweringProgram::Implementation {
         return true;
     }
 
-    Beside program_;
+    ChildProcess program_;
     std::string received_;
 };
 
@@ -236,7 +236,7 @@ class WaitingProgram::Implementation {
 
   private:
     Descriptor output_;
-    Beside program_;
+    ChildProcess program_;
 };
 
 WaitingProgram::WaitingProgram(const std::vector<std::string>& words)

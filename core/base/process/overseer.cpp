@@ -20,7 +20,7 @@ Overseer::Overseer(int process, const Patience& patience) : process_(process) {
 Overseer::~Overseer() { dismiss(); }
 
 ProgramEnd Overseer::await() {
-    // Its end is left to be waited for: until then, its number is no other's.
+    // Leaves the process to be waited for: until then, its ID is not reused.
     siginfo_t state{};
     while (::waitid(P_PID, static_cast<id_t>(process_), &state, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
     }

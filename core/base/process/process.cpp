@@ -43,7 +43,7 @@ process::child started(const std::vector<std::string>& words, Streams&&... strea
         const auto found = program_called(name);
         if (!found) {
             throw Error(ErrorCategory::failure,
-                        fmt::format("there is no program '{}' on this machine, which is needed here", name));
+                        fmt::format("this needs the program '{}', which is not installed", name));
         }
         program = *found;
     }
@@ -65,7 +65,7 @@ int exit_code_of(process::child& child) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// In large pieces: a stream would read a kilobyte at a time.
+/// Reads in large pieces: a stream would read a kilobyte at a time.
 std::string all_of(process::ipstream& stream) {
     std::string text;
     std::vector<char> piece(std::size_t{1} << 16);
@@ -111,7 +111,7 @@ ProgramOutput run_program(const std::vector<std::string>& words, const Patience&
     lock.unlock();
     ProgramOutput output;
     Overseer overseer(child.id(), patience);
-    // A program that fills one pipe waits for its reader, so both are read at once.
+    // A program that has filled one pipe waits for its reader, so both are read at once.
     std::thread reader([&] { output.err = all_of(err); });
     output.out = all_of(out);
     reader.join();

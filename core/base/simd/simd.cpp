@@ -21,9 +21,9 @@ namespace {
 
 InstructionSet detect() noexcept {
 #if defined(__x86_64__)
-    // The levels of the x86-64 psABI. The C library queried the processor at start-up; querying again
-    // (__builtin_cpu_supports) takes a tenth of a millisecond on a virtual machine, which has to leave the
-    // guest for each query.
+    // The levels of the x86-64 psABI. The C library queried the processor at start-up; querying it again
+    // (__builtin_cpu_supports) takes a tenth of a millisecond in a virtual machine, because each query exits
+    // to the host.
     const bool v3 = CPU_FEATURE_ACTIVE(AVX) && CPU_FEATURE_ACTIVE(AVX2) && CPU_FEATURE_ACTIVE(BMI1) &&
                     CPU_FEATURE_ACTIVE(BMI2) && CPU_FEATURE_ACTIVE(F16C) && CPU_FEATURE_ACTIVE(FMA) &&
                     CPU_FEATURE_ACTIVE(LZCNT) && CPU_FEATURE_ACTIVE(MOVBE);

@@ -36,7 +36,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return d[a.size()][b.size()];
 }
 
-/// How many letters may be wrong in names of these lengths.
+/// The number of letters that may be wrong in names of these lengths.
 std::size_t allowed_distance(std::size_t a, std::size_t b) {
     return std::max<std::size_t>(1, (std::max(a, b) + 1) / 3);
 }
@@ -50,13 +50,13 @@ std::string suggestion(std::string_view name, std::span<const std::string> candi
 }
 
 std::optional<std::string> closest(std::string_view name, std::span<const std::string> candidates) {
-    // Nobody misspells longer names; a wrong file may contain one of millions of letters.
+    // Longer names are not typing errors, and a name in a wrong file may have millions of letters.
     constexpr std::size_t k_longest = 256;
     const std::string* best = nullptr;
     std::size_t best_distance = 0;
     if (name.size() > k_longest) return std::nullopt;
     for (const std::string& candidate : candidates) {
-        // Each surplus letter counts as wrong.
+        // Each extra letter counts as wrong.
         const std::size_t more =
             name.size() > candidate.size() ? name.size() - candidate.size() : candidate.size() - name.size();
         if (candidate.size() > k_longest || more > allowed_distance(name.size(), candidate.size())) continue;

@@ -39,7 +39,7 @@ bool is_hidden(char32_t c) {
     return range != k_hidden.end() && range->first <= c;
 }
 
-/// How many at its beginning anybody can see: most text has no others.
+/// The number of ordinary visible characters at the beginning: most text has no others.
 std::size_t plain_characters(std::string_view text) {
     const auto other = std::ranges::find_if_not(text, [](char c) { return c >= ' ' && c <= '~'; });
     return static_cast<std::size_t>(other - text.begin());

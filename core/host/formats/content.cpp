@@ -19,8 +19,8 @@ using namespace std::string_view_literals;
 struct Magic {
     std::string_view extension;
     std::string_view begin;
-    std::string_view further = {};  // and this
-    std::size_t at = 0;             // there
+    std::string_view further = {};  // and this,
+    std::size_t at = 0;             // at this offset
 };
 
 constexpr std::array k_magics = {
@@ -44,7 +44,7 @@ constexpr std::array k_magics = {
     Magic{"heic", "\0\0\0"sv, "ftypheic"sv, 4},
 };
 
-/// "P6" and the like, with white space after it.
+/// "P6" and the like, followed by white space.
 std::string_view netpbm_format(std::string_view head) noexcept {
     if (head.size() < 3 || head[0] != 'P' || " \t\r\n"sv.find(head[2]) == std::string_view::npos) return {};
     if (head[1] == 'F' || head[1] == 'f') return "pfm";

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::string_view k_others = "openimageio";
 
-/// Not even as a file that was refused, for which another package would be no remedy.
+/// Whether the plugin is missing even as a file that was refused; installing a package would not help with a
+/// refused one.
 bool is_missing(Registry& registry) {
     if (registry.find(PluginKind::image, k_others) != nullptr) return false;
     return std::ranges::none_of(registry.refusals(), [](const Refusal& refusal) {

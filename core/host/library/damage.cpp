@@ -34,7 +34,7 @@ class File {
         : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
         struct stat status{};
         if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
-            // That nothing can be read at the moment says nothing of the library.
+            // An error that may be temporary says nothing about the library.
             if (errno != EACCES && errno != ENOENT && errno != ELOOP)
                 throw Error(ErrorCategory::failure,
                             fmt::format("'{}' cannot be read: {}", path.string(), std::strerror(errno)));
@@ -56,7 +56,7 @@ class File {
     bool holds(std::uint64_t offset, std::uint64_t count) const {
         return offset <= size_ && count <= size_ - offset;
     }
-    /// False if the file ends before.
+    /// Returns false if the file ends before.
     bool read(std::uint64_t offset, void* to, std::size_t count) const {
         return holds(offset, count) &&
                ::pread(descriptor_, to, count, static_cast<off_t>(offset)) == static_cast<ssize_t>(count);
@@ -75,7 +75,7 @@ std::vector<Entry> table_at(const File& file, std::uint64_t offset, std::size_t 
     return entries;
 }
 
-/// The header of the library that this code is in; null if it is not known.
+/// The header of the library that contains this code; null if unknown.
 const Header* own_header() {
     Dl_info info{};
     const bool is_known = ::dladdr(reinterpret_cast<const void*>(&library_damage), &info) != 0;
@@ -83,7 +83,7 @@ const Header* own_header() {
 }
 
 bool is_of_this_machine(const Header& header) {
-    static const Header* const own = own_header();  // finding it takes as long as a plugin's file
+    static const Header* const own = own_header();  // finding it takes as long as checking a plugin's file
     return own == nullptr ||
            (std::memcmp(header.e_ident, own->e_ident, EI_VERSION) == 0 && header.e_machine == own->e_machine);
 }
@@ -95,19 +95,19 @@ std::string library_damage(const std::filesystem::path& library) {
     if (!file.problem().empty()) return file.problem();
     Header header{};
     if (!file.read(0, &header, sizeof header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0)
-        return "it is no library";
-    if (!is_of_this_machine(header)) return "it is a library for another kind of processor";
-    const auto truncated = [&] { return fmt::format("it ends early, after {} bytes", file.size()); };
+        return "it is not an ELF shared library";
+    if (!is_of_this_machine(header)) return "it is a library for another processor architecture";
+    const auto truncated = [&] { return fmt::format("it is truncated after {} bytes", file.size()); };
     if (header.e_phentsize != sizeof(Segment) || header.e_phnum == 0)
-        return "it is no library that can be loaded";
+        return "it is not an ELF shared library that can be loaded";
     const auto segments = table_at<Segment>(file, header.e_phoff, header.e_phnum);
     if (segments.empty()) return truncated();
     for (const Segment& segment : segments) {
         if (!file.holds(segment.p_offset, segment.p_filesz)) return truncated();
     }
-    // Stripped libraries may have no table of sections, which is at the end of the file.
+    // Stripped libraries may lack the section table, which is at the end of the file.
     if (header.e_shoff == 0 || header.e_shnum == 0) return {};
-    if (header.e_shentsize != sizeof(Section)) return "its table of sections cannot be read";
+    if (header.e_shentsize != sizeof(Section)) return "its section table cannot be read";
     const auto sections = table_at<Section>(file, header.e_shoff, header.e_shnum);
     if (sections.empty()) return truncated();
     for (const Section& section : sections) {

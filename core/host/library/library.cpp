@@ -40,9 +40,9 @@ std::map<fs::path, Loaded>& loaded_libraries() {
     throw Error(ErrorCategory::failure, fmt::format("plugin '{}' is refused: {}", library.string(), reason));
 }
 
-/// The dynamic linker's message, which Boost.DLL wraps into its own and that of an unrelated system error,
-/// without the path that is said already: "undefined symbol: f", "libfoo.so.1: cannot open shared object
-/// file: No such file or directory".
+/// The dynamic linker's message, which Boost.DLL wraps in its own and that of an unrelated system error,
+/// without the path, which the caller's message names already: "undefined symbol: f", "libfoo.so.1: cannot
+/// open shared object file: No such file or directory".
 std::string loader_message(const boost::dll::fs::system_error& problem, const fs::path& library) {
     std::string text = problem.what();
     constexpr std::string_view k_begin = "(dlerror system message: ";
@@ -55,13 +55,13 @@ std::string loader_message(const boost::dll::fs::system_error& problem, const fs
     return text;
 }
 
-/// "libfoo.so.1", if that is what the dynamic linker does not find; empty otherwise.
+/// "libfoo.so.1", if the dynamic linker does not find that library; otherwise empty.
 std::string missing_dependency(const std::string& message) {
     const auto at = message.find(": cannot open shared object file: No such file");
     return at == std::string::npos ? std::string() : message.substr(0, at);
 }
 
-/// The dynamic linker has several words for it, or those of the system.
+/// The dynamic linker has several messages for it, or passes on the system's.
 bool is_for_want_of_memory(std::string_view message) {
     static constexpr std::array<std::string_view, 5> k_signs{
         "failed to map", "cannot map", "annot allocate", "Resource temporarily unavailable", "out of memory"};
@@ -70,7 +70,7 @@ bool is_for_want_of_memory(std::string_view message) {
 }
 
 constexpr std::string_view k_no_address_space =
-    "there is not enough memory to load it; ulimit -v limits the address space";
+    "not enough memory to load it; ulimit -v limits the address space";
 constexpr std::string_view k_no_threads =
     "it needs more threads than can be started; raise the limit on processes (ulimit -u)";
 
@@ -88,14 +88,14 @@ boost::dll::shared_library open_library(const fs::path& library) {
                                         missing));
         if (is_address_space_scarce() && is_for_want_of_memory(message))
             refuse(library, fmt::format("{} ({})", k_no_address_space, message));
-        // Of the system's errors, a thread that cannot be started has this one.
+        // The system's error if a thread cannot be started.
         if (message.find("Resource temporarily unavailable") != std::string::npos)
             refuse(library, std::string(k_no_threads));
         refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it", message));
     }
 }
 
-/// Which parts of the manifest contradict the library.
+/// The parts of the manifest that contradict the library.
 std::string differences(const Manifest& written, const Manifest& actual) {
     std::string parts;
     const auto compare = [&](std::string_view what, bool same) {
@@ -142,7 +142,7 @@ const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manife
     if (entry.descriptor == nullptr) {
         for (const char* symbol : {"candela_plugin_abi", "candela_plugin_descriptor"}) {
             if (!entry.library.has(symbol)) {
-                refuse(library, fmt::format("it does not export {}, so it is no Candela plugin", symbol));
+                refuse(library, fmt::format("it does not export {}, so it is not a Candela plugin", symbol));
             }
         }
         const std::string_view abi = entry.library.get<const char*()>("candela_plugin_abi")();
@@ -160,10 +160,9 @@ const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manife
     if (manifest != nullptr) {
         const Manifest actual = manifest_of(*entry.descriptor, host_abi());
         if (const std::string parts = differences(*manifest, actual); !parts.empty()) {
-            refuse(library,
-                   fmt::format("its manifest disagrees with it about its {}; build it again, so that "
-                               "both are of one build",
-                               parts));
+            refuse(library, fmt::format("its manifest disagrees with it about its {}; build the plugin "
+                                        "again, so that both come from the same build",
+                                        parts));
         }
     }
     return *entry.descriptor;
@@ -179,7 +178,7 @@ void rethrow_as_plugin_error(PluginKind kind, std::string_view name) {
                     fmt::format("plugin {}/{}: {}", candela::name_of(kind), name, problem.what()));
     } catch (...) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("plugin {}/{} threw something that is no std::exception",
+                    fmt::format("plugin {}/{} threw an object that is not a std::exception",
                                 candela::name_of(kind), name));
     }
 }

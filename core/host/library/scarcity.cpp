@@ -37,8 +37,8 @@ std::size_t address_space_used() {
     return used * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Ends with 0 if the library can be loaded and `is_enough` is true of what is left then; also if it is not
-/// loaded for another reason, which the caller will find.
+/// Exits with 0 if the library can be loaded and `is_enough` returns true for what is left then; also if
+/// loading fails for another reason, which the caller will find.
 template <class IsEnough>
 [[noreturn]] void try_to_load(const std::filesystem::path& library, const IsEnough& is_enough) {
     const rlimit no_core{0, 0};
@@ -50,7 +50,7 @@ template <class IsEnough>
     ::_exit(is_enough() ? 0 : 1);
 }
 
-/// Has a child process load the library first. Where there can be no child, the answer is yes.
+/// Loads the library in a child process first. If no child can be started, returns true.
 template <class IsEnough>
 bool can_load(const std::filesystem::path& library, std::chrono::seconds longest, const IsEnough& is_enough) {
     const pid_t child = ::fork();
@@ -70,21 +70,21 @@ bool can_load(const std::filesystem::path& library, std::chrono::seconds longest
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// For libraries that work on several threads: some that are started with them, and two pools of a thread for
-/// each processor.
+/// For libraries that use several threads: some that they start when loaded, and two pools of one thread per
+/// processor.
 unsigned wanted_threads() { return 8 + 2 * std::thread::hardware_concurrency(); }
 
-/// Of all users together, so no fewer than this one has.
+/// The number of tasks of all users together, hence at least this user's.
 std::uint64_t running_tasks() {
     std::ifstream load("/proc/loadavg");
     std::string word;
     for (int i = 0; i < 4; ++i) load >> word;
-    std::uint64_t tasks = 0;  // the fourth word is "3/412", of which 3 are not waiting
+    std::uint64_t tasks = 0;  // the fourth word is "3/412": 3 are running, 412 exist
     std::istringstream(word.substr(std::min(word.find('/') + 1, word.size()))) >> tasks;
     return tasks;
 }
 
-/// Whether a limit on threads may be near; to find out takes next to no time.
+/// Whether a limit on threads may be near; takes next to no time.
 bool is_thread_limit_near() {
     rlimit limit{};
     const bool has_limit = ::getrlimit(RLIMIT_NPROC, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
@@ -129,7 +129,7 @@ bool is_single_threaded() {
 }  // namespace
 
 bool is_address_space_scarce() {
-    constexpr rlim_t k_plenty = rlim_t{1} << 30;  // thrice what OpenImageIO and its libraries take
+    constexpr rlim_t k_plenty = rlim_t{1} << 30;  // three times what OpenImageIO and its libraries take
     rlimit limit{};
     return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
            limit.rlim_cur < address_space_used() + k_plenty;
@@ -137,7 +137,7 @@ bool is_address_space_scarce() {
 
 bool lacks_address_space(const std::filesystem::path& library) {
     if (!is_address_space_scarce()) return false;
-    // As much as a quarter of what it takes has to be left for its work.
+    // A quarter of what it takes must be left for its work.
     return !can_load(library, std::chrono::seconds(20), [before = address_space_used()] {
         const std::size_t after = address_space_used();
         const std::size_t for_work = after > before ? (after - before) / 4 : 0;

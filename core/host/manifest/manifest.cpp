@@ -135,7 +135,7 @@ template <class Named>
 auto named(const Json& json, std::string_view what, Named named_function) {
     const auto name = json.get<std::string>();
     const auto found = named_function(name);
-    if (!found) refuse(fmt::format("'{}' is no {}", shortened(name), what));
+    if (!found) refuse(fmt::format("unknown {} '{}'", what, shortened(name)));
     return *found;
 }
 
@@ -149,7 +149,7 @@ std::int64_t whole_number(const Json& json) {
 
 float channel(const Json& json) {
     const std::int64_t number = whole_number(json);
-    if (number < 0 || number > 256) refuse(json.dump() + " is no channel of a colour: 0 to 255");
+    if (number < 0 || number > 256) refuse(json.dump() + "is not a colour channel: 0 to 255");
     return static_cast<float>(number);
 }
 
@@ -167,18 +167,18 @@ Value value_from(const Json& json, ParamType type) {
             return json.get<std::string>();
         case ParamType::matrix: {
             Matrix rows{};
-            if (json.size() != 3) refuse("a matrix has other than three rows");
+            if (json.size() != 3) refuse("a matrix must have three rows");
             for (std::size_t i = 0; i < rows.size(); ++i) {
-                if (json.at(i / 3).size() != 3) refuse("a row of a matrix has other than three numbers");
+                if (json.at(i / 3).size() != 3) refuse("a row of a matrix must have three numbers");
                 rows[i] = json.at(i / 3).at(i % 3).get<float>();
             }
             return rows;
         }
         case ParamType::numbers:
-            if (!json.is_array() || json.empty()) refuse("a default is no list of numbers");
+            if (!json.is_array() || json.empty()) refuse("the default must be a list of numbers");
             return json.get<std::vector<float>>();
         default:
-            if (json.size() != 3) refuse("a default has other than three numbers");
+            if (json.size() != 3) refuse("the default must have three numbers");
             if (type == ParamType::color)
                 return Vec3{channel(json.at(0)), channel(json.at(1)), channel(json.at(2))};
             return Vec3{json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
@@ -188,7 +188,7 @@ Value value_from(const Json& json, ParamType type) {
 Parameter parameter_from(const Json& json) {
     Parameter p;
     p.name = json.at("name").get<std::string>();
-    p.type = named(json.at("type"), "type of a parameter", param_type_named);
+    p.type = named(json.at("type"), "parameter type", param_type_named);
     p.unit = json.value("unit", "");
     if (json.contains("default")) p.default_value = value_from(json["default"], p.type);
     p.minimum_excluded = json.contains("above");
@@ -200,10 +200,10 @@ Parameter parameter_from(const Json& json) {
     const auto wrong = [&](const std::string& what) {
         refuse(fmt::format("parameter '{}': {}", shortened(p.name), what));
     };
-    if (p.type == ParamType::choice && p.choices.empty()) wrong("there is nothing to choose from");
+    if (p.type == ParamType::choice && p.choices.empty()) wrong("it has no choices");
     if (std::isnan(p.minimum) || std::isinf(p.minimum) != (p.minimum == k_no_minimum) ||
         std::isinf(p.maximum) != (p.maximum == k_no_maximum)) {
-        wrong("its range is not one of numbers");
+        wrong("its range is not a range of numbers");
     }
     if (p.default_value) {
         // Checking the default against its range is the conformance kit's task; here it only has to be
@@ -226,8 +226,8 @@ Preset preset_from(const Json& json, const std::vector<Parameter>& parameters) {
     for (const auto& [name, value] : json.at("values").items()) {
         const auto of = std::ranges::find(parameters, name, &Parameter::name);
         if (of == parameters.end())
-            refuse(fmt::format("preset '{}' has a value for '{}', and there is no such parameter",
-                               shortened(p.name), shortened(name)));
+            refuse(fmt::format("preset '{}' sets '{}', but there is no such parameter", shortened(p.name),
+                               shortened(name)));
         p.values.emplace_back(name, value_from(value, of->type));
     }
     if (json.contains("color")) p.color = std::get<Vec3>(value_from(json["color"], ParamType::color));
@@ -236,11 +236,11 @@ Preset preset_from(const Json& json, const std::vector<Parameter>& parameters) {
 
 Manifest manifest_from(const Json& json) {
     if (whole_number(json.at("candela_manifest")) != k_manifest_version) {
-        refuse("it is of another manifest version");
+        refuse("its manifest version is not supported");
     }
     Manifest m;
     m.abi = json.at("abi").get<std::string>();
-    m.kind = named(json.at("kind"), "kind of plugin", plugin_kind_named);
+    m.kind = named(json.at("kind"), "plugin kind", plugin_kind_named);
     m.name = json.at("name").get<std::string>();
     m.version = json.at("version").get<std::string>();
     m.title = json.at("title").get<std::string>();
@@ -259,7 +259,7 @@ Manifest manifest_from(const Json& json) {
         if (is_double) refuse(fmt::format("two parameters are called '{}'", shortened(m.parameters[i].name)));
     }
     for (const Json& r : json.at("relations")) {
-        m.relations.push_back({named(r.at("type"), "type of a relation", relation_type_named),
+        m.relations.push_back({named(r.at("type"), "relation type", relation_type_named),
                                r.at("left").get<std::string>(), r.at("right").get<std::string>(),
                                r.at("only_warns").get<bool>(), r.at("meaning").get<std::string>()});
     }
@@ -303,10 +303,10 @@ void require_name(std::string_view text, std::string_view what) {
     if (text.size() > k_longest)
         throw Error(
             ErrorCategory::bad_request,
-            fmt::format("its {} has {} characters; at most {} are possible", what, text.size(), k_longest));
+            fmt::format("its {} has {} characters; at most {} are allowed", what, text.size(), k_longest));
     if (printable(text) != text)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("its {} '{}' has characters that cannot be seen", what, printable(text)));
+                    fmt::format("its {} '{}' contains invisible characters", what, printable(text)));
 }
 
 Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
@@ -335,7 +335,7 @@ Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
 
 namespace {
 
-/// With each array of numbers on one line, as a person would write it.
+/// Puts each array of numbers on one line, as a person would write it.
 std::string with_short_arrays(std::string_view json) {
     std::string result;
     bool is_in_text = false;
@@ -343,7 +343,7 @@ std::string with_short_arrays(std::string_view json) {
         const char c = json[i];
         result += c;
         if (is_in_text && c == '\\') {
-            result += json[++i];  // whatever it is, it does not end the text
+            result += json[++i];  // an escaped character does not end the string
             continue;
         }
         if (c == '"') is_in_text = !is_in_text;
@@ -374,7 +374,7 @@ Manifest manifest_from_json(std::string_view text) {
     try {
         return manifest_from(Json::parse(text));
     } catch (const Json::exception& problem) {
-        throw Error(ErrorCategory::failure, fmt::format("it is no manifest: {}", problem.what()));
+        throw Error(ErrorCategory::failure, fmt::format("it is not a manifest: {}", problem.what()));
     }
 }
 

@@ -43,7 +43,7 @@ double shortest(float x) {
     return std::isfinite(x) ? std::stod(fmt::format("{}", x)) : static_cast<double>(x);
 }
 
-/// A value as a person writes it.
+/// Converts a default to the form in which users write it.
 Value value_of(const ParamSpec& spec, const ParamValue& value) {
     switch (spec.type) {
         case ParamType::real:
@@ -154,8 +154,8 @@ Preset preset_of(const PresetSpec& spec, std::span<const ParamSpec> parameters) 
         const auto found = std::ranges::find_if(parameters, named);
         if (found == parameters.end())
             throw Error(ErrorCategory::failure,
-                        fmt::format("preset '{}' has a value for '{}', and there is no such parameter",
-                                    spec.name, preset.parameter));
+                        fmt::format("preset '{}' sets '{}', but there is no such parameter", spec.name,
+                                    preset.parameter));
         result.values.emplace_back(preset.parameter, value_of(*found, preset.value));
     }
     if (spec.has_color) result.color = Vec3{spec.color[0], spec.color[1], spec.color[2]};
@@ -189,7 +189,7 @@ std::string text_of(const Relation& r) {
         case RelationType::sum_at_most_one:
             break;
     }
-    return fmt::format("{} and {} together are at most 1{}: else {}", r.left, r.right,
+    return fmt::format("{} and {} together are at most 1{}: otherwise {}", r.left, r.right,
                        r.only_warns ? " (a warning)" : "", r.meaning);
 }
 
@@ -259,7 +259,7 @@ std::optional<std::string> validation_error(const Parameter& p, const Value& val
         return fmt::format("{} is not one of {}", text(), fmt::join(p.choices, ", "));
     }
     for (const double x : numbers_of(value)) {
-        if (!std::isfinite(x)) return fmt::format("{} is not a number that can be used", number(x));
+        if (!std::isfinite(x)) return fmt::format("{} is not a usable number", number(x));
         if (std::abs(x) > static_cast<double>(std::numeric_limits<float>::max())) {
             return fmt::format("{} is too large (at most {:.3g})", number(x),
                                std::numeric_limits<float>::max());
@@ -274,7 +274,7 @@ std::optional<std::string> validation_error(const Parameter& p, const Value& val
         }
     }
     if (p.type == ParamType::direction && std::get<Vec3>(value) == Vec3{}) {
-        return "a direction cannot be zero in all three numbers";
+        return "a direction cannot be zero";
     }
     return std::nullopt;
 }

@@ -22,7 +22,7 @@ namespace candela {
 extern "C++" std::unique_ptr<Instance> make_instance(std::string_view directory, PluginKind kind,
                                                      std::string_view name,
                                                      std::span<const ParamSetting> settings) {
-    // One registry for each call: a test makes few instances, and sees a plugin that was built again.
+    // One registry per call: a test creates few instances, and must see a plugin that was built again.
     Registry registry({std::filesystem::path(directory)});
     ParamSet values = registry.parameters(kind, name);
     for (const ParamSetting& setting : settings) values.set(setting.name, setting.value);

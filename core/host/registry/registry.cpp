@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shipped ones have two or three thousand bytes.
+/// The shipped manifests have two or three thousand bytes.
 constexpr std::size_t k_largest_manifest = 1u << 20;
 
 std::string id_of(PluginKind kind, std::string_view name) {
@@ -65,13 +65,13 @@ fs::path library_of(const fs::path& directory, PluginKind kind, std::string_view
     return directory / fmt::format("{}-{}.so", candela::name_of(kind), name);
 }
 
-/// Why a file that is there cannot be read; empty if it can be, or is not there. That a whole folder is
-/// closed to this user says nothing about a file in it.
+/// Why an existing file cannot be read; empty if it can be, or does not exist. That this user cannot read a
+/// whole folder says nothing about a file in it.
 std::string reading_problem(const fs::path& file) {
     struct stat status{};
     if (::access(file.parent_path().c_str(), X_OK) != 0 || ::lstat(file.c_str(), &status) != 0) return {};
     if (is_readable(file)) return {};
-    return errno == ENOENT ? "it is a link to nowhere" : std::strerror(errno);
+    return errno == ENOENT ? "it is a dangling link" : std::strerror(errno);
 }
 
 std::string_view environment(const char* name) {
@@ -79,18 +79,18 @@ std::string_view environment(const char* name) {
     return value != nullptr ? value : "";
 }
 
-/// "belongs to …" or "can be written to by everybody"; empty if only this user and root can modify the file
-/// or folder.
+/// "belongs to …" or "is writable by every user"; empty if only this user and root can modify the file or
+/// folder.
 std::string who_else_can_write(const fs::path& path) {
     struct stat status{};
     if (::stat(path.c_str(), &status) != 0) return {};
     if (status.st_uid != 0 && status.st_uid != ::geteuid())
         return fmt::format("belongs to user {}", status.st_uid);
-    if ((status.st_mode & S_IWOTH) != 0) return "can be written to by every user";
+    if ((status.st_mode & S_IWOTH) != 0) return "is writable by every user";
     return {};
 }
 
-/// In full, because its last part may be the one that differs; a manifest may contain anything in its place.
+/// In full, because only its last part may differ; a manifest may contain anything in its place.
 std::string fingerprint_text(std::string_view abi) {
     constexpr std::size_t k_longest = 100;
     const bool is_plain =
@@ -142,31 +142,30 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
     }
     const bool has_library = is_regular(library);
     if (!text && is_regular(manifest_path)) {
-        // That nothing can be read at the moment says nothing of the plugin.
+        // An error that may be temporary says nothing about the plugin.
         throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", manifest_path.string()));
     }
     if (!text) {
-        return has_library
-                   ? refuse(fmt::format(
-                         "its manifest {}.json is not beside it; build it with candela_add_plugin()", stem))
-                   : nullptr;
+        return has_library ? refuse(fmt::format(
+                                 "its manifest {}.json is missing; build it with candela_add_plugin()", stem))
+                           : nullptr;
     }
-    if (!has_library) return refuse("its manifest is there, the library is not");
+    if (!has_library) return refuse("its manifest exists, but the library does not");
     if (text->size() > k_largest_manifest) {
         return refuse(fmt::format("its manifest {}.json is larger than {} bytes", stem, k_largest_manifest));
     }
     if (trust_ != PluginTrust::any) {
         for (const fs::path& part : {directory, library}) {
             if (const std::string who = who_else_can_write(part); !who.empty()) {
-                return refuse(fmt::format("'{}' {}, so that anybody's code could run here; change that",
-                                          part.string(), who),
-                              {Help::Topic::plugin_trust});
+                return refuse(
+                    fmt::format("'{}' {}, so anybody could run code here; change that", part.string(), who),
+                    {Help::Topic::plugin_trust});
             }
         }
     }
     const auto refuse_abi = [&](std::string_view abi) {
         return refuse(
-            fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+            fmt::format("it was built for '{}', but this is '{}'; build it again with this Candela's SDK",
                         fingerprint_text(abi), host_abi()));
     };
     auto file = std::make_unique<PluginFile>();
@@ -179,8 +178,9 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
     }
     if (file->manifest.abi != host_abi()) return refuse_abi(file->manifest.abi);
     if (file->manifest.id() != id) {
-        return refuse(fmt::format("its manifest is that of {}; a plugin's file is called <kind>-<name>.so",
-                                  file->manifest.id()));
+        return refuse(
+            fmt::format("its manifest is that of {}; a plugin's file must be called <kind>-<name>.so",
+                        file->manifest.id()));
     }
     if (const std::string damage = library_damage(library); !damage.empty())
         return refuse(fmt::format("it cannot be loaded ({}); build it again, or remove it", damage));
@@ -297,7 +297,7 @@ std::vector<Refusal> Registry::refusals() const {
 }
 
 const PluginFile* Registry::find_format(std::string_view extension, FormatUse use) {
-    // Trying the plugin named after its format first saves reading all other manifests.
+    // Trying the plugin named after its format first avoids reading all other manifests.
     const auto is_able = [&](const PluginFile* file) {
         return std::ranges::any_of(file->manifest.formats, [&](const ManifestFormat& format) {
             return format.extension == extension && (use == FormatUse::write || format.reads);
@@ -349,7 +349,7 @@ std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string
     const PluginDescriptor& descriptor = load(file);
     try {
         std::unique_ptr<Instance> instance(descriptor.create(values.delivered(encoding)));
-        if (instance == nullptr) throw std::runtime_error("made nothing");
+        if (instance == nullptr) throw std::runtime_error("created nothing");
         return instance;
     } catch (...) {
         rethrow_as_plugin_error(kind, name);
@@ -357,7 +357,7 @@ std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string
 }
 
 void Registry::throw_wrong_interface(PluginKind kind, std::string_view name) {
-    throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} made something that is no {}",
+    throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} created an object that is not a {}",
                                                     candela::name_of(kind), name, candela::name_of(kind)));
 }
 

@@ -21,14 +21,14 @@ namespace {
 
 using kernel::vec3;
 
-/// `low` for what is no number, as a faulty plugin's directions may yield.
+/// `low` for NaN, which a faulty plugin's directions may yield.
 CANDELA_KERNEL_INLINE float within(float x, float low, float high) {
     return x > low ? kernel::min(x, high) : low;
 }
 
 constexpr std::size_t k_group_size = 64;
 
-/// Between which four pixels directions lie, and where between them.
+/// The four pixels around each direction, and its position between them.
 struct Places {
     std::array<std::array<std::uint32_t, k_group_size>, 4> pixel;  // upper left, upper right, lower left …
     std::array<float, k_group_size> across, down;
@@ -49,7 +49,7 @@ struct PlaceLoop {
             const float y = within(v * rows - 0.5f, 0.0f, rows - 1.0f);
             const float left = kernel::floor(x), top = kernel::floor(y);
             const int column = static_cast<int>(left), row = static_cast<int>(top);
-            // Around the back, the last column is beside the first.
+            // Wraps around at the back: the last column adjoins the first.
             const int c0 = column < 0 ? width - 1 : column, c1 = column + 1 >= width ? 0 : column + 1;
             const auto upper = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(width);
             const auto lower = static_cast<std::uint32_t>(row + 1 >= height ? row : row + 1) *
@@ -64,7 +64,7 @@ struct PlaceLoop {
     }
 };
 
-/// A picture's pixels, each read with a fourth number, which does not matter.
+/// A picture's pixels, each read together with a fourth number, which is ignored.
 class Pixels {
   public:
     explicit Pixels(const std::vector<float>& channels)
@@ -73,7 +73,7 @@ class Pixels {
     }
 
     Eigen::Map<const Eigen::Array4f> operator[](std::size_t number) const {
-        // Behind the last one there is nothing to read.
+        // Nothing may be read past the last one.
         return Eigen::Map<const Eigen::Array4f>(number < last_ ? first_ + 3 * number : last_pixel_.data());
     }
 

@@ -21,7 +21,7 @@ Environment read_environment(const std::filesystem::path& file, Registry& regist
     std::optional<DecodedPicture> picture = read_by_plugin(file, registry, encoding);
     if (!picture) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' is of no format that an image plugin reads{}", file.string(),
+                    fmt::format("'{}' has a format that no image plugin reads{}", file.string(),
                                 possible_formats(registry, FormatUse::read)));
     }
     const bool decode = picture->is_encoded && encoding == ColorEncoding::srgb;
@@ -29,8 +29,7 @@ Environment read_environment(const std::filesystem::path& file, Registry& regist
         if (!std::isfinite(value)) {
             throw Error(
                 ErrorCategory::failure,
-                fmt::format("'{}' cannot be read as a picture: it has a pixel that is no finite number",
-                            file.string()));
+                fmt::format("'{}' cannot be read as a picture: a pixel is non-finite", file.string()));
         }
         value = std::max(decode ? srgb_to_linear(value) : value, 0.0f);
     }

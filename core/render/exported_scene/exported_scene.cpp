@@ -33,7 +33,7 @@ namespace candela {
 namespace {
 
 constexpr const char* k_no_kernel =
-    "has no kernel, the text that its mathematics is generated from; a program can only be generated with "
+    "has no kernel, the text from which its mathematics is generated; programs can be generated only with "
     "models that have one";
 
 std::string name_in(const std::string& label) {
@@ -102,8 +102,8 @@ class Exporter {
         const ImageSettings& image = scene_.image;
         if (!image.environment.empty() && !request_.abilities.surroundings) {
             throw Error(ErrorCategory::failure,
-                        "[image] environment: a generated program has a background of one colour, not a "
-                        "picture all around");
+                        "[image] environment: the background of a generated program is one colour, not an "
+                        "environment map");
         }
         to_.title = request_.title;
         to_.environment = image.environment;
@@ -132,12 +132,12 @@ class Exporter {
         return registry_.create<Interface>(name, values, scene_.image.color_management);
     }
 
-    /// The plugin, which has been loaded.
+    /// The loaded plugin.
     const PluginDescriptor& plugin(PluginKind kind, const std::string& name) {
         return *registry_.require(kind, name).descriptor;
     }
 
-    /// Likewise, of a model whose kernel has these functions where the target needs kernels.
+    /// Like plugin(), for a model whose kernel must have these functions if the target needs kernels.
     const PluginDescriptor& model(PluginKind kind, const std::string& name,
                                   const std::vector<const char*>& functions) {
         const PluginDescriptor& loaded = plugin(kind, name);
@@ -168,7 +168,7 @@ class Exporter {
         add_data(*made_light, to_.lights.back());
     }
 
-    /// What a light says of itself.
+    /// A light's description of itself as data.
     void add_data(const Light& from, ExportedLight& to) {
         std::vector<PunctualLight> samples(static_cast<std::size_t>(from.sample_count()));
         for (std::size_t i = 0; i < samples.size(); ++i)
@@ -188,10 +188,9 @@ class Exporter {
         exported.needs = instance->needs();
         if (exported.needs.triangle && !request_.abilities.triangle &&
             !request_.abilities.models_without_kernel) {
-            throw Error(ErrorCategory::failure,
-                        fmt::format("shading/{} sees the vertices of its triangle, which the programs of "
-                                    "this target do not show to a shading model",
-                                    name));
+            throw Error(ErrorCategory::failure, fmt::format("shading/{} reads the vertices of its triangle, "
+                                                            "which this target's programs do not provide",
+                                                            name));
         }
         put(to_.shadings, exported);
     }
@@ -204,12 +203,10 @@ class Exporter {
         exported.needs_uv = instance->needs_uv();
         exported.shows_surroundings = instance->shows_surroundings();
         if (exported.shows_surroundings && !request_.abilities.surroundings) {
-            throw Error(
-                ErrorCategory::failure,
-                fmt::format(
-                    "reflection/{} shows what is behind and around an object, for which rays are followed "
-                    "through it; generated programs do not do that",
-                    name));
+            throw Error(ErrorCategory::failure,
+                        fmt::format("reflection/{} shows what is behind and around an object by following "
+                                    "rays through it; generated programs do not do that",
+                                    name));
         }
         exported.plugin = &model(PluginKind::reflection, name, {"reflect", "reflect_ambient"});
         put(to_.reflections, exported);
@@ -237,7 +234,7 @@ class Exporter {
                     try {
                         add_default(kind, each);
                     } catch (const Error&) {
-                        continue;  // "all" are those that can be exported
+                        continue;  // "all" means those that can be exported
                     }
                 }
             }
@@ -261,8 +258,8 @@ class Exporter {
                     meant.empty() ? Help{Help::Topic::all_plugins} : Help{});
     }
 
-    /// The scene with that model for all objects, or nothing where it is not valid so. Each model is asked
-    /// for once.
+    /// The scene with that model for all objects, or nothing if it is invalid with it. Each model is
+    /// requested once.
     const std::optional<Scene>& with(PluginKind kind, const std::string& name) {
         const auto at = with_.find({kind, name});
         if (at != with_.end()) return at->second;
@@ -271,9 +268,9 @@ class Exporter {
         return with_.emplace(std::pair(kind, name), std::move(scene)).first->second;
     }
 
-    /// An object's values for a model that is not its own: what `--shading` and `--reflection` would give it.
-    /// Where the scene is not valid with them, because a word of its own model means nothing to the other:
-    /// the defaults.
+    /// An object's values for a model that is not its own: those that `--shading` and `--reflection` would
+    /// give it. If the scene is invalid with them, because the other model does not know a word of the
+    /// object's own: the defaults.
     ParamSet values_for(PluginKind kind, const std::string& name, std::size_t index) {
         const auto& scene = with(kind, name);
         if (!scene) return registry_.parameters(kind, name);
@@ -281,14 +278,15 @@ class Exporter {
         return kind == PluginKind::shading ? object.shading.parameters : object.reflection.parameters;
     }
 
-    /// The number of an object's texture; objects share them.
+    /// The index of an object's texture; objects share them.
     std::size_t texture_of(const Object& object) {
         if (object.color_texture.empty()) return ExportedObject::k_no_texture;
         if (!request_.abilities.textures)
-            throw Error(ErrorCategory::failure,
-                        fmt::format("object {} has a texture, which this target cannot express; leave out "
-                                    "color_texture",
-                                    object.label));
+            throw Error(
+                ErrorCategory::failure,
+                fmt::format(
+                    "object {} has a texture, which this target does not support; remove color_texture",
+                    object.label));
         for (std::size_t i = 0; i < to_.textures.size(); ++i)
             if (to_.textures[i].file == object.color_texture) return i;
         const auto& mip_map = to_.mip_maps.emplace_back(

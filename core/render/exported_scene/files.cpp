@@ -24,13 +24,13 @@ bool stays_in_its_folder(const std::filesystem::path& name) {
            std::ranges::find(name, "..") == name.end();
 }
 
-/// Files are kept until all are there.
+/// Keeps files until all are complete.
 class Collected final : public FileSink {
   public:
     void write(const char* name, std::span<const std::byte> content) override {
         if (!stays_in_its_folder(name))
             throw std::invalid_argument(
-                fmt::format("'{}' is no name of a file in the program's folder", name));
+                fmt::format("'{}' is not a valid name for a file in the program's folder", name));
         std::vector<ExportedFile>& files = program_.files;
         if (std::ranges::find(files, name, &ExportedFile::name) != files.end())
             throw std::invalid_argument(fmt::format("the file '{}' is written twice", name));

@@ -23,7 +23,7 @@ namespace candela {
 
 namespace {
 
-/// A value as a person writes it, in the form in which values cross to plugins.
+/// A value as written in a scene, in the form in which values cross to plugins.
 ParamValue written_value(const Value& value, const Parameter& parameter) {
     ParamValue result;
     if (const auto* boolean = std::get_if<bool>(&value)) result.integer = *boolean ? 1 : 0;
@@ -119,10 +119,9 @@ MeshRequest ExportStorage::request(bool needs_uv) const {
 
 void ExportStorage::require_no_colors(std::size_t object) const {
     if (has_vertex_colors || placed.mesh.color.empty()) return;
-    throw Error(ErrorCategory::failure,
-                fmt::format("object {} has a colour at each vertex, which this target cannot express; "
-                            "vertex_colors = false leaves them out",
-                            scene.objects[object].label));
+    throw Error(ErrorCategory::failure, fmt::format("object {} has vertex colours, which this target does "
+                                                    "not support; vertex_colors = false removes them",
+                                                    scene.objects[object].label));
 }
 
 bool ExportStorage::has_default_normals(std::size_t object, std::size_t shading) {
@@ -160,7 +159,7 @@ void ExportStorage::put_tables(const PluginDescriptor& plugin, const Instance& i
         const std::span<const float> table = instance.table(i);
         if (!std::ranges::all_of(table, [](float x) { return std::isfinite(x); }))
             throw Error(ErrorCategory::failure,
-                        fmt::format("plugin {}/{}: the table of '{}' has a number that is not finite",
+                        fmt::format("plugin {}/{}: the table of '{}' has a non-finite number",
                                     name_of(plugin.kind), plugin.name, plugin.parameters[i].name));
         put_table(table, delivered[i]);
     }
@@ -170,11 +169,11 @@ void ExportStorage::put_table(std::span<const float> table, ParamValue& value) {
     const auto same = std::ranges::search(tables, table);
     const auto first = static_cast<std::size_t>(same.begin() - tables.begin());
     if (same.empty()) tables.insert(tables.end(), table.begin(), table.end());
-    // As many as programs count exactly with floats.
+    // The largest number up to which floats count exactly.
     if (tables.size() > std::size_t{1} << 24)
         throw Error(ErrorCategory::failure,
-                    "the tables of the scene's models have more than 16777216 numbers, for which "
-                    "generated programs have no room");
+                    "the tables of the scene's models have more than 16777216 numbers, the limit of "
+                    "generated programs");
     value.integer = static_cast<std::int32_t>(table.empty() ? 0 : first);
     placed_tables.push_back({&value, table.size()});
 }

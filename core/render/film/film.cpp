@@ -25,8 +25,8 @@ namespace {
 constexpr float k_srgb_limit = 0.0031308f, k_srgb_slope = 255 * 12.92f;
 
 /// sRGB's power, times 255: accurate to 0.0025, which is enough for a byte and takes a third of the work of
-/// kernel::pow. x^(1/2.4) is that of x's mantissa, a polynomial (Remez exchange), times that of its power of
-/// two, bit by bit of the exponent: for x from 2^-15 to 1.
+/// kernel::pow. x^(1/2.4) is the product of the power of x's mantissa, a polynomial (Remez exchange), and
+/// that of its power of two, computed bit by bit of the exponent: for x from 2^-15 to 1.
 [[gnu::always_inline]] inline float srgb_power_255(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     const auto m = std::bit_cast<float>((bits & 0x007f'ffffu) | 0x3f80'0000u);  // in [1, 2)
@@ -42,7 +42,7 @@ constexpr float k_srgb_limit = 0.0031308f, k_srgb_slope = 255 * 12.92f;
     return p - 255 * 0.055f;
 }
 
-/// A channel to 8 bits: clamped, encoded, rounded. NaN becomes black.
+/// Converts a channel to 8 bits: clamped, encoded, rounded. NaN becomes black.
 template <bool srgb>
 [[gnu::always_inline]] inline std::uint8_t byte_of(float intensity) {
     const float x = intensity > 0.0f ? (intensity < 1.0f ? intensity : 1.0f) : 0.0f;
@@ -155,7 +155,7 @@ void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, i
 void Film::paste(int x, int y, const Film& other) {
     if (other.pixels_ != pixels_ || x < 0 || y < 0 || other.width_ > width_ - x ||
         other.height_ > height_ - y)
-        throw std::invalid_argument("Film::paste(): another type of pixel, or no room for them");
+        throw std::invalid_argument("Film::paste(): the pixel types differ, or the picture does not fit");
     const auto copy = [&](const auto& from, auto& to) {
         for (int row = 0; row < other.height_; ++row) {
             std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(other.index_of(0, row)), 3 * other.width_,

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Passes what an image plugin writes on to a file.
+/// Passes an image plugin's output on to a file.
 class FileSink final : public ByteSink {
   public:
     explicit FileSink(OutputFile& file) : file_(file) {}
@@ -38,7 +38,7 @@ class FileSink final : public ByteSink {
     OutputFile& file_;
 };
 
-/// The same for a regular file.
+/// Like FileSink, for a regular file.
 class RegularFileSink final : public RandomAccessSink {
   public:
     explicit RegularFileSink(OutputFile& file) : file_(file) {}
@@ -93,7 +93,7 @@ std::unique_ptr<ImageFormat> writer_of(const PictureFormat& format, Registry& re
     return registry.create<ImageFormat>(format.plugin, format.parameters, encoding);
 }
 
-/// Has the format's plugin write what `call` makes it write.
+/// Makes the format's plugin write, through `call`.
 template <class Call>
 void write(const PictureFormat& format, OutputFile& file, Registry& registry, ColorEncoding encoding,
            const Call& call) {
@@ -108,7 +108,7 @@ void write(const PictureFormat& format, OutputFile& file, Registry& registry, Co
     }
 }
 
-/// A file of that.
+/// Writes a file in that way.
 template <class Call>
 void write(const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing,
            ColorEncoding encoding, const Call& call) {
@@ -139,7 +139,7 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
             ErrorCategory::bad_request,
             fmt::format("'{}' {}{}{}", path.string(),
                         extension.empty() ? "has no extension that names a picture format"
-                                          : "is of no format that an image plugin writes",
+                                          : "has a format that no image plugin writes",
                         meant.empty() ? "" : "; " + meant, possible_formats(registry, FormatUse::write)));
     }
     const auto& formats = plugin->manifest.formats;

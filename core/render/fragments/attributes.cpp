@@ -31,7 +31,7 @@ void resize(SurfacePoints& points, std::array<Vec3Arrays, 3> SurfacePoints::* co
     for (Vec3Arrays& arrays : points.*corners) arrays.resize(k_batch_size + k_lanes);
 }
 
-/// The vertices of a triangle, at each of its points.
+/// Repeats the vertices of a triangle for each of its points.
 void repeat_corners(const Mesh& mesh, const Indices& vertices, std::size_t first, std::size_t count,
                     SurfacePoints& points) {
     if (points.corner_position[0].empty()) {

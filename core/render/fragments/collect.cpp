@@ -39,7 +39,7 @@ void FragmentList::add(FragmentRun run, const std::uint32_t* seen, std::uint32_t
 
 void FragmentList::prolong(std::uint32_t seen, std::uint32_t first_triangle) {
     FragmentRun& last = runs.back();
-    if (room_ == k_batch_size) {  // a batch ends with it
+    if (room_ == k_batch_size) {  // the batch is full
         const auto count = static_cast<float>(last.count);
         return add({last.pixel + last.count, 1, last.x + count, last.y, last.weight}, &seen, first_triangle);
     }
@@ -79,8 +79,8 @@ void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& v
 
 namespace {
 
-/// The end of the stretch from `begin` on a row that sees triangles from `first` on, `count` of them. Of the
-/// first, it is known.
+/// The end of the run, beginning at `begin`, of pixels of a row that see one of `count` triangles from
+/// `first` on. The first pixel is known to.
 int end_of_run(const std::uint32_t* seen, int begin, int width, std::uint32_t first, std::uint32_t count) {
     constexpr int k_block = 16;
     const auto is_other = [&](std::uint32_t triangle) { return triangle - first >= count; };

@@ -21,8 +21,8 @@ namespace candela {
 
 namespace {
 
-/// Scales homogeneous coordinates that are so large, or so small, that products of two leave the range of
-/// floats. By a power of two, so that nothing is rounded.
+/// Scales homogeneous coordinates that are so large or so small that products of two leave the range of
+/// floats. The factor is a power of two, so that nothing is rounded.
 void keep_in_range(TriangleAttributes& t) {
     constexpr float k_largest_picture = 65536;
     constexpr float k_large = 0x1p40f;
@@ -80,7 +80,7 @@ IndexedMesh indexed(const ProjectedMesh& source) {
             .uv = {source.mesh.u.data(), source.mesh.v.data()}};
 }
 
-/// Whole vectors are written: the next run overwrites the excess.
+/// Whole vectors are written; the next run overwrites the excess.
 struct PlacesLoop {
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y) {
         for (const FragmentRun* run = runs; run != runs + count; ++run) {
@@ -99,7 +99,7 @@ struct PlacesLoop {
     }
 };
 
-/// Which bits of the triangles differ from the first's, vector by vector.
+/// The bits in which triangles differ from the first one, vector by vector.
 struct DifferencesLoop {
     CANDELA_BATCH_LOOP static void run(const std::uint32_t* triangle, std::size_t count,
                                        std::uint32_t* differing) {
@@ -115,12 +115,12 @@ struct DifferencesLoop {
 };
 
 /// The fragments of a batch: their positions and triangles. The last one is repeated, to pad the batch and
-/// because whole vectors that begin anywhere reach beyond its end.
+/// because whole vectors that begin anywhere reach past its end.
 struct Places {
     static constexpr std::size_t k_behind = 2 * k_lanes;
 
     alignas(64) std::array<float, k_batch_size + k_behind> x, y;
-    bool is_one_triangle = false;  // all of them; then the following is not filled
+    bool is_one_triangle = false;  // all of them are on one triangle; then the following is not filled
     alignas(64) std::array<std::uint32_t, k_batch_size + k_behind> triangle;
     alignas(64) std::array<std::uint32_t, k_batch_size / k_lanes> differing;
 
@@ -139,7 +139,7 @@ struct Places {
     /// Whether the vector from `first` on is on one triangle.
     bool is_on_one(std::size_t first) const { return differing[first / k_lanes] == 0; }
 
-    /// All at once, because in a large mesh they come from far apart.
+    /// All at once, because in a large mesh they are far apart.
     void prefetch(const Mesh& mesh, std::size_t first, Interpolated what) const {
         for (std::size_t i = first; i < first + k_lanes; ++i) {
             __builtin_prefetch(&mesh.indices[3 * std::size_t{triangle[i]}]);
@@ -151,8 +151,8 @@ struct Places {
     }
 };
 
-/// Calls `visit(triangle, first, end)` for each stretch of `triangles` on one triangle; the last one's end
-/// where the padding ends.
+/// Calls `visit(triangle, first, end)` for each run of `triangles` on one triangle; the last run ends with
+/// the padding.
 template <class Visit>
 void each_triangle(std::span<const std::uint32_t> triangles, std::size_t filled, Visit visit) {
     for (std::size_t first = 0; first < triangles.size();) {
@@ -163,7 +163,7 @@ void each_triangle(std::span<const std::uint32_t> triangles, std::size_t filled,
     }
 }
 
-/// Of a mesh without texture coordinates.
+/// For a mesh without texture coordinates.
 void clear_uv(SurfacePoints& points) {
     for (AlignedVector<float>* const array :
          {&points.u, &points.v, &points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
@@ -178,8 +178,8 @@ Interpolated interpolated_for(PointNeeds needs) {
     return needs.uv ? Interpolated::position_and_normal_and_uv : Interpolated::position_and_normal;
 }
 
-/// Barycentric coordinates of a batch's fragments and what follows from them, vector by vector: those on one
-/// triangle read it once, in all others each fragment reads its own.
+/// Barycentric coordinates of a batch's fragments and everything derived from them, vector by vector:
+/// fragments on one triangle read it once, in other vectors each fragment reads its own.
 class BatchInterpolation {
   public:
     BatchInterpolation(const ProjectedMesh& source, const Places& places, Interpolated what,
@@ -249,7 +249,7 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
     } else if (source.scene.is_moderate) {
         interpolation.run();
     } else {
-        // Each triangle has a scale of its own.
+        // Each triangle has its own scale.
         each_triangle(batch.triangles, points.filled,
                       [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
                           interpolation.on_one_triangle(triangle, first, end);

@@ -1,4 +1,4 @@
-// Points that are given, instead of found as the fragments of triangles.
+// Given points, as opposed to the fragments of triangles.
 module;
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace candela {
 
 namespace {
 
-/// Of points that belong to no pixel.
+/// For points that do not belong to a pixel.
 void clear_footprint(SurfacePoints& points) {
     for (AlignedVector<float>* const array : {&points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
         std::ranges::fill(*array, 0.0f);

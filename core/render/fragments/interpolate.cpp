@@ -30,11 +30,11 @@ struct Fragment {
           x2(at_x2 - px * at_w2),
           y2(at_y2 - py * at_w2),
           w2(at_w2) {
-        // Areas of the three sub-triangles, with the perspective already undone by w.
+        // Areas of the three sub-triangles, with perspective already removed by w.
         b0 = x1 * y2 - x2 * y1;
         b1 = x2 * y0 - x0 * y2;
         b2 = x0 * y1 - x1 * y0;
-        // Stays on the triangle even where its fixed-point image reaches slightly beyond it.
+        // Stays on the triangle even if its fixed-point image extends slightly beyond it.
         const float sign = b0 + b1 + b2 < 0.0f ? -1.0f : 1.0f;
         b0 = b0 * sign > 0.0f ? b0 * sign : 0.0f;
         b1 = b1 * sign > 0.0f ? b1 * sign : 0.0f;
@@ -58,7 +58,7 @@ struct Fragment {
 
     /// Texture coordinates, and how they change over the picture. Barycentric coordinates are b_k = N_k / S,
     /// where the N_k = A_k + B_k x + C_k y and their sum S are linear in the pixel's position (Blinn 1992),
-    /// so that du/dx = sum of B_k (u_k - u) / S, and likewise for the others.
+    /// so that du/dx = sum of B_k (u_k - u) / S, and the others accordingly.
     [[gnu::always_inline]] void store_uv(const InterpolatedSpans& out, std::size_t i, float u0, float u1,
                                          float u2, float v0, float v1, float v2) const {
         const float u = blend(u0, u1, u2), v = blend(v0, v1, v2);
@@ -117,7 +117,7 @@ struct RunLoop {
     }
 };
 
-/// What a vector of fragments reads of one vertex each.
+/// The attributes that a vector of fragments reads of one vertex each.
 struct CornerColumns {
     Columns projected, position, normal;
 
@@ -185,7 +185,7 @@ struct FetchLoop {
     }
 };
 
-/// `run.operator()<what>()`, for the `what` that is known only now.
+/// Calls `run.operator()<what>()`, for a `what` known only at run time.
 template <class Run>
 void dispatch(Interpolated what, Run run) {
     switch (what) {

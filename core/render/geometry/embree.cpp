@@ -21,7 +21,7 @@ namespace candela {
 
 namespace {
 
-// What it is called is a matter of its version, as are its functions' arguments.
+// The library's name depends on its version, as do its functions' arguments.
 #if RTC_VERSION_MAJOR >= 4
 constexpr const char* k_library = "libembree4.so.4";
 #else
@@ -34,23 +34,23 @@ boost::dll::shared_library loaded() {
         k_library, problem, boost::dll::load_mode::search_system_folders | boost::dll::load_mode::rtld_local);
     if (problem)
         throw Error(ErrorCategory::failure,
-                    fmt::format("rays within transparent objects are followed by Embree, but {0} cannot be "
-                                "loaded (Debian's package libembree{1}-{1} has it): {2}",
+                    fmt::format("Embree follows rays within transparent objects, but {0} cannot be loaded "
+                                "(Debian's package libembree{1}-{1} has it): {2}",
                                 k_library, RTC_VERSION_MAJOR, problem.message()));
     return library;
 }
 
 }  // namespace
 
-// No number of threads: Embree would impose it on all of the process, since both use oneTBB
+// Does not set a number of threads: Embree would impose it on the whole process, since both use oneTBB
 // (https://github.com/RenderKit/embree/issues/507).
 Embree::Embree() : library(loaded()), device(new_device("set_affinity=0")) {
     if (device == nullptr) throw std::bad_alloc();
 }
 
 void Embree::commit(RTCScene scene) const {
-    // Of two threads in an arena for one, oneTBB would let the one work for the other. Never destroyed:
-    // threads may still be working while the process exits.
+    // If an arena for one thread had two, oneTBB would let one work for the other. Never destroyed: threads
+    // may still be working while the process exits.
     static auto& arenas = *new Pool<tbb::task_arena>;
     arenas.with([] { return std::make_unique<tbb::task_arena>(1); },
                 [&](tbb::task_arena& alone) { alone.execute([&] { commit_scene(scene); }); });
@@ -78,7 +78,7 @@ void Embree::trace(RTCScene scene, const std::array<int, k_packet_size>& is_vali
 }
 
 const Embree& Embree::instance() {
-    // Not destroyed: threads may still follow rays.
+    // Not destroyed: threads may still be following rays.
     static const Embree* const k_embree = new Embree;
     return *k_embree;
 }

@@ -27,7 +27,7 @@ using Eigen::Vector3f;
 
 constexpr std::size_t k_size = Embree::k_packet_size;
 
-/// Lets rays pass where they enter: where they come against the triangle's normal, or it has none.
+/// Lets rays pass where they enter: where they hit a triangle against its normal, or it has none.
 void ignore_entries(const RTCFilterFunctionNArguments* hits) {
     const unsigned count = hits->N;
     RTCRayN* const ray = hits->ray;
@@ -42,14 +42,14 @@ void ignore_entries(const RTCFilterFunctionNArguments* hits) {
     }
 }
 
-/// Where a ray meets two triangles at their common edge, Embree's answer depends on the packet's other rays.
-/// This close to an edge, in barycentric coordinates, a ray is traced on its own.
+/// If a ray hits two triangles at their common edge, Embree's answer depends on the packet's other rays. This
+/// close to an edge, in barycentric coordinates, a ray is traced on its own.
 constexpr double k_near_edge = 1e-4;
 
-/// How far beyond its origin a ray may start, in multiples of the rounding of a point.
+/// How far past its origin a ray may start, in multiples of a point's rounding error.
 constexpr double k_margin = 16;
 
-/// What Embree can compute with: numbers of which the squares are numbers, too.
+/// The largest magnitude that Embree can handle: its square is still finite.
 constexpr float k_most = 1e18f;
 
 /// Three numbers for each ray of a packet.
@@ -60,7 +60,7 @@ struct PacketArrays {
     alignas(64) T z[k_size];
 };
 
-using Mask = std::array<int, k_size>;  // -1 for rays that count, and otherwise 0, as Embree has it
+using Mask = std::array<int, k_size>;  // -1 for active rays, otherwise 0, as Embree expects
 
 struct Packet {
     PacketArrays<double> origin{};  // relative to the middle of the tree
@@ -68,13 +68,13 @@ struct Packet {
     alignas(64) Mask is_valid{};
 };
 
-/// Triangles that a packet's rays are said to leave through, and where.
+/// The triangles through which a packet's rays supposedly leave, and where.
 struct PacketExits {
     std::array<std::uint32_t, k_size> triangle;
     std::array<PacketArrays<float>, 3> corner;
     PacketArrays<float> barycentric;
     alignas(64) std::array<float, k_size> distance;
-    alignas(64) Mask is_exit;  // the ray does pass from the inside to the outside there
+    alignas(64) Mask is_exit;  // the ray really passes from inside to outside there
     alignas(64) Mask is_sure;  // and not near an edge
 };
 
@@ -108,8 +108,8 @@ struct PacketLoop {
             p.direction.x[i] = direction.x[i];
             p.direction.y[i] = direction.y[i];
             p.direction.z[i] = direction.z[i];
-            // A faulty plugin's rays would disturb the others, and end the process where Embree has
-            // assertions.
+            // A faulty plugin's rays would disturb the others, and end the process if Embree's assertions are
+            // enabled.
             const float size = kernel::abs(static_cast<float>(p.origin.x[i])) +
                                kernel::abs(static_cast<float>(p.origin.y[i])) +
                                kernel::abs(static_cast<float>(p.origin.z[i])) + kernel::abs(direction.x[i]) +
@@ -119,7 +119,7 @@ struct PacketLoop {
     }
 };
 
-/// In double precision, from the ray and the triangle, instead of Embree's numbers.
+/// Computed in double precision from the ray and the triangle, instead of from Embree's numbers.
 struct ExitLoop {
     CANDELA_BATCH_LOOP static void run(const Packet* packet, PacketExits* exits) {
         const Packet& p = *packet;
@@ -129,8 +129,8 @@ struct ExitLoop {
             const Exact origin = exact(p.origin, i), towards = exact(p.direction, i);
             const Exact a = exact(e.corner[0], i) - origin, b = exact(e.corner[1], i) - origin,
                         c = exact(e.corner[2], i) - origin;
-            // The volumes spanned by the ray and the edges; none is negative, even where rounding put the hit
-            // beside the triangle.
+            // The volumes spanned by the ray and the edges; none is negative, even if rounding put the hit
+            // outside the triangle.
             const double u = not_negative(triple_product(towards, b, c)),
                          v = not_negative(triple_product(towards, c, a)),
                          w = not_negative(triple_product(towards, a, b)), sum = u + v + w;
@@ -152,17 +152,17 @@ struct TriangleTree::Tree {
     const Embree& embree = Embree::instance();
     RTCScene scene = embree.new_scene(embree.device);
     std::span<const float> position;         // x y z of each vertex; Embree's own array
-    std::span<const std::uint32_t> indices;  // likewise
+    std::span<const std::uint32_t> indices;  // also Embree's own array
     Vector3d middle = Vector3d::Zero();
-    double rounding = 0;  // of a point on the surface, in float
+    double rounding = 0;  // rounding error of a point on the surface, in float
 
     Tree() = default;
     Tree(const Tree&) = delete;
     Tree& operator=(const Tree&) = delete;
     ~Tree() { embree.release_scene(scene); }
 
-    /// Whether the rays of the packet that `is_valid` leave, and where, if they start at `start` from their
-    /// origin and are not stopped by what `filter` refuses.
+    /// Whether, and where, the rays of the packet selected by `is_valid` leave, if they start at `start` from
+    /// their origin and ignore what `filter` rejects.
     void trace(const Packet& packet, const Mask& is_valid, double start, RTCFilterFunctionN filter,
                PacketExits& exits) const;
 };
@@ -194,7 +194,7 @@ TriangleTree::TriangleTree(ConstVec3Span position, std::size_t vertex_count,
         t.indices = {corners, indices.size()};
         embree.commit_geometry(geometry);
         embree.attach_geometry(t.scene, geometry);
-        // Robust, so that nothing slips between triangles.
+        // Robust, so that no ray slips between triangles.
         constexpr unsigned k_flags = unsigned{RTC_SCENE_FLAG_ROBUST} | unsigned{Embree::k_filters_by_call};
         // NOLINTNEXTLINE(clang-analyzer-optin.core.EnumCastOutOfRange): they are bits
         embree.set_scene_flags(t.scene, static_cast<RTCSceneFlags>(k_flags));
@@ -219,15 +219,15 @@ void TriangleTree::find_exits(std::size_t count, const ConstVec3Span& origin, co
         Packet packet;
         multiversion<PacketLoop>(here, origin.from(first), direction.from(first), middle, &packet);
         PacketExits found;
-        // Beyond the surface that a ray starts on, what is met first is where it leaves, nearly always.
+        // Past the surface on which a ray starts, the first hit is nearly always where it leaves.
         t.trace(packet, packet.is_valid, k_margin * t.rounding, nullptr, found);
         for (std::size_t i = 0; i < here; ++i) {
             if (packet.is_valid[i] == 0) continue;
             PacketExits* exit = &found;
             PacketExits alone;
             if (found.is_sure[i] == 0) {
-                // It was near an edge, or has met an entry, or has missed an exit close to its origin. From a
-                // little before, since a point on the surface may lie beyond it by its rounding.
+                // The ray hit near an edge, or an entry, or missed an exit close to its origin. Starts a
+                // little earlier, since rounding may put a point of the surface past it.
                 Mask only{};
                 only[i] = -1;
                 t.trace(packet, only, -t.rounding, ignore_entries, alone);
@@ -267,7 +267,7 @@ void TriangleTree::Tree::trace(const Packet& packet, const Mask& is_valid, doubl
         exits.triangle[i] = is_hit ? rays.hit.primID[i] : 0;
         const std::uint32_t* const corner = &indices[3 * std::size_t{exits.triangle[i]}];
         for (std::size_t k = 0; k < 3; ++k) {
-            // A ray without a hit gets a triangle without extent, which is no exit.
+            // A ray without a hit gets a degenerate triangle, which is not an exit.
             const float* const vertex = &position[3 * std::size_t{corner[is_hit ? k : 0]}];
             exits.corner[k].x[i] = vertex[0];
             exits.corner[k].y[i] = vertex[1];

@@ -33,7 +33,7 @@ namespace candela {
 
 namespace {
 
-/// Metres. Squared areas must be representable as floats, too.
+/// Metres. Squared areas must also be representable as floats.
 constexpr float k_farthest = 1e9f;
 
 /// The approximate memory for a mesh while it is made, checked and drawn.
@@ -55,7 +55,7 @@ class Collector final : public MeshSink {
         : takes_facets_(request.facets), progress_(progress) {}
 
     MeshSpans allocate(const MeshLayout& layout) override {
-        if (allocated_) throw std::logic_error("the shape asked for its arrays twice");
+        if (allocated_) throw std::logic_error("the shape requested its arrays twice");
         allocated_ = true;
         if (layout.is_faceted && !takes_facets_)
             throw std::logic_error("the shape is faceted, though no facets were requested");
@@ -110,7 +110,7 @@ class Collector final : public MeshSink {
     bool allocated_ = false;
 };
 
-/// As many floats as stay in the cache.
+/// As many floats as fit into the cache.
 constexpr Eigen::Index k_stretch = 1024;
 using Stretch = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, k_stretch, 1>;
 using Rows = Eigen::Map<Eigen::ArrayXf>;
@@ -159,12 +159,12 @@ void check_finite(const Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
         const Vec3 p = mesh.position.span()[i];
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-            throw std::invalid_argument(fmt::format("the position of vertex {} is not a finite number", i));
+            throw std::invalid_argument(fmt::format("the position of vertex {} is non-finite", i));
         }
         if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > k_farthest) {
             throw Error(ErrorCategory::invalid_scene,
-                        fmt::format("vertex {} at [{:g}, {:g}, {:g}] is farther away than {:g} m", i, p.x,
-                                    p.y, p.z, k_farthest));
+                        fmt::format("vertex {} at [{:g}, {:g}, {:g}] is more than {:g} m away", i, p.x, p.y,
+                                    p.z, k_farthest));
         }
     }
 }
@@ -186,7 +186,7 @@ void check(const Collector& collected) {
     for (const std::uint32_t corner : mesh.indices) {
         if (corner >= mesh.vertex_count()) {
             throw std::invalid_argument(
-                fmt::format("a triangle's corner is vertex {}, but there are only {} vertices", corner,
+                fmt::format("a triangle refers to vertex {}, but there are only {} vertices", corner,
                             mesh.vertex_count()));
         }
     }
@@ -194,13 +194,13 @@ void check(const Collector& collected) {
     check_colors(mesh);
     for (const std::uint32_t group : collected.smooth_group) {
         if (group >= mesh.vertex_count()) {
-            throw std::invalid_argument(
-                fmt::format("smooth group {} is beyond the {} vertices", group, mesh.vertex_count()));
+            throw std::invalid_argument(fmt::format("smooth group {} is out of range: there are {} vertices",
+                                                    group, mesh.vertex_count()));
         }
     }
 }
 
-/// Triangles or vertices: enough to be worth a thread's while.
+/// The number of triangles or vertices that is worth a thread's while.
 constexpr std::size_t k_per_task = 16384;
 
 /// CA DD8, in double: the product of two short edges must not underflow.
@@ -208,7 +208,7 @@ struct FaceNormalLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span position, const std::uint32_t* indices,
                                        std::size_t count, Vec3Span normal) {
         CANDELA_VECTORIZE
-// Wider than doubles call for, because most of the work is fetching floats.
+// Wider than doubles require, because most of the work is fetching floats.
 #pragma clang loop vectorize_width(16)
         for (std::size_t t = 0; t < count; ++t) {
             const Vec3 a = position[indices[3 * t]];
@@ -240,8 +240,8 @@ std::size_t count_open_edges(const Mesh& mesh) {
             if (a != b) visit(std::min(a, b), Edge{std::max(a, b), a < b ? 1 : -1});
         }
     };
-    // Sorted by the lower position; `begin` advances to where the next edge goes, and finally to where the
-    // next position's edges begin.
+    // Sorts edges by their lower position. `begin` advances to where the next edge is stored, and ends where
+    // the next position's edges begin.
     std::vector<std::uint32_t> begin(mesh.vertex_count() + 1);
     each_edge([&](std::uint32_t low, Edge) { ++begin[low + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -261,7 +261,7 @@ std::size_t count_open_edges(const Mesh& mesh) {
     return open;
 }
 
-/// A normal for each smooth group; where there are none, for each vertex.
+/// A normal for each smooth group, or for each vertex if there are none.
 Vec3Arrays group_normals(const PlacedShape& placed, const ShadingModel& shading) {
     const Mesh& mesh = placed.mesh;
     const std::size_t count = mesh.vertex_count();
@@ -292,8 +292,8 @@ Vec3Arrays group_normals(const PlacedShape& placed, const ShadingModel& shading)
     return normal;
 }
 
-/// Calls visit(vertex, normal) for all vertices, on several threads. Throws std::invalid_argument where a
-/// normal is not finite.
+/// Calls visit(vertex, normal) for all vertices, on several threads. Throws std::invalid_argument if a normal
+/// is non-finite.
 template <class Visit>
 void for_each_vertex_normal(const PlacedShape& placed, const ShadingModel& shading, const Visit& visit) {
     const Vec3Arrays of_groups = group_normals(placed, shading);
@@ -314,10 +314,10 @@ void for_each_vertex_normal(const PlacedShape& placed, const ShadingModel& shadi
         if (!are) are_finite = false;
     });
     if (are_finite) return;
-    // The first one, whichever thread found one.
+    // The first one, whichever thread found it.
     std::size_t first = 0;
     while (is_finite(normal_of(first))) ++first;
-    throw std::invalid_argument(fmt::format("the normal that it gives vertex {} is no finite number", first));
+    throw std::invalid_argument(fmt::format("its normal for vertex {} is non-finite", first));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace {
 /// Sorts triangles into tiles.
 class Binner {
   public:
-    /// For at most `count` triangles and what clipping makes of them.
+    /// For at most `count` triangles and their pieces after clipping.
     Binner(const ProjectedScene& scene, std::size_t count, TriangleBin& bin)
         : scene_(scene),
           bin_(bin),

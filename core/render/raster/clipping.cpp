@@ -82,7 +82,8 @@ class Clipper {
 
   private:
     // Clipping against the picture itself would be wasted work, because the rasteriser only visits the
-    // picture's pixels; but fixed-point coordinates are limited, to half a picture beyond each edge.
+    // picture's pixels; but the range of fixed-point coordinates is limited to half a picture outside each
+    // edge.
     static constexpr int k_guard_planes = 5;
     float beyond(const ClipVertex& v, int plane) const {
         switch (plane) {
@@ -107,7 +108,7 @@ class Clipper {
             const float inverse = 1 / corner->w;
             const float px = corner->x * inverse;
             const float py = corner->y * inverse;
-            // Beyond the guard band by more than rounding: the position was not finite.
+            // Farther outside the guard band than rounding explains: the position was non-finite.
             if (!(std::abs(px - 0.5f * width_) <= 1.01f * width_ &&
                   std::abs(py - 0.5f * height_) <= 1.01f * height_))
                 return;

@@ -1,5 +1,5 @@
-// On a mesh finer than the picture, every second triangle covers no sample, in an order that no branch could
-// be predicted from: hence sixteen at a time, without branches.
+// On a mesh finer than the picture, every second triangle covers no sample, in an order that branch
+// predictors cannot learn: hence sixteen at a time, without branches.
 module;
 
 #include "candela/multiversion.h"
@@ -19,7 +19,7 @@ namespace candela {
 
 namespace {
 
-/// A bit each of sixteen triangles.
+/// One bit for each of sixteen triangles.
 struct CulledSixteen {
     std::uint32_t kept = 0, reversed = 0, clipped = 0;
 };

@@ -28,7 +28,7 @@ constexpr std::size_t k_triangles_per_bin = 4096;
 constexpr std::size_t k_vertices_per_task = 16384;
 constexpr float k_moderate = 0x1p40f;
 
-/// The bits of a magnitude, which are in the same order as integers.
+/// The bits of a magnitude, which, as integers, have the same order.
 [[gnu::always_inline]] inline std::int32_t magnitude(float x) {
     return std::bit_cast<std::int32_t>(x) & 0x7fff'ffff;
 }
@@ -59,7 +59,7 @@ struct ProjectLoop {
             projected[i].w = w;
             projected[i].distance = distance;
 
-            // No && and ||: they are branches, and stores behind a branch are made one by one.
+            // Without && and ||: they are branches, and stores after a branch are not vectorised.
             const float ahead = perspective ? distance - near : distance;
             const float half_x = cx * w, half_y = cy * w;
             const std::uint32_t view = (ahead < 0 ? Outside::near : 0u) | (x < 0 ? Outside::left : 0u) |
@@ -87,7 +87,7 @@ struct ProjectLoop {
     }
 };
 
-/// At most a tenth of a millimetre, and less where the whole scene is small. What is nearer than a
+/// At most a tenth of a millimetre, and less if the whole scene is small. Anything nearer than a
 /// hundred-thousandth of the farthest distance cannot be clipped accurately in floats.
 float near_distance(std::span<const Mesh* const> meshes, const Camera& camera) {
     constexpr float k_most = 1e-4f, k_of_farthest = 1e-5f;
@@ -133,7 +133,8 @@ void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile
         vertices += mesh->vertex_count();
         triangles += mesh->triangle_count();
         if (vertices > k_no_triangle / 2 || triangles >= k_no_triangle) {
-            throw std::length_error("the scene has more than 4294967294 triangles, or half as many vertices");
+            throw std::length_error(
+                "the scene has more than 4294967294 triangles, or more than half as many vertices");
         }
     }
     scene.first_triangle.push_back(static_cast<std::uint32_t>(triangles));

@@ -1,5 +1,4 @@
-// Rasterisation of triangles about a pixel large, many at once: meshes finer than the picture consist of
-// them.
+// Rasterises triangles about a pixel large, many at once: meshes finer than the picture consist of them.
 module;
 
 #include "candela/multiversion.h"
@@ -49,7 +48,7 @@ struct Edge {
 struct Box {
     std::int32_t x, y;  // of its first pixel
     bool is_small, is_tall, has_next_block;
-    // The vertices relative to that pixel's sample; zero for a large triangle, so that nothing overflows.
+    // The vertices relative to that pixel's sample; zero for a large triangle, to avoid overflow.
     std::int32_t ux, uy, vx, vy, wx, wy;
 
     [[gnu::always_inline]] Box(std::int32_t ax, std::int32_t ay, std::int32_t bx, std::int32_t by,
@@ -68,7 +67,8 @@ struct Box {
         wx = is_small ? cx - sx : 0, wy = is_small ? cy - sy : 0;
     }
 
-    /// The samples of four by four pixels from the first one on, or from four pixels below or beside it.
+    /// The samples of four by four pixels from the first one on, or of the next block, four pixels below or
+    /// to the right.
     [[gnu::always_inline]] std::uint32_t covered(std::int32_t one, bool is_next) const {
         const std::int32_t right = (is_next & !is_tall) ? 4 * one : 0;
         const std::int32_t below = (is_next & is_tall) ? 4 * one : 0;

@@ -79,7 +79,7 @@ bool set_up(const RasterTriangle& t, const SampleGrid& grid, TileTriangle& resul
     const int bits = grid.bits;
     const auto last_x = static_cast<std::int64_t>(grid.width - 1);
     const auto last_y = static_cast<std::int64_t>(grid.height - 1);
-    // Pixels whose sample lies within the triangle's box.
+    // The pixels whose samples lie within the triangle's box.
     const ScreenVertex &a = t.vertex[0], &b = t.vertex[1], &c = t.vertex[2];
     const std::int32_t left = least(a.x, b.x, c.x), right = most(a.x, b.x, c.x);
     const std::int32_t top = least(a.y, b.y, c.y), bottom = most(a.y, b.y, c.y);
@@ -171,7 +171,7 @@ class TileRaster {
                 triangle.id};
     }
 
-    /// In their order, because the first of equally near ones is visible.
+    /// In order, because the first of several equally near ones is visible.
     void see_some(const TriangleBin& bin, std::span<const BinnedTriangle> triangles) {
         small_.set_up(scene_.screen.data(), triangles.data(), triangles.size(), scene_.subpixel_bits);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -191,7 +191,7 @@ class TileRaster {
         see_block(i, id, covered >> 16, is_below ? 0 : 4, is_below ? 4 : 0);
     }
 
-    /// Four by four pixels, which begin at that column and row of the triangle's box.
+    /// A block of four by four pixels that begins at that column and row of the triangle's box.
     void see_block(std::size_t i, std::uint32_t id, std::uint32_t covered, int right, int below) {
         const int x0 = small_.x[i] - visibility_.x0 + right, y0 = small_.y[i] - visibility_.y0 + below;
         const float first = small_.depth[i] + static_cast<float>(right) * small_.to_right[i] +

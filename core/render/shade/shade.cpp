@@ -74,9 +74,9 @@ struct TangentLoop {
     }
 };
 
-/// Adds arrays up, and finds the largest magnitude among the sums; a non-finite number counts as larger than
-/// all finite ones. Without their sign, the bits of floats are in the same order as integers, whose maximum
-/// is vectorised.
+/// Adds up arrays, and finds the largest magnitude among the sums; a non-finite number counts as larger than
+/// all finite ones. Without their sign, the bits of floats have the same order as integers, whose maximum is
+/// vectorised.
 template <std::size_t terms>
 struct SumLoop {
     CANDELA_BATCH_LOOP static void run(std::array<ConstVec3Span, terms> of, std::size_t count, Vec3Span sum,
@@ -115,14 +115,14 @@ bool are_finite(ConstVec3Span v, std::size_t count) {
     return finite;
 }
 
-/// The guard after the batch arrays' last element, in floats.
+/// The size of the canary after the batch arrays' last element, in floats.
 constexpr std::size_t k_guard_size = 16;
 
 void clear(const Vec3Span& span, std::size_t count) {
     for (float* const channel : {span.x, span.y, span.z}) std::fill_n(channel, count, 0.0f);
 }
 
-/// How many points of a batch are lit: whole vectors, unless rays are followed from each of them.
+/// The number of points of a batch that are lit: whole vectors, unless rays are followed from each of them.
 std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
     return surface.reflection->shows_surroundings() ? points.count : points.filled;
 }
@@ -247,10 +247,10 @@ void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, st
     };
     if (!are_ends_intact(written_by_plugins())) {
         mark_ends();
-        fail("writes beyond the batch that it is given");
+        fail("wrote past the end of its batch");
     }
     for (const Vec3Arrays* arrays : results) {
-        if (!are_finite(arrays->span(), count)) fail("gives a result that is no finite number");
+        if (!are_finite(arrays->span(), count)) fail("returned a non-finite value");
     }
 }
 

@@ -36,7 +36,8 @@ void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& ori
     PointNeeds needs = surface_->needs();
     needs.color = needs.footprint = false;
     gather_places(*interior_.mesh, triangles_, std::as_const(barycentric_).span(), needs, points_);
-    // Into an array with room for a whole batch, as everywhere: not all plugins stop where they should.
+    // Into an array with room for a whole batch, as everywhere: not all plugins respect the end of their
+    // batch.
     shading_normals(*surface_, points_, normal_.span());
     const ConstVec3Span position = std::as_const(points_).position.span(),
                         normal = std::as_const(normal_).span();

@@ -46,7 +46,7 @@ void SurfaceShader::find_term(Term term, const SurfaceModels& surface, const Int
         case Term::normal:
             return copy(normal_, points.count, values);
         default:
-            throw std::invalid_argument("SurfaceShader::find_term(): light is not evaluated for it");
+            throw std::invalid_argument("SurfaceShader::find_term(): this term does not depend on light");
     }
 }
 

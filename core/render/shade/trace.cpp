@@ -25,7 +25,7 @@ Vec3 first_of(const Vec3Arrays& arrays) { return arrays.span()[0]; }
 
 }  // namespace
 
-// The sums are those of shade(); each light's share is then asked for on its own.
+// The sums are those of shade(); each light's share is then computed separately.
 PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& interior,
                                 const SurfacePoints& points) {
     if (points.count != 1) throw std::invalid_argument("SurfaceShader::trace() traces a single point");

@@ -22,18 +22,18 @@ namespace {
 
 constexpr std::size_t k_block = 256;
 
-/// Where points lie in one of the levels: the texel to the upper left, the way to its neighbours, and the
-/// weights of all four, two to a number: the upper ones in its lower half.
+/// The position of points in one of the levels: the texel to the upper left, the offset to its neighbours,
+/// and the weights of all four, two per number, the upper ones in its lower half.
 struct Places {
     alignas(64) std::array<std::int32_t, k_block> texel, right, below, left_weights, right_weights;
 };
 
-/// What weights of a point sum to, exactly, so that a picture of one colour has that colour everywhere. With
-/// their sign, products of weights and texels fit into 32 bits, four of them added.
+/// The exact sum of a point's weights, so that a picture of one colour has that colour everywhere. The
+/// products of weights and texels, with their sign, fit into 32 bits, even four of them added.
 constexpr int k_weight_bits = 14;
 constexpr int k_whole_weight = 1 << k_weight_bits;
 
-/// `low` for what is no number.
+/// `low` for NaN.
 CANDELA_KERNEL_INLINE float within(float x, float low, float high) {
     return x > low ? kernel::min(x, high) : low;
 }
@@ -42,18 +42,18 @@ CANDELA_KERNEL_INLINE float wrapped(float x, bool repeats) {
     return within(repeats ? x - kernel::floor(x) : x, 0.0f, 1.0f);
 }
 
-/// Points in the picture: where, from its upper left corner, which is 0, to its lower right, which is 1; the
-/// finer of the two levels between which each lies, and how much of its weight is the coarser one's.
+/// Points in the picture: their positions, from 0 at its upper left corner to 1 at its lower right; the finer
+/// of the two levels between which each lies, and the weight of the coarser one.
 struct Points {
     alignas(64) std::array<float, k_block> u, v;
     alignas(64) std::array<std::int32_t, k_block> finer, coarser_weight;
 };
 
-/// To the nearest whole number, of what is not negative.
+/// Rounds a non-negative number to the nearest integer.
 CANDELA_KERNEL_INLINE std::int32_t rounded(float x) { return static_cast<std::int32_t>(x + 0.5f); }
 
-/// The level of detail is the binary logarithm of how many texels a pixel's footprint is long. `between` is
-/// zero where all points lie in a level, not between two.
+/// The level of detail is the binary logarithm of the length of a pixel's footprint in texels. `between` is
+/// zero if all points lie in a level, not between two.
 struct PointsLoop {
     CANDELA_BATCH_LOOP static void run(TextureCoordinates at, bool repeats, float width, float height,
                                        float last, std::size_t count, Points* points, std::int32_t* between) {
@@ -77,7 +77,7 @@ struct PointsLoop {
     }
 };
 
-/// Where a point lies between the centres of texels.
+/// The position of a point between the centres of texels.
 struct Cell {
     std::int32_t column, row;  // of the texel to the upper left, which may be outside the picture by one
     std::int32_t left_weights, right_weights;
@@ -102,8 +102,9 @@ CANDELA_KERNEL_INLINE std::int32_t weight_of_level(std::int32_t coarser_weight) 
     return coarser == 0 ? k_whole_weight - coarser_weight : coarser_weight;
 }
 
-/// Level `coarser` of the two between which points lie, which are the same for all of them. Not for points
-/// whose texels are on both sides of the picture's border; `border` says whether there are any.
+/// Level `coarser` (0 or 1) of the two between which the points lie, which are the same two for all of them.
+/// Not for points whose texels are on both sides of the picture's border; `border` says whether there are
+/// any.
 template <int coarser>
 struct InteriorLoop {
     CANDELA_BATCH_LOOP static void run(MipMap::Level level, const Points* points, std::size_t count,
@@ -131,7 +132,7 @@ struct InteriorLoop {
     }
 };
 
-/// The same for points of any levels, anywhere.
+/// Like the above, for points of any levels, anywhere.
 template <int coarser>
 struct PlacesLoop {
     CANDELA_BATCH_LOOP static void run(const std::int32_t* sizes, bool repeats, const Points* points,
@@ -163,7 +164,7 @@ struct PlacesLoop {
     }
 };
 
-/// A texel and its neighbour; of two points.
+/// A texel and its neighbour, for two points.
 using EightShorts = std::int16_t __attribute__((vector_size(16)));
 using SixteenShorts = std::int16_t __attribute__((vector_size(32)));
 /// Four channels of two points.
@@ -174,8 +175,8 @@ using SixteenIntegers = std::int32_t __attribute__((vector_size(64)));
 constexpr std::size_t k_group = 8;
 
 /// A level's texels for points that were found in it. `is_interior`: none of them is at the border, so that
-/// their neighbours are the next ones, and `stride` texels on. Vectors are handed over by reference: their
-/// registers are not those of every instruction set.
+/// their neighbours are the next texel and the one `stride` texels on. Vectors are passed by reference,
+/// because not every instruction set has registers for them.
 template <bool is_interior>
 struct LevelTexels {
     const std::uint16_t* texels;
@@ -207,7 +208,7 @@ struct LevelTexels {
     }
 
     /// Adds the weighted texels of point k of the group from `first` on, and of point k + 4, to `sums`,
-    /// channel by channel, less 32768 each: products are of signed numbers.
+    /// channel by channel, less 32768 each: the factors are signed.
     template <int k>
     [[gnu::always_inline]] void add_weighted(std::size_t first, EightIntegers& sums) const {
         const std::size_t i = first + k, j = i + 4;
@@ -257,9 +258,9 @@ struct LevelTexels {
     std::memcpy(values, &group, sizeof group);
 }
 
-/// The channels of a point lie side by side, since its texels may be anywhere; groups of points are
-/// transposed. Places are filled to the end of the last group. No loop that a compiler makes vectors of:
-/// these are.
+/// The channels of a point are adjacent, since its texels may be anywhere; groups of points are transposed.
+/// Positions are filled to the end of the last group. Vectorised by hand: compilers do not vectorise this
+/// loop.
 template <bool between_levels, bool is_interior>
 struct MultiplyByHand {
     CANDELA_BATCH_LOOP static void run(LevelTexels<is_interior> finer, LevelTexels<is_interior> coarser,
@@ -268,7 +269,7 @@ struct MultiplyByHand {
         constexpr std::int32_t k_offset = 32768 << k_weight_bits;
         constexpr std::size_t k_ahead = 32;
         for (std::size_t i = 0; i < count; i += k_group) {
-            // A row of pixels may cross the rows of the picture; neighbours share a line more often than not.
+            // A row of pixels may cross the rows of the picture; neighbours usually share a cache line.
             for (std::size_t next = i + k_ahead; next < i + k_ahead + k_group && next < count; next += 2) {
                 finer.prefetch(next);
                 if constexpr (between_levels) coarser.prefetch(next);
@@ -297,7 +298,7 @@ struct MultiplyByHand {
     }
 };
 
-/// Fills the last group with the last of `count` points.
+/// Fills up the last group with copies of the last of `count` points.
 std::size_t fill_group(Points& points, std::size_t count) {
     std::size_t end = count;
     for (; end % k_group != 0; ++end) {

@@ -15,8 +15,8 @@ namespace candela {
 
 namespace {
 
-/// The texels of a row or column that one of the level above covers, and by how much: two, or three or four
-/// where there is an odd one left over.
+/// The texels of a row or column that one texel of the next level covers, and their weights: two, or, if
+/// there is an odd one left over, three or four.
 struct Cover {
     int first = 0;
     int count = 0;
@@ -41,7 +41,7 @@ std::vector<Cover> covers_of(int count, int finer) {
 void reduce(const MipMap::Level& from, const MipMap::Level& to, MipMap::Texels& texels) {
     const std::vector<Cover> columns = covers_of(to.width, from.width),
                              rows = covers_of(to.height, from.height);
-    constexpr std::size_t k_texels = 16384;  // a task's
+    constexpr std::size_t k_texels = 16384;  // per task
     const auto width = static_cast<std::size_t>(to.width), finer = static_cast<std::size_t>(from.width);
     parallel_for(static_cast<std::size_t>(to.height), k_texels / width + 1,
                  [&](std::size_t begin, std::size_t end) {

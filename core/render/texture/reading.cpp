@@ -28,7 +28,7 @@ namespace {
 
 constexpr float k_one = 65535;
 
-/// From an encoded value, 65535 for 1, to a texel's: exact for pictures of 8 and of 16 bits.
+/// Maps an encoded value, 65535 for 1, to a texel's: exact for pictures with 8 and 16 bits.
 std::vector<std::uint16_t> decoding_table() {
     std::vector<std::uint16_t> table(65536);
     for (std::size_t i = 0; i < table.size(); ++i)
@@ -45,7 +45,7 @@ TexturePicture read_texture(const std::filesystem::path& file, Registry& registr
     const std::optional<DecodedPicture> picture = read_by_plugin(file, registry, encoding);
     if (!picture) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' is of no format that an image plugin reads{}", file.string(),
+                    fmt::format("'{}' has a format that no image plugin reads{}", file.string(),
                                 possible_formats(registry, FormatUse::read)));
     }
     const auto width = static_cast<std::size_t>(picture->width),
@@ -79,8 +79,7 @@ TexturePicture read_texture(const std::filesystem::path& file, Registry& registr
     });
     if (!is_finite) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' cannot be read as a picture: it has a pixel that is no finite number",
-                                file.string()));
+                    fmt::format("'{}' cannot be read as a picture: a pixel is non-finite", file.string()));
     }
     return {std::make_shared<const MipMap>(picture->width, picture->height, std::move(texels)), was_clamped};
 }

@@ -29,13 +29,13 @@ namespace candela {
 
 namespace {
 
-/// Floats round: what stands on the floor may be slightly below it.
+/// Tolerance for rounding: an object on the floor may be slightly below it.
 constexpr float k_hair = 1e-5f;  // of the room's size
 
 /// More would only repeat the first thousand, and there might be billions.
 constexpr std::size_t k_most_overlaps = 1000;
 
-/// Few enough that a scene with too many overlaps is given up before all of its bodies have been made.
+/// Few enough to give up a scene with too many overlaps before all its bodies have been made.
 constexpr std::size_t k_bodies_at_once = 64;
 
 constexpr std::array<char, 3> k_axis_names = {'x', 'y', 'z'};
@@ -124,10 +124,11 @@ class Checker {
             const std::string what = "light " + light.label;
             const auto [first, is_new] = taken.try_emplace(components(*p + Vec3{}), &light);
             if (!is_new) {
-                diagnostics_.error(light.position_place,
-                                   fmt::format("{} is at the same place as light {}{}", what,
-                                               first->second->label, at(first->second->position_place)),
-                                   "move one of them, or make one light of their sum");
+                diagnostics_.error(
+                    light.position_place,
+                    fmt::format("{} is at the same place as light {}{}", what, first->second->label,
+                                at(first->second->position_place)),
+                    "move one of them, or replace both by one light with the sum of their intensities");
             }
             if (draft_.has_observer && *p == scene_.observer.position) {
                 diagnostics_.error(light.position_place, fmt::format("{} is where the observer is{}", what,
@@ -144,11 +145,11 @@ class Checker {
                 place,
                 fmt::format("{} is inside object {}{}", what, scene_.objects[i].label,
                             at(scene_.objects[i].place)),
-                "move one of them; if the object is a room or a shade, write in it: encloses = true");
+                "move one of them; if the object is a room or a shade, add to it: encloses = true");
         }
     }
 
-    /// Of the objects from `first` on whose boxes meet others, on several threads.
+    /// For those objects, from `first` on, whose boxes overlap others, on several threads.
     void make_bodies(std::size_t first) {
         const std::size_t count = std::min(k_bodies_at_once, surfaces_.size() - first);
         parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
@@ -172,7 +173,7 @@ class Checker {
                                            at(first.position_place)));
                 if (++found == k_most_overlaps) {
                     report_overlap(second.position_place,
-                                   fmt::format("{} objects overlap; the rest is not looked at", found));
+                                   fmt::format("{} objects overlap; the rest is not checked", found));
                     return;
                 }
             }
@@ -185,7 +186,7 @@ class Checker {
         } else {
             diagnostics_.error(
                 place, std::move(message),
-                "move one of them; if one is a room or a shade for the other, write: encloses = true");
+                "move one of them; if one is a room or a shade for the other, add to it: encloses = true");
         }
     }
 

@@ -105,7 +105,7 @@ struct Body::Surface {
 
     using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;
 
-    /// Of the triangles. Made when it is first asked for: boxes tell most bodies apart. Any thread.
+    /// The tree of the triangles. Made on demand, because boxes separate most bodies. Any thread.
     const Tree& tree() const;
     void draw_inwards();
     double signed_volume() const;
@@ -216,8 +216,8 @@ std::optional<int> Body::Surface::crossings(const Vector3d& point, const Vector3
     return ray.undecided ? std::nullopt : std::optional(ray.count);
 }
 
-/// Of the whole surface, seen from a point: 4 pi times the winding number. Van Oosterom and Strackee (1983),
-/// "The solid angle of a plane triangle", eq. 8.
+/// The solid angle of the whole surface, seen from a point: 4 pi times the winding number. Van Oosterom and
+/// Strackee (1983), "The solid angle of a plane triangle", eq. 8.
 double Body::Surface::solid_angle(const Vector3d& point) const {
     double sum = 0;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -289,8 +289,8 @@ bool overlap(const Body& a_body, const Body& b_body) {
     const Surface& a = *a_body.surface_;
     const Surface& b = *b_body.surface_;
     if (a.triangles.empty() || b.triangles.empty() || !a.box.intersects(b.box)) return false;
-    // Equal bodies side by side have planes in common. A shift far smaller than the margins, in an arbitrary
-    // direction, separates them, so that only crossings of an edge with a face remain to be found.
+    // Equal bodies next to each other have planes in common. A shift far smaller than the margins, in an
+    // arbitrary direction, separates them, so that only crossings of an edge with a face remain to be found.
     const Vector3d shift = 0.1 * std::min(a.margin, b.margin) * Vector3d(0.6177, 0.5371, 0.5743);
     if (!may_meet(a.oriented, b.oriented, {shift.x(), shift.y(), shift.z()})) return false;
     struct Crossing {

@@ -31,7 +31,7 @@ bool share_space(const Box& a, const Box& b) {
            along(a.low.z, a.high.z, b.low.z, b.high.z);
 }
 
-/// Collects what intersects a box.
+/// Collects the boxes that intersect a box.
 template <class Test>
 struct Collector {
     AlignedBox where;
@@ -97,7 +97,7 @@ struct Range {
     float low, high;
 };
 
-/// In a loop that compilers make vectors of. What is not a number counts for nothing.
+/// A loop that compilers vectorise. NaN is ignored.
 Range range_of(const float* values, std::size_t count) {
     constexpr std::size_t k_lanes = 16;
     std::array<float, k_lanes> low{}, high{};

@@ -1,4 +1,4 @@
-// [animation]: read, and checked as far as it can be without the frames.
+// Reads [animation], and checks it as far as possible without the frames.
 module;
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ bool is_element(const std::vector<std::string>& parts) {
     return parts.size() > 1 && (parts[0] == "light" || parts[0] == "object");
 }
 
-/// Paths of the same value are equal: lights and objects are numbered.
+/// Paths of the same value become equal: lights and objects are numbered.
 std::vector<std::string> canonical_parts(std::string_view path, const ElementIndex& elements) {
     std::vector<std::string> parts = parts_of(path);
     if (!is_element(parts)) return parts;
@@ -49,7 +49,7 @@ std::vector<std::string> canonical_parts(std::string_view path, const ElementInd
     return parts;
 }
 
-/// Whether `path` is `outer`, or is in the table that `outer` is.
+/// Whether `path` is `outer`, or leads into the table at `outer`.
 bool is_within(const std::vector<std::string>& path, const std::vector<std::string>& outer) {
     return std::ranges::mismatch(outer, path).in1 == outer.end();
 }
@@ -126,7 +126,7 @@ class AnimationReader {
         const TableNode::Entry* const keys = table.find("keys");
         if (keys == nullptr) {
             diagnostics_.error(place, fmt::format("{} has no 'keys': a list of [time, value]", schema.title),
-                               "such as: keys = [[0.0, 1.0], [2.5, 3.0]]");
+                               "for example: keys = [[0.0, 1.0], [2.5, 3.0]]");
         }
         if (!has(values, "path")) return;
         const std::string path = text(values, "path");
@@ -149,7 +149,7 @@ class AnimationReader {
             diagnostics_.error(node.place,
                                fmt::format("'keys' is {}; expected a list of [time, value]",
                                            keys == nullptr ? description(node) : "an empty list"),
-                               "such as: keys = [[0.0, 1.0], [2.5, 3.0]]");
+                               "for example: keys = [[0.0, 1.0], [2.5, 3.0]]");
             return;
         }
         for (const Node& key : *keys) {
@@ -169,7 +169,7 @@ class AnimationReader {
                 diagnostics_.error((*pair)[0].place,
                                    fmt::format("the key at {} s does not come after the one at {} s", *time,
                                                track.keys.back().time),
-                                   "the times of a track's keys increase");
+                                   "the times of a track's keys must increase");
                 continue;
             }
             track.keys.push_back({*time, *std::move(value), (*pair)[1].place});
@@ -192,8 +192,7 @@ class AnimationReader {
         const SourcePlace& place = stated != nullptr ? stated->node.place : table.find("path")->node.place;
         if (changes_in_steps_only(parameter)) {
             diagnostics_.error(
-                place,
-                fmt::format("'{}' has no values in between: {}", track.path, constraint_text(parameter)),
+                place, fmt::format("'{}' cannot be interpolated: {}", track.path, constraint_text(parameter)),
                 "write: interpolation = \"step\"");
         } else if (const auto* const first = std::get_if<NumberList>(&track.keys.front().value)) {
             const auto has_another_length = [&](const Key& key) {
@@ -201,24 +200,24 @@ class AnimationReader {
             };
             const auto other = std::ranges::find_if(track.keys, has_another_length);
             if (other == track.keys.end()) return;
-            diagnostics_.error(other->place, "this list is not as long as that of the first key",
+            diagnostics_.error(other->place, "this list and that of the first key have different lengths",
                                "write: interpolation = \"step\"");
         }
     }
 
-    /// The path of a track that changes the same value, a part of it, or what it is a part of; or null.
+    /// The path of a track that changes the same value, a part of it, or a table that contains it; or null.
     const std::string* track_of(const std::vector<std::string>& parts) const {
         std::vector<std::string> outer;
         for (const std::string& part : parts) {
             outer.push_back(part);
             if (const auto found = tracks_.find(outer); found != tracks_.end()) return &found->second;
         }
-        // What begins with these parts follows them at once.
+        // Paths that begin with these parts come directly after them.
         const auto next = tracks_.lower_bound(parts);
         return next != tracks_.end() && is_within(next->first, parts) ? &next->second : nullptr;
     }
 
-    /// Whether a setting says what the track would, or another track does.
+    /// Whether a setting or another track overrides the track.
     bool is_overridden(const std::string& path, const SourcePlace& place) {
         const std::vector<std::string> parts = canonical_parts(path, elements_);
         if (const std::string* const other = track_of(parts)) {
@@ -229,7 +228,7 @@ class AnimationReader {
         }
         const bool moves_observer = parts[0] == "observer" && parts.back() == "position";
         if (animation_.orbit && moves_observer) {
-            diagnostics_.error(place, "[animation.orbit] says already where the observer is",
+            diagnostics_.error(place, "[animation.orbit] determines the observer's position already",
                                "remove it, or this track");
         }
         std::string by;
@@ -247,8 +246,8 @@ class AnimationReader {
         return true;
     }
 
-    /// The parameter that a path leads to; nothing if there is none, which is reported, or if the plugin that
-    /// would know is not installed, which is reported with the table that names it.
+    /// The parameter at a path. Nothing if there is none, which is reported, or if its plugin is not
+    /// installed, which is reported with the table that names it.
     std::optional<Parameter> parameter_at(const std::string& path, const SourcePlace& place) {
         const std::vector<std::string> parts = canonical_parts(path, elements_);
         if (!leads_somewhere(path, parts, place)) return std::nullopt;
@@ -265,15 +264,15 @@ class AnimationReader {
             return std::nullopt;
         }
         if (parts[0] == "image" && (parts[1] == "width" || parts[1] == "height")) {
-            diagnostics_.error(place, "all frames have the same size",
+            diagnostics_.error(place, "all frames must have the same size",
                                fmt::format("set it once, as {} in [image]", parts[1]));
             return std::nullopt;
         }
         return parameter_in(*schema, path, parts, place);
     }
 
-    /// Reports a path that cannot be set, of which a copy of the table that it is in is asked. A copy of the
-    /// whole scene for each track would take minutes where there are thousands.
+    /// Reports a path that cannot be set, by trying it on a copy of the table that contains it. A copy of the
+    /// whole scene for each track would take minutes if there are thousands.
     bool leads_somewhere(const std::string& path, const std::vector<std::string>& parts,
                          const SourcePlace& place) {
         TableNode scratch;
@@ -295,7 +294,7 @@ class AnimationReader {
 
     std::optional<Parameter> parameter_in(const TableSchema& schema, const std::string& path,
                                           const std::vector<std::string>& parts, const SourcePlace& place) {
-        const std::size_t own = schema.repeated ? 2 : 1;  // where the table's keys are in the path
+        const std::size_t own = schema.repeated ? 2 : 1;  // offset of the table's keys in the path
         const TableNode* const table = table_at(parts, schema.repeated);
         std::vector<std::string> known;
         if (parts.size() == own + 1) {
@@ -316,13 +315,13 @@ class AnimationReader {
             }
             if (const Parameter* const p = parameter_named(*plugin->schema, parts.back())) return *p;
             known = names_in(*plugin->schema, std::move(known));
-            // A model that the command line chooses need not know what the scene's own has.
+            // A model chosen on the command line need not have the parameters of the scene's own.
             if (key.kind == PluginKind::reflection && request_.reflection) is_uncertain = true;
         }
         if (is_uncertain) return std::nullopt;
-        diagnostics_.error(place,
-                           fmt::format("'{}' leads to no value: there is no key '{}'", path, parts.back()),
-                           suggestion(parts.back(), known));
+        diagnostics_.error(
+            place, fmt::format("'{}' does not lead to a value: there is no key '{}'", path, parts.back()),
+            suggestion(parts.back(), known));
         return std::nullopt;
     }
 

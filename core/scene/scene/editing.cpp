@@ -1,4 +1,4 @@
-// Changes of a scene, written into its files.
+// Writes changes of a scene into its files.
 module;
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ class Editor {
     Editor(const MergedDocument& document, Diagnostics& diagnostics)
         : document_(document), diagnostics_(diagnostics), index_(document.root) {}
 
-    /// The scene with this change is valid: its path leads somewhere.
+    /// The scene with this change must be valid: its path leads somewhere.
     void change(const Setting& setting) {
         std::vector<std::string> parts = parts_of(setting.path);
         const auto value = parse_value(setting.value, {setting.origin, 0, 0, 0}, diagnostics_);
@@ -72,11 +72,11 @@ class Editor {
     }
 
   private:
-    /// Where a value is, or would be.
+    /// The position of a value, or where it would be inserted.
     struct Place {
-        const Node* holder = nullptr;      // the table in whose lines or braces it stands; null: the document
-        const TableNode* table = nullptr;  // null if it is not there
-        std::string key{};                 // from the holder on, with a dot at its end
+        const Node* holder = nullptr;      // the table whose lines or braces contain it; null: the document
+        const TableNode* table = nullptr;  // null if it is missing
+        std::string key{};                 // from the holder on, with a trailing dot
     };
 
     const SourceText& text_of(const std::string& file) {
@@ -127,12 +127,12 @@ class Editor {
     Diagnostics& diagnostics_;
     ElementIndex index_;
     std::map<std::string, SourceText> texts_;             // of files, by the names that diagnostics show
-    std::map<std::string, std::vector<TextEdit>> edits_;  // likewise
+    std::map<std::string, std::vector<TextEdit>> edits_;  // by the same names
     std::map<std::pair<std::string, const Node*>, Entries> additions_;  // to a file's table, or to the file
     std::map<std::string, Entries> new_tables_;
 };
 
-/// The last one for each path. Names and indices of the same light or object count as the same.
+/// The last change of each path. Names and indices of the same light or object count as the same.
 std::vector<Setting> last_ones(const std::vector<Setting>& changes, const MergedDocument& document) {
     std::map<std::vector<std::string>, std::size_t> last;
     const ElementIndex elements(document.root);
@@ -183,9 +183,8 @@ std::vector<TextChange> edited_files(const SceneRequest& request, const std::vec
     if (text_of_scene(saved, registry, found) != goal) {
         throw Error(
             ErrorCategory::bad_request,
-            "with these changes in its files the scene would not be what it is with them beside its "
-            "files; something that prevails over them is said elsewhere, such as an object's own model "
-            "or an option");
+            "these changes would have a different effect in the scene's files than as overrides, because "
+            "something takes precedence over them, such as an object's own model or an option");
     }
     return texts;
 }

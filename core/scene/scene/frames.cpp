@@ -1,4 +1,4 @@
-// A document in one frame of its animation, and the scene that it is then.
+// A document as of one frame of its animation, and the scene read from it.
 module;
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ namespace {
 
 using Numbers3 = std::array<double, 3>;
 
-/// A value as it would stand in a file.
+/// A value as a node of a file.
 Node node_of(const Value& value, ParamType type, const SourcePlace& place) {
     const auto list = [&](const auto& numbers) {
         ArrayNode array;
@@ -87,7 +87,7 @@ Numbers3 turned(const Numbers3& v, const Numbers3& axis, double angle) {
     return result;
 }
 
-/// Moves the observer; what is wrong with where it is will be reported when it is read.
+/// Moves the observer. Problems with its position are reported when it is read.
 void go_around(TableNode& root, const Orbit& orbit, double part) {
     TableNode::Entry* const observer = root.find("observer");
     TableNode* const table = observer != nullptr ? observer->node.table() : nullptr;
@@ -114,7 +114,7 @@ TableNode at_frame(const TableNode& root, const Animation& animation, int frame)
     TableNode result = root;
     const ElementIndex elements(root);
     const double time = animation.time_of(frame);
-    Diagnostics ignored;  // the paths have been found to lead somewhere
+    Diagnostics ignored;  // the paths are known to lead somewhere
     for (const Track& track : animation.tracks) {
         const SourcePlace& place = key_before(track, time).place;
         set_value(result, track.path, node_of(value_at(track, time), track.type, place), place, ignored,
@@ -162,7 +162,7 @@ SceneDraft SceneFrames::draft(int frame, Diagnostics& diagnostics) {
                                                 frame, count() - 1)
                                   : fmt::format("there is no frame {}: the scene has no [animation]", frame));
     }
-    // Whoever has agreed to the default models once has done so for all frames.
+    // Consent to the default models applies to every frame.
     SceneRequest request = all.request;
     if (request.ask) {
         request.ask = [&](const std::string& question) {

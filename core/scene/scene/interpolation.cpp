@@ -23,7 +23,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-/// The numbers that a value is made of; none if it cannot be interpolated.
+/// The numbers that make up a value; none if it cannot be interpolated.
 Numbers numbers_of(const Value& value) {
     struct Visitor {
         Numbers operator()(bool) const { return {}; }

@@ -36,7 +36,7 @@ std::string place_text(const SourcePlace& place) {
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
-// Far beyond what people write, but a program that writes scenes may go wrong.
+// Far more than people write, but a program that generates scenes may have bugs.
 constexpr int k_deepest_include = 32;
 constexpr std::size_t k_most_files = 1000;
 constexpr std::size_t k_most_lights_or_objects = 100'000;
@@ -57,7 +57,7 @@ bool is_within(const fs::path& file, const fs::path& folder) {
     return std::ranges::mismatch(folder, file).in1 == folder.end();
 }
 
-/// Whether a table has anything that a scene has; otherwise a file has been included by mistake.
+/// Whether a table contains anything that belongs in a scene. If not, a file has been included by mistake.
 bool is_part_of_a_scene(const TableNode& table) {
     return std::ranges::any_of(table.entries, [](const TableNode::Entry& entry) {
         const auto has_name = [&](const auto& named) { return named.name == entry.key; };
@@ -68,7 +68,7 @@ bool is_part_of_a_scene(const TableNode& table) {
 
 class Gatherer {
   public:
-    /// What is quoted from a file that lies outside of `home`, see add_foreign().
+    /// Quotes nothing from files outside `home` until they turn out to be scenes; see add_foreign().
     Gatherer(fs::path home, const std::map<fs::path, std::string>& unsaved, Diagnostics& diagnostics)
         : home_(std::move(home)), unsaved_(unsaved), diagnostics_(diagnostics) {}
 
@@ -123,14 +123,14 @@ class Gatherer {
                                          : read_document(file, shown, left_, diagnostics_);
     }
 
-    /// A scene from elsewhere may include any file that its reader can read, and messages may be shown to
-    /// others. So nothing is said of what is in a file outside the scene's folder until it has turned out to
-    /// be part of a scene.
+    /// A scene from elsewhere may include any file that its user can read, and messages may be shown to
+    /// others. So messages reveal nothing about the contents of a file outside the scene's folder until it
+    /// has turned out to be part of a scene.
     void add_foreign(const fs::path& file, const std::string& shown, const SourcePlace& place) {
         Diagnostics found;
         auto table = read_document(file, shown, left_, found);
         if (table && is_part_of_a_scene(*table)) {
-            // Its lines may be shown from here on.
+            // From here on, its lines may be shown.
             ReadingLimits ignored;
             static_cast<void>(read_document(file, shown, ignored, diagnostics_));
             return add(std::move(*table), file.parent_path());
@@ -143,24 +143,24 @@ class Gatherer {
         const SourcePlace in_file = problems.empty() ? SourcePlace{} : problems.front().place;
         diagnostics_.error(
             place,
-            fmt::format("'{}' is no part of a scene{}", shown,
+            fmt::format("'{}' is not part of a scene{}", shown,
                         in_file.line > 0 ? fmt::format(": it is not TOML at line {}, column {}", in_file.line,
                                                        in_file.column)
                                          : ""),
-            "it is outside the scene's folder, so nothing of it is shown");
+            "it is outside the scene's folder, so its contents are not shown");
     }
 
     bool may_include(const SourcePlace& place) {
         if (depth_ > k_deepest_include) {
-            diagnostics_.error(place,
-                               fmt::format("files include one another more than {} deep", k_deepest_include),
-                               "include them from the scene's first file");
+            diagnostics_.error(
+                place, fmt::format("files include one another more than {} levels deep", k_deepest_include),
+                "include them from the scene's first file");
             return false;
         }
         if (files_.size() < k_most_files) return true;
         if (!too_many_files_) {
-            diagnostics_.error(place, fmt::format("the scene is of more than {} files", k_most_files),
-                               "put several into one");
+            diagnostics_.error(place, fmt::format("the scene consists of more than {} files", k_most_files),
+                               "merge some of them");
         }
         too_many_files_ = true;
         return false;
@@ -185,8 +185,8 @@ class Gatherer {
             if (const auto* path = std::get_if<std::string>(&file.value)) {
                 add_file(directory / *path, &file.place);
             } else {
-                diagnostics_.error(
-                    file.place, fmt::format("'include' holds {}; expected a quoted path", description(file)));
+                diagnostics_.error(file.place, fmt::format("'include' contains {}; expected a quoted path",
+                                                           description(file)));
             }
         }
     }
@@ -213,7 +213,7 @@ class Gatherer {
     const std::map<fs::path, std::string>& unsaved_;
     Diagnostics& diagnostics_;
     TableNode root_;
-    std::unordered_map<std::string, std::size_t> index_;  // of the root's keys
+    std::unordered_map<std::string, std::size_t> index_;  // index of the root's keys
     std::map<fs::path, bool> files_;                      // whether it is currently being read
     std::set<std::string> streams_;
     ReadingLimits left_;
@@ -221,7 +221,7 @@ class Gatherer {
     bool too_many_files_ = false;
 };
 
-/// The name that a light or an object is given, or null.
+/// The name of a light or an object, or null.
 const std::string* name_of(const Node& node) {
     const TableNode* const table = node.table();
     const TableNode::Entry* const name = table != nullptr ? table->find("name") : nullptr;
@@ -276,7 +276,7 @@ class Setter {
     TableNode* table_in(TableNode& parent, const std::string& key) {
         if (parent.find(key) == nullptr) parent.entries.push_back({key, place_, Node{place_, TableNode{}}});
         TableNode* const table = parent.find(key)->node.table();
-        if (table == nullptr) fail(fmt::format("'{}' is no table", key));
+        if (table == nullptr) fail(fmt::format("'{}' is not a table", key));
         return table;
     }
 
@@ -371,7 +371,7 @@ namespace {
 std::string shown_name(const SceneRequest& request, const fs::path& file) {
     if (!request.streams.contains(file)) return file.string();
     if (file == "-" || file.filename() == "stdin") return "standard input";
-    // A descriptor's number says little without its folder, and its folder is the system's.
+    // A descriptor's number says little without its folder, which is the system's.
     return file.parent_path().filename() == "fd" ? fmt::format("stream {}", file.filename().string())
                                                  : file.string();
 }
@@ -403,7 +403,7 @@ std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagn
             }
         }
     }
-    // A file that cannot be read would only cause errors about what seems to be missing.
+    // Continuing after an unreadable file would only cause errors about missing values.
     if (diagnostics.has_errors()) return std::nullopt;
     merged.root = gatherer.take();
     merged.files = gatherer.files();

@@ -33,7 +33,7 @@ ModelChooser::ModelChooser(const SceneRequest& request, SceneTables& tables)
     if (const TableNode* const table = tables.single("reflection")) {
         report_unknown_keys(
             *table, names_in(schema_of("reflection").parameters),
-            {"[reflection]", {}, tables.whole(), "an object's material stands in [object.material]"},
+            {"[reflection]", {}, tables.whole(), "an object's material belongs in [object.material]"},
             tables.diagnostics());
     }
     if (reflection_) tables.known(PluginKind::reflection, reflection_->name, reflection_->place);
@@ -51,8 +51,8 @@ std::optional<ModelChooser::Named> ModelChooser::named(const std::string& table_
     return Named{text(values, "model"), table->find("model")->node.place};
 }
 
-/// The model named by the object itself, unless a setting overrides it. That the value is a string is checked
-/// with the object.
+/// The model named by the object itself, unless a setting overrides it. Whether the value is a string is
+/// checked with the object.
 std::optional<ModelChooser::Named> ModelChooser::named_by(const TableNode& object, const std::string& key,
                                                           const std::optional<ModelSetting>& setting) const {
     const TableNode::Entry* const entry = object.find(key);
@@ -135,7 +135,7 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
     const auto own = named_by(object, "reflection", request_.reflection);
     const auto& model = own ? own : reflection_;
     if (!model) return {};
-    // A missing model has been reported with [reflection], if it is named there.
+    // A missing model has been reported with [reflection], if that names it.
     const PluginFile* const plugin = own ? tables_.known(PluginKind::reflection, own->name, own->place)
                                          : tables_.registry().find(PluginKind::reflection, model->name);
     if (plugin == nullptr) return {};
@@ -149,7 +149,7 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
     return {model->name, tables_.read_plugin(material, *plugin, context)};
 }
 
-/// With a reflection model set for all objects, a material written for another model is not an error: keys
+/// If a reflection model is set for all objects, a material written for another model is not an error: keys
 /// unknown to the model in use are ignored.
 void ModelChooser::report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
                                                 const TableContext& context) {

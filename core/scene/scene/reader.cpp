@@ -94,8 +94,8 @@ class Reader {
         } else if (*number != 1) {
             diagnostics_.error(
                 version->node.place,
-                fmt::format("version {} of the scene file is not known to this Candela", *number),
-                "this one reads version 1");
+                fmt::format("this Candela does not support version {} of the scene file", *number),
+                "it reads version 1");
         }
     }
 
@@ -113,8 +113,7 @@ class Reader {
         }
         const ParamSet values = tables_.read_plain("observer");
         Observer& observer = scene_.observer;
-        // A unit vector stays unchanged to the last bit, so that a scene that was written is read back as it
-        // was.
+        // A unit vector is preserved exactly, so that a written scene reads back as the same scene.
         const Vec3 up = vector(values, "up");
         observer.up = std::abs(length(up) - 1) < 1e-6f ? up : normalized(up);
         observer.projection =
@@ -140,14 +139,13 @@ class Reader {
         const SourcePlace& look_at = table.find("look_at")->node.place;
         const Vec3 view = normalized(observer.look_at - observer.position);
         if (view == Vec3{}) {
-            diagnostics_.error(look_at, "the observer looks at the point where it is",
+            diagnostics_.error(look_at, "the observer is at the point it looks at",
                                "position and look_at must differ");
         } else if (length(cross(view, observer.up)) < 1e-6f) {
             const TableNode::Entry* const up = table.find("up");
-            diagnostics_.error(
-                up != nullptr ? up->node.place : look_at,
-                "'up' points the way the observer looks, so that no direction is up in the picture",
-                "choose another 'up', such as [0, 0, -1] when looking straight down");
+            diagnostics_.error(up != nullptr ? up->node.place : look_at,
+                               "'up' is parallel to the viewing direction",
+                               "choose another 'up', such as [0, 0, -1] when looking straight down");
         }
     }
 
@@ -179,8 +177,7 @@ class Reader {
         if (environment == nullptr) return;
         scene_.image.environment_place = environment->node.place;
         if (const TableNode::Entry* const unused = table->find("background"))
-            diagnostics_.warning(unused->key_place,
-                                 "'background' has no effect where there is an environment");
+            diagnostics_.warning(unused->key_place, "'background' has no effect with an environment");
     }
 
     void read_constraints() {
@@ -219,13 +216,13 @@ class Reader {
         return fmt::format("'{}'", *name);
     }
 
-    /// As label_of(), for messages: as much of it as fits.
+    /// Like label_of(), for messages: as much of the label as fits.
     static std::string short_label(const std::string& label) {
         const auto name = name_of_label(label);
         return name ? fmt::format("'{}'", shortened(*name)) : label;
     }
 
-    /// A plugin named by `type` with its parameters, which are beside the table's own keys.
+    /// Reads a plugin named by `type` with its parameters, which are next to the table's own keys.
     std::optional<Model> read_typed(const std::string& table_name, PluginKind kind, const TableNode& table,
                                     const ParamSet& own, TableContext context,
                                     std::vector<std::string> more_keys) {
@@ -247,7 +244,7 @@ class Reader {
             fmt::format("[[light]] {}", short_label(label)), {Help::Topic::plugins_of_kind, "light"}, place};
         const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
         std::optional<Model> model = read_typed("light", PluginKind::light, table, own, context, {});
-        // Where it stands can be checked whatever else is wrong with it.
+        // Its position can be checked whatever else is wrong with it.
         const Parameter* const position =
             model ? parameter_named(model->parameters.schema(), "position") : nullptr;
         if (model && (position == nullptr || is_valid(table, *position)))
@@ -282,7 +279,7 @@ class Reader {
         scene_.objects.push_back(std::move(object));
     }
 
-    /// Whether all that decides where an object's triangles are is valid.
+    /// Whether everything that determines an object's triangles is valid.
     bool has_known_triangles(const TableNode& table, const Model& shape) {
         const auto is_known = [&](const Parameter& p) { return is_valid(table, p); };
         const auto& schema = schema_of("object").parameters;
@@ -300,7 +297,7 @@ class Reader {
         if (diagnostics_.has_errors()) return;
         if (scene_.objects.empty()) {
             diagnostics_.warning(tables_.whole(),
-                                 "the scene has no objects: the picture shows nothing but the background");
+                                 "the scene has no objects: the picture shows only the background");
         } else if (scene_.lights.empty()) {
             diagnostics_.warning(tables_.whole(), "the scene has no lights: every object is black");
         }

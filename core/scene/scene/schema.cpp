@@ -33,12 +33,12 @@ constexpr const char* k_versions[] = {"1"};
 constexpr ParamSpec k_top[] = {
     {.name = "version",
      .type = Type::integer,
-     .meaning = "of the scene file's format; required, exactly once over all files",
+     .meaning = "version of the scene file's format; required, exactly once across all files",
      .required = true,
      .choices = k_versions},
     {.name = "include",
      .type = Type::file,
-     .meaning = "files included here; relative to this one, each at most once"},
+     .meaning = "files to include; relative to this one, each at most once"},
 };
 constexpr ParamSpec k_room[] = {
     {.name = "height",
@@ -64,7 +64,7 @@ constexpr ParamSpec k_observer[] = {
     {.name = "position",
      .type = Type::point,
      .unit = "m",
-     .meaning = "where the observer is",
+     .meaning = "the observer's position",
      .required = true},
     {.name = "look_at",
      .type = Type::point,
@@ -89,14 +89,14 @@ constexpr ParamSpec k_observer[] = {
      .maximum_excluded = true},
     {.name = "height",
      .unit = "m",
-     .meaning = "orthographic: metres that fit the picture's height",
+     .meaning = "orthographic: height of the picture in metres",
      .default_value = {{4}},
      .minimum = 0,
      .minimum_excluded = true},
     {.name = "frame_aspect",
-     .meaning = "width to height of the frame that every picture shows whole: one that is narrower shows "
-                "more above and below, one that is wider more at the sides; 0: no frame, and a narrower "
-                "picture shows less at the sides",
+     .meaning = "aspect ratio (width to height) of the frame that every picture shows completely: narrower "
+                "pictures show more above and below, wider ones more at the sides; 0: no frame, and narrower "
+                "pictures show less at the sides",
      .default_value = {{0}},
      .minimum = 0},
 };
@@ -124,21 +124,20 @@ constexpr ParamSpec k_image[] = {
      .default_value = {{0, 0, 0}}},
     {.name = "environment",
      .type = Type::file,
-     .meaning = "an equirectangular environment map, seen where there is no object and in objects that "
+     .meaning = "an equirectangular environment map, visible where there is no object and in objects that "
                 "mirror or refract; replaces background",
      .default_value = {.text = ""}},
     {.name = "color_management",
      .type = Type::choice,
-     .meaning = "\"srgb\": colours are decoded, light is added up in linear light, 8-bit pictures are "
-                "encoded again; "
-                "\"none\": values are used as they are",
+     .meaning = "\"srgb\": colours are decoded, light is added up linearly, 8-bit pictures are encoded "
+                "again; \"none\": values are used as they are",
      .choices = k_encodings},
 };
 constexpr ParamSpec k_constraints[] = {
     {.name = "overlap",
      .type = Type::choice,
-     .meaning = "what objects that overlap are: an error, a warning, or nothing that is looked for, for "
-                "scenes that were made for other programs",
+     .meaning = "how overlapping objects are treated: error, warn or allow; scenes made for other programs "
+                "may need warn or allow",
      .choices = k_severities},
 };
 constexpr ParamSpec k_shading[] = {
@@ -160,7 +159,7 @@ constexpr ParamSpec k_object[] = {
     {.name = "position",
      .type = Type::point,
      .unit = "m",
-     .meaning = "where the shape's origin is",
+     .meaning = "the position of the shape's origin",
      .default_value = {}},
     {.name = "rotation",
      .type = Type::vector,
@@ -179,17 +178,16 @@ constexpr ParamSpec k_object[] = {
      .default_value = {{200, 200, 200}}},
     {.name = "color_texture",
      .type = Type::file,
-     .meaning = "a picture that the colour is multiplied with, placed by the shape's texture coordinates",
+     .meaning = "a picture that multiplies the colour, placed by the shape's texture coordinates",
      .default_value = {.text = ""}},
     {.name = "color_texture_wrap",
      .type = Type::choice,
-     .meaning = "beyond the edges of color_texture: the picture again, or the colours at its edges",
+     .meaning = "beyond the edges of color_texture: repeat the picture, or continue the colours at its edges",
      .choices = k_wraps},
     {.name = "encloses",
      .type = Type::boolean,
      .meaning = "whether lights, the observer and other objects may be inside, as in a room or a lampshade; "
-                "it is then drawn "
-                "from both sides",
+                "the object is then drawn from both sides",
      .default_value = {}},
     {.name = "shading", .type = Type::text, .meaning = "shading plugin; overrides [shading]"},
     {.name = "reflection", .type = Type::text, .meaning = "reflection plugin; overrides [reflection]"},
@@ -199,7 +197,7 @@ constexpr const char* k_interpolations[] = {"linear", "step", "smooth"};
 constexpr ParamSpec k_animation[] = {
     {.name = "frames",
      .type = Type::integer,
-     .meaning = "how many, numbered from 0",
+     .meaning = "number of frames, numbered from 0",
      .required = true,
      .minimum = 1,
      .maximum = 1'000'000},
@@ -212,7 +210,7 @@ constexpr ParamSpec k_animation[] = {
 };
 constexpr ParamSpec k_orbit[] = {
     {.name = "turns",
-     .meaning = "over all frames; counter-clockwise seen from above, the other way round if negative",
+     .meaning = "over all frames; counter-clockwise seen from above, clockwise if negative",
      .default_value = {{1}},
      .minimum = -1'000'000,
      .maximum = 1'000'000},
@@ -224,13 +222,13 @@ constexpr ParamSpec k_track[] = {
      .required = true},
     {.name = "keys",
      .type = Type::numbers,
-     .meaning = "seconds, strictly increasing, and the value then; before the first key and after the last "
-                "it stays as it is there",
+     .meaning = "seconds, strictly increasing, and the value at that time; constant before the first key and "
+                "after the last",
      .required = true},
     {.name = "interpolation",
      .type = Type::choice,
      .meaning = "between keys: in a straight line; not at all, until the next key; or along a Catmull-Rom "
-                "spline through all of them, which may go beyond their values",
+                "spline through all keys, which may exceed their values",
      .choices = k_interpolations},
 };
 
@@ -259,9 +257,8 @@ std::span<const TableSchema> scene_schema() {
         TableSchema animation = table("animation", "[animation]",
                                       "makes the scene a film; optional (docs/animation.md)", k_animation);
         animation.tables = {table("orbit", "[animation.orbit]",
-                                  "the observer goes around what it looks at, about its 'up', and is back "
-                                  "after the last frame; "
-                                  "optional",
+                                  "moves the observer around its look-at point, about its 'up', back to the "
+                                  "start after the last frame; optional",
                                   k_orbit),
                             table("track", "[[animation.track]]",
                                   "one value of the scene that changes over time; any number", k_track)};
@@ -270,7 +267,7 @@ std::span<const TableSchema> scene_schema() {
     }();
     static const std::array k_tables = {
         table("room", "[room]", "a box centred on the origin that contains everything; optional", k_room),
-        table("observer", "[observer]", "who sees the scene; required, exactly once over all files",
+        table("observer", "[observer]", "who sees the scene; required, exactly once across all files",
               k_observer),
         table("image", "[image]", "the picture; optional", k_image),
         table("constraints", "[constraints]", "how strict the checks of the whole scene are; optional",

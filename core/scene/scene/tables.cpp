@@ -84,7 +84,7 @@ ParamSet SceneTables::read_plain(const std::string& name) {
     static const TableNode k_empty;
     const TableNode* const table = single(name);
     const std::vector<Parameter>& parameters = schema_of(name).parameters;
-    // A value that is not a table has been reported; its missing keys go without saying.
+    // A value that is not a table has been reported; don't report its missing keys as well.
     if (table == nullptr && root_.find(name) != nullptr) return ParamSet(parameters);
     const TableContext context = context_of(name);
     if (table != nullptr) report_unknown_keys(*table, names_in(parameters), context, diagnostics_);
@@ -119,7 +119,7 @@ ParamSet SceneTables::read_plugin(const TableNode& table, const PluginFile& plug
         check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
         return values;
     }
-    // A rejected value leaves its default, which was not chosen to go with the others.
+    // A rejected value leaves its default, which need not be consistent with the others.
     std::vector<Relation> between_valid;
     std::ranges::copy_if(
         plugin.manifest.relations, std::back_inserter(between_valid), [&](const Relation& r) {

@@ -21,7 +21,7 @@ namespace {
 
 struct Word {
     std::string_view table, key;
-    std::string_view hint;  // the key that is meant; a whole sentence if it has a blank
+    std::string_view hint;  // the intended key; a whole sentence if it contains a space
 };
 
 constexpr std::string_view k_material = "material";
@@ -31,8 +31,8 @@ constexpr std::string_view k_objects = "write an [[object]] for each";
 constexpr std::string_view k_observer_table = "the camera is the table [observer]";
 constexpr std::string_view k_materials = "a material is the table [object.material], below its [[object]]";
 constexpr std::string_view k_size = "write width and height";
-constexpr std::string_view k_name_of_picture = "the picture's name and format are given by -o";
-constexpr std::string_view k_one_texture = "the only texture is that of the colour: color_texture";
+constexpr std::string_view k_name_of_picture = "-o gives the picture's name and format";
+constexpr std::string_view k_one_texture = "the only texture is for the colour: color_texture";
 constexpr std::string_view k_shape_size = "an object's size is its 'scale'";
 constexpr std::string_view k_cone = "write inner_angle and outer_angle, half-angles in degrees";
 
@@ -90,8 +90,8 @@ constexpr auto k_words = std::to_array<Word>({
     {"observer", "angle", "fov"},
     {"observer", "zoom", "fov"},
     {"observer", "type", "projection"},
-    {"observer", "aspect", "the picture's width and height, in [image], decide about that"},
-    {"observer", "aspect_ratio", "the picture's width and height, in [image], decide about that"},
+    {"observer", "aspect", "the picture's width and height, in [image], determine that"},
+    {"observer", "aspect_ratio", "the picture's width and height, in [image], determine that"},
     {"observer", "near", "nothing is too near or too far to be drawn"},
     {"observer", "far", "nothing is too near or too far to be drawn"},
     {"image", "size", k_size},
@@ -225,7 +225,7 @@ bool is_of_a_reflection_model(std::string_view key, Registry& registry) {
     });
 }
 
-/// Where a key stands that is not this table's; empty if nowhere.
+/// The table where a misplaced key belongs; empty if there is none.
 std::string place_of_key(std::string_view table, const std::string& key, Registry& registry) {
     const auto belongs = [&](std::string_view where) {
         return fmt::format("'{}' belongs in {}", key, where);

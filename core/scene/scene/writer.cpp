@@ -63,7 +63,7 @@ std::string value_text(const Value& value, ParamType type) {
     return type == ParamType::color ? color_text(v) : type == ParamType::rgb ? rgb_text(v) : vector_text(v);
 }
 
-/// The name that a label states, if it is not an index.
+/// The name in a label, if it is not an index.
 std::optional<std::string> name_of(const std::string& label, std::size_t index) {
     if (const auto name = name_of_label(label)) return std::string(*name);
     if (label != fmt::format("number {}", index)) {
@@ -75,7 +75,7 @@ std::optional<std::string> name_of(const std::string& label, std::size_t index) 
 /// Whether the model has only default parameters.
 bool is_plain(const Model& model) { return model.parameters == ParamSet(model.parameters.schema()); }
 
-/// The model that most objects have, so that few need to name one.
+/// The model of most objects, so that few need to name one.
 const Model& most_common(const std::vector<Object>& objects, Model Object::* model) {
     std::map<std::string_view, std::size_t> counts;
     for (const Object& object : objects) ++counts[(object.*model).name];
@@ -113,7 +113,7 @@ class Writer {
     void add(std::string_view key, std::string value) {
         entries_.emplace_back(toml_key(key), std::move(value));
     }
-    /// Writes what was added, with the equals signs aligned.
+    /// Writes the added entries, with the equals signs aligned.
     void end() {
         std::size_t longest = 0;
         for (const auto& [key, value] : entries_) longest = std::max(longest, key.size());
@@ -126,7 +126,7 @@ class Writer {
             const Parameter& p = values.schema()[i];
             const std::optional<Value>& value = values.get(i);
             if (!value) cannot_say(fmt::format("{}: '{}' has no value", where, p.name));
-            // A file that may be left out is left out.
+            // An optional file without a value is omitted.
             const auto* const file = p.type == ParamType::file ? std::get_if<std::string>(&*value) : nullptr;
             if (file == nullptr || !file->empty()) add(p.name, value_text(*value, p.type));
         }
@@ -207,10 +207,10 @@ class Writer {
             if (is_plain(object.shading)) continue;
             if (told == nullptr) told = &object;
             if (told->shading != object.shading) {
-                cannot_say(fmt::format(
-                    "objects {} and {} have shading models with different parameters, and only one "
-                    "can stand in [shading]",
-                    told->label, object.label));
+                cannot_say(
+                    fmt::format("objects {} and {} have shading models with different parameters, but "
+                                "[shading] can hold only one",
+                                told->label, object.label));
             }
         }
         return told != nullptr ? told->shading : most_common(objects, &Object::shading);

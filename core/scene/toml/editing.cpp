@@ -1,4 +1,4 @@
-// Values are replaced and added where they stand in a document's text; everything else stays as it is.
+// Replaces and adds values in a document's text; everything else stays as it is.
 module;
 
 #include <fmt/format.h>
@@ -85,7 +85,7 @@ struct LastEntry {
     std::size_t begin = 0, end = 0;  // from its key to its value's end
 };
 
-/// The last entry that is written in a table's own lines, and not under a header of its own.
+/// The last entry written in a table's own lines, and not under its own header.
 LastEntry last_entry(const SourceText& text, const TableNode& table) {
     LastEntry last;
     for (const TableNode::Entry& entry : table.entries) {
@@ -124,7 +124,7 @@ TextEdit insertion_into_braces(std::string_view text, std::size_t begin, const E
     return {at, at, (is_empty ? "" : ", ") + joined(entries, ", ")};
 }
 
-/// No column of the first line.
+/// Does not count as a column of the first line.
 constexpr std::string_view k_byte_order_mark = "\xef\xbb\xbf";
 
 }  // namespace
@@ -201,7 +201,7 @@ std::string toml_text(const Node& node) {
         std::string operator()(double d) const { return toml_text(d); }
         std::string operator()(const std::string& s) const { return toml_text(std::string_view(s)); }
         std::string operator()(const DateNode&) const {
-            throw Error(ErrorCategory::bad_request, "no value of a scene is a date or a time");
+            throw Error(ErrorCategory::bad_request, "scenes have no dates or times");
         }
         std::string operator()(const ArrayNode& array) const {
             std::string text;

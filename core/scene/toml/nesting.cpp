@@ -1,5 +1,5 @@
-// How deep a text nests and how much it contains, determined before a parser, and everything that walks its
-// tree, descends by recursion.
+// Determines how deeply a text nests and how much it contains, before a parser, and everything that walks its
+// tree, recurses into it.
 module;
 
 #include <fmt/format.h>

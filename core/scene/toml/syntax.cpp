@@ -1,4 +1,4 @@
-// Syntax errors in words for those who have not read the TOML specification.
+// Syntax errors in plain words, for those who have not read the TOML specification.
 module;
 
 #include <fmt/args.h>
@@ -31,51 +31,51 @@ struct Rule {
 };
 
 constexpr std::array k_rules = {
-    // Texts
-    Rule{"string", "encountered end-of-file", "the file ends within a text: its closing quote is missing",
+    // Strings
+    Rule{"string", "encountered end-of-file", "the file ends within a string: its closing quote is missing",
          ""},
     Rule{"string", "control characters", "{control}",
          R"(a text ends with the quote that it begins with; one of several lines stands in """)"},
-    Rule{"string", "unknown escape sequence", "\\{character} means nothing in a text",
-         "a backslash is written \\\\, or the text stands in 'single quotes'"},
+    Rule{"string", "unknown escape sequence", "\\{character} is not a valid escape",
+         "write a backslash as \\\\, or put the string in 'single quotes'"},
     // Numbers and words
     Rule{"integer", "not representable", "{word} is too large for an integer",
-         "with a point, as in 1.0e20, it is a real number"},
-    Rule{"integer", "leading zeroes", "{word} is no number, because it begins with 0", ""},
-    Rule{"integer", "", "{word} is no number", "numbers are written 12, 0.5 or 2e-3, without a unit"},
-    Rule{"floating-point", "expected 'nan'", "{word} is no value", "strings are quoted"},
-    Rule{"floating-point", "expected 'inf'", "{word} is no value", "strings are quoted"},
-    Rule{"floating-point", "", "{word} is no number",
-         "numbers are written 12, 0.5 or 2e-3: digits stand on both sides of the point"},
-    Rule{"boolean", "", "{word} is no value", "write true or false, or a quoted string"},
-    Rule{"value", "could not determine", "{word} is no value",
-         "a value is a number, a text in \"straight quotes\", true, false or a [list, of, them]"},
+         "with a decimal point, as in 1.0e20, it is a real number"},
+    Rule{"integer", "leading zeroes", "{word} is not a number, because it begins with 0", ""},
+    Rule{"integer", "", "{word} is not a number", "numbers are written 12, 0.5 or 2e-3, without a unit"},
+    Rule{"floating-point", "expected 'nan'", "{word} is not a value", "strings are quoted"},
+    Rule{"floating-point", "expected 'inf'", "{word} is not a value", "strings are quoted"},
+    Rule{"floating-point", "", "{word} is not a number",
+         "numbers are written 12, 0.5 or 2e-3, with digits on both sides of the point"},
+    Rule{"boolean", "", "{word} is not a value", "write true or false, or a quoted string"},
+    Rule{"value", "could not determine", "{word} is not a value",
+         "a value is a number, a string in \"straight quotes\", true, false or a [list, of, them]"},
     // Lists and inline tables
     Rule{"array", "encountered end-of-file", "the file ends within a list: its closing ] is missing", ""},
     Rule{"array", "expected comma", "expected ',' or ']' in this list, found {found}",
-         "commas stand between the values of a list"},
+         "commas separate the values of a list"},
     Rule{"inline table", "encountered end-of-file", "the file ends within a table: its closing }} is missing",
          ""},
     Rule{"inline table", "dangling comma", "a comma before the closing }} is not allowed", ""},
     Rule{"inline table", "", "expected a key, ',' or '}}' in this table, found {found}",
-         "a table in braces stands on one line"},
+         "a table in braces must be on one line"},
     // Headers
     Rule{"table header", "blank bare keys", "a header without a name", "write [image], for example"},
     Rule{"table header", "expected ']'", "the header's closing ] is missing", ""},
     Rule{"table header", "encountered end-of-file", "the file ends within a header: its closing ] is missing",
          ""},
     Rule{"table header", "expected a comment or whitespace",
-         "expected the end of the line after the header, found {found}", "keys stand on lines of their own"},
+         "expected the end of the line after the header, found {found}", "each key needs its own line"},
     Rule{"table header", "as array-of-tables", "{quoted} was a table or a value before; here it is a list",
          "each header of a list has two brackets, [[light]], all others have one, [image]"},
     Rule{"table header", "redefine existing array", "{quoted} was a list before; here it is a table",
          "each header of a list has two brackets, [[light]], all others have one, [image]"},
     Rule{"table header", "redefine existing", "{quoted} is already there",
-         "all keys of a table stand below one header"},
-    Rule{"table header", "cannot insert", "{quoted} cannot be added to what stands in braces", ""},
+         "all keys of a table belong below one header"},
+    Rule{"table header", "cannot insert", "{quoted} cannot be extended, because it is written in braces", ""},
     // Lines
     Rule{"key", "redefine existing", "{quoted} is given twice in one table", ""},
-    Rule{"key", "encountered end-of-file", "the file ends where '=' and a value are missing", ""},
+    Rule{"key", "encountered end-of-file", "the file ends before '=' and a value", ""},
     Rule{"key-value pair", "expected '='", "expected '=' after the key, found {found}",
          "write: key = value; a key with characters other than A-Z, a-z, 0-9, _ and - is quoted"},
     Rule{"key-value pair", "expected value", "there is no value after '='", ""},
@@ -98,7 +98,7 @@ std::size_t offset_of(std::string_view line, int column) {
     return at;
 }
 
-/// What a person would take for one word or number around the position.
+/// The word or number around the position, as a reader would see it.
 std::string word_at(std::string_view line, std::size_t at) {
     const auto ends = [](char c) {
         return std::string_view(" \t,=[]{}#\"").find(c) != std::string_view::npos;
@@ -137,8 +137,8 @@ SyntaxProblem syntax_problem(std::string_view description, std::string_view line
     const std::size_t at = offset_of(line, column);
     const std::string_view character = first_character(line.substr(at));
     const std::string found = character.empty() ? "the end of the line" : fmt::format("'{}'", character);
-    const std::string control = character.empty() ? "this text has no closing quote on its line"
-                                                  : "a control character, which no text may hold";
+    const std::string control = character.empty() ? "this string has no closing quote on its line"
+                                                  : "a control character, which strings must not contain";
     for (const Rule& rule : k_rules) {
         if (scope.find(rule.while_reading) == std::string_view::npos ||
             reason.find(rule.says) == std::string_view::npos)
@@ -150,7 +150,7 @@ SyntaxProblem syntax_problem(std::string_view description, std::string_view line
         };
         return {filled(rule.message), std::string(rule.hint)};
     }
-    return {scope.empty() ? std::string(reason) : fmt::format("this is no {}: {}", scope, reason), ""};
+    return {scope.empty() ? std::string(reason) : fmt::format("this is not a {}: {}", scope, reason), ""};
 }
 
 }  // namespace candela

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 class Descriptor {
   public:
     explicit Descriptor(const fs::path& file)
-        // A file that is replaced after the check, for instance by a pipe, must not block.
+        // Opening a file that is replaced after the check, for instance by a pipe, must not block.
         : number_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {}
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
@@ -99,8 +99,8 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
     if (status.type() == fs::file_type::not_found)
         return fail("there is no such file", file_suggestion(file));
     if (status.type() == fs::file_type::none)
-        return fail(fmt::format("it cannot be looked at: {}", problem.message()));
-    if (status.type() == fs::file_type::directory) return fail("this is a directory; a scene is a file");
+        return fail(fmt::format("it cannot be examined: {}", problem.message()));
+    if (status.type() == fs::file_type::directory) return fail("this is a directory; expected a scene file");
     if (status.type() != fs::file_type::regular)
         return fail("this is not a regular file (a pipe or a device?)");
     const std::uintmax_t size = fs::file_size(file, problem);
@@ -115,7 +115,7 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
 
 std::optional<std::string> text_of_bytes(std::string text, const std::string& shown_name,
                                          std::uintmax_t& bytes_left, Diagnostics& diagnostics) {
-    // What is wrong with a file as a whole is shown at its beginning, where an editor can open it.
+    // Problems with a file as a whole are shown at its beginning, where an editor can open it.
     const SourcePlace place = place_at({}, 0, shown_name);
     const auto no_scene = [&](const std::string& message, const std::string& hint = {}) {
         diagnostics.error(place, message, hint);
@@ -127,7 +127,7 @@ std::optional<std::string> text_of_bytes(std::string text, const std::string& sh
         return std::nullopt;
     }
     bytes_left -= text.size();
-    // Columns count what is visible, which a byte-order mark is not.
+    // Columns count visible characters, which a byte-order mark is not.
     if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) return no_scene("the file is empty");
     if (is_utf16(text)) return no_scene("the file's text is UTF-16; a scene is UTF-8", "save it as UTF-8");

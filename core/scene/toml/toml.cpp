@@ -85,7 +85,7 @@ std::string_view line_of(std::string_view text, int number) {
     return text;
 }
 
-/// toml++ reads numbers through a stream, which swallows bad_alloc; then it says of 2.6 that it is none.
+/// toml++ reads numbers through a stream, which swallows bad_alloc; then it reports that 2.6 is not a number.
 bool is_out_of_memory(std::string_view description) {
     constexpr std::string_view k_complaint = "' could not be interpreted as a value";
     const std::size_t end = description.find(k_complaint);
@@ -133,7 +133,7 @@ bool can_be_parsed(std::string_view text, const std::string& shown_name, std::si
             return false;
         }
     }
-    diagnostics.error(place, excess->message, "no scene needs that");
+    diagnostics.error(place, excess->message, "scenes never need that");
     return false;
 }
 
@@ -237,8 +237,8 @@ std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
         return result;
     }
     const auto refuse = [&](const std::string& why) {
-        diagnostics.error(place, fmt::format("'{}' is no value: {}", shortened(text), why),
-                          "write a number, [three, of, them], true, false or a text");
+        diagnostics.error(place, fmt::format("'{}' is not a value: {}", shortened(text), why),
+                          "write a number, [three, of, them], true, false or a string");
         return std::nullopt;
     };
     const std::string line = fmt::format("value = {}", text);

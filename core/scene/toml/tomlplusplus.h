@@ -1,6 +1,6 @@
-// toml++ 3.3 and 3.4, without the promises that it makes to the optimiser and does not keep: that "[!x]"
-// begins with a key, and that "é" outside of quotes, or after a line ending in a text, does not occur.
-// Without them it reports the former as an error and reads the latter, as it should.
+// toml++ 3.3 and 3.4, without the promises that they make to the optimiser and do not keep: that "[!x]"
+// begins with a key, and that "é" does not occur outside quotes or after a line break in a string. Without
+// these promises it correctly reports the former as an error and reads the latter.
 #pragma once
 
 // toml++ 3.4 renamed its headers.

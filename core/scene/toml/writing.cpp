@@ -44,14 +44,14 @@ std::string escaped(std::string_view character) {
     }
 }
 
-/// 2 would be an integer.
+/// Adds ".0": 2 would be an integer.
 std::string as_real(std::string digits) {
     return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
 }
 
 void require_finite(double x) {
     if (!std::isfinite(x))
-        throw Error(ErrorCategory::failure, fmt::format("{} has no place in a scene file", x));
+        throw Error(ErrorCategory::failure, fmt::format("{} cannot be written in a scene file", x));
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ void require_finite(double x) {
 std::string toml_text(std::string_view text) {
     if (const auto invalid = first_invalid_byte(text)) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' is not UTF-8, as TOML is", text.substr(*invalid)));
+                    fmt::format("'{}' is not UTF-8, which TOML requires", text.substr(*invalid)));
     }
     std::string result = "\"";
     while (!text.empty()) {

@@ -67,7 +67,7 @@ std::optional<Value> matrix(const Node& node) {
     return result;
 }
 
-/// Of at least one number.
+/// At least one number.
 std::optional<Value> numbers(const Node& node) {
     const ArrayNode* const array = node.array();
     if (array == nullptr || array->empty()) return std::nullopt;
@@ -121,7 +121,7 @@ std::string number_as_written(const Node& node, const Diagnostics& diagnostics) 
     return text.size() <= k_longest ? text : "";
 }
 
-/// As description(), but a number as its author wrote it: 255.0, not 255.
+/// Like description(), but with a number as its author wrote it: 255.0, not 255.
 std::string described(const Node& node, const Diagnostics& diagnostics) {
     const std::string written = number_as_written(node, diagnostics);
     if (written.empty()) return description(node);
@@ -129,7 +129,7 @@ std::string described(const Node& node, const Diagnostics& diagnostics) {
                        written);
 }
 
-/// What is wrong in a list where numbers were expected: "its second value is a string, …".
+/// The problem with a list where numbers were expected: "its second value is a string, …".
 std::string found(const Node& node, const Parameter& p, const Diagnostics& diagnostics) {
     const ArrayNode* const array = node.array();
     if (array != nullptr && p.type == ParamType::numbers) {
@@ -171,7 +171,7 @@ std::optional<Vec3> color_called(std::string_view text) {
         }
         return Vec3{channels[0], channels[1], channels[2]};
     }
-    // CSS Color Module Level 4, the most usual ones.
+    // The most common ones of CSS Color Module Level 4.
     struct Name {
         std::string_view name;
         Vec3 color;
@@ -199,7 +199,7 @@ std::optional<Vec3> color_called(std::string_view text) {
     return found != k_names.end() ? std::optional(found->color) : std::nullopt;
 }
 
-/// A colour that is written in another way, as it is to be written; empty where that is not known.
+/// The correct form of a colour in another notation; empty if unknown.
 std::string color_hint(const Node& node) {
     constexpr std::string_view k_channels = "three integers 0 to 255";
     if (const auto* const text = std::get_if<std::string>(&node.value)) {
@@ -211,7 +211,7 @@ std::string color_hint(const Node& node) {
         values.fill(*grey);
     } else {
         const ArrayNode* const array = node.array();
-        // Four are with alpha.
+        // Four include alpha.
         if (array == nullptr || array->size() < 3 || array->size() > 4) return "";
         for (std::size_t i = 0; i < 3; ++i) {
             const auto value = number((*array)[i], false);
@@ -226,7 +226,7 @@ std::string color_hint(const Node& node) {
                        triple_text({channel(values[0]), channel(values[1]), channel(values[2])}));
 }
 
-/// Not a value of an animation's, between those of its keys.
+/// Whether the value is written in the file, rather than interpolated by an animation.
 bool is_written_as_list(const Node& node, const Diagnostics& diagnostics) {
     if (node.place.line == 0) return true;
     const std::string text = as_written(node, diagnostics);

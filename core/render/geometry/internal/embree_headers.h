@@ -1,4 +1,4 @@
-// Embree's headers, of whichever version is installed.
+// Embree's headers, whichever version is installed.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
