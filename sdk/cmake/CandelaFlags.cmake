@@ -1,4 +1,4 @@
-# Warnings and sanitizers of Candela's own build. What plugins of others need stands in CandelaPlugin.cmake.
+# Warnings and sanitizers of Candela's own build. CandelaPlugin.cmake has what third-party plugins need.
 add_library(candela_flags INTERFACE)
 target_compile_options(candela_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
@@ -20,18 +20,18 @@ if(CANDELA_SANITIZE)
         add_compile_options(-fno-sanitize-recover=all -fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/undefined.ignorelist)
     endif()
     if(CANDELA_SANITIZE MATCHES address)
-        # AddressSanitizer sees an access beyond an object in any case, and this takes a fifth of compiling a unit.
+        # AddressSanitizer detects out-of-bounds accesses anyway, and this takes a fifth of a unit's compile time.
         add_compile_options(-fno-sanitize=object-size)
     endif()
 endif()
 
-# For code that is not run for each fragment: to optimise what sanitizers add takes longer than to run it as it is.
+# For code that is not run for each fragment: optimising the sanitizers' code takes longer than running it unoptimised.
 set(CANDELA_COLD_CODE_OPTIONS)
 if(CANDELA_SANITIZE AND NOT CANDELA_SANITIZE MATCHES fuzzer)
     set(CANDELA_COLD_CODE_OPTIONS -O0)
 endif()
 
-# {fmt} 10 has format strings of its own that are no constants for clang 20 and newer.
+# {fmt} 10 has internal format strings that clang 20 and newer do not consider constants.
 find_package(fmt REQUIRED)
 if(fmt_VERSION VERSION_GREATER_EQUAL 10 AND fmt_VERSION VERSION_LESS 11)
     add_compile_definitions(FMT_CONSTEVAL=)
@@ -43,7 +43,7 @@ if(CANDELA_LLD)
     add_link_options(--ld-path=${CANDELA_LLD})
 endif()
 
-# What the compiler did with each loop, beside the object files that have batch loops; tests/vectorization reads it.
+# The compiler's remarks on each loop, next to object files with batch loops; tests/vectorization reads them.
 set(CANDELA_VECTORIZATION_RECORDS OFF)
 if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL Clang AND NOT CANDELA_SANITIZE)
     set(CANDELA_VECTORIZATION_RECORDS ON)
@@ -51,8 +51,8 @@ if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL Clang AN
         -fsave-optimization-record -foptimization-record-passes=loop-vectorize)
 endif()
 
-# candela_add_headers(<name> HEADERS <header>... LIBRARIES <target>... [OPTIONS <option>...]): headers that are read once, and
-# compiled with what they instantiate, for all programs that candela_use_headers() gives them to.
+# candela_add_headers(<name> HEADERS <header>... LIBRARIES <target>... [OPTIONS <option>...]): headers that are parsed once, and
+# compiled with their instantiations, for all programs that candela_use_headers() gives them to.
 function(candela_add_headers name)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "HEADERS;LIBRARIES;OPTIONS")
     set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
@@ -60,7 +60,7 @@ function(candela_add_headers name)
     add_library(${name} OBJECT ${empty})
     set_target_properties(${name} PROPERTIES CXX_SCAN_FOR_MODULES OFF)
     target_link_libraries(${name} PRIVATE candela_flags ${ARG_LIBRARIES})
-    # The core's, which it gives to all who import its modules.
+    # The core's options, which it passes on to all importers of its modules.
     target_compile_options(${name} PRIVATE -fno-math-errno ${ARG_OPTIONS})
     # <cstdint> first, as in the core: what libstdc++ 14's <memory> means by uintptr_t depends on what was included before, and clang
     # compares its functions with those that come with modules.
@@ -82,7 +82,7 @@ function(candela_use_headers name)
     endforeach()
 endfunction()
 
-# Precompiled headers are for one way of making code independent of its position.
+# A precompiled header fits only one kind of position-independent code.
 function(candela_compile_as_program target)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
     target_compile_options(${target} PRIVATE -fPIE)

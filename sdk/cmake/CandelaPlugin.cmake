@@ -2,47 +2,47 @@
 #                    [DATA <dir>] [VERSION <x.y.z>] [AUTHOR <name>] [LICENSE <spdx>]
 #                    [CONFORMANCE_VALUES <parameter>=<value>...])
 #
-# A plugin: <kind>-<name>.so and, made from it, <kind>-<name>.json. Kind is light, reflection, shading, shape,
+# Adds a plugin: <kind>-<name>.so and <kind>-<name>.json, which is generated from it. Kind is light, reflection, shading, shape,
 # image or target.
-# The target is called candela_<kind>_<name>. Where tests are enabled (enable_testing() before the call), and
+# The target is named candela_<kind>_<name>. If tests are enabled (enable_testing() before the call), and
 # CANDELA_CONFORMANCE_TESTS is not set to OFF, "<kind>/<name> conforms" is a test.
-#   SOURCES    what is compiled; one of the files ends with the macro of its kind (candela/<kind>_plugin.h)
+#   SOURCES    the files to compile; one of them ends with the macro of its kind (candela/<kind>_plugin.h)
 #   KERNEL     the model's formulas in the kernel language; its text is embedded for the program generator
 #   EMBED      files that the sources embed, with CANDELA_EMBED(variable, CANDELA_SOURCE_DIR "/...") (candela/embed.h)
-#   LIBRARIES  what else is linked; shared libraries of the project are found beside the plugin, wherever both are moved to
-#   DATA       a folder of the plugin's own files, copied beside the library as the folder <kind>-<name>, which
+#   LIBRARIES  other libraries; the project's own shared libraries are found next to the plugin, wherever both are moved to
+#   DATA       a folder of the plugin's own files, copied next to the library as the folder <kind>-<name>, which
 #              candela::sdk::data_folder() finds (candela/plugin_files.h)
-#   VERSION    of the plugin; the project's by default
-#   AUTHOR     whose it is, for `candela describe` and `candela list --json`
-#   LICENSE    as SPDX names it: MIT, Apache-2.0, GPL-3.0-or-later …
+#   VERSION    the plugin's version; the project's by default
+#   AUTHOR     the author, for `candela describe` and `candela list --json`
+#   LICENSE    the SPDX identifier: MIT, Apache-2.0, GPL-3.0-or-later …
 #   CONFORMANCE_VALUES  parameters' values for "conforms", such as a file that the plugin needs: file=/full/path
 #
 # If the loop over the points that a kernel's function is called for is not vectorised (with clang, and optimisation), a warning
-# names the line of the kernel; an error if COMPILE_WARNING_AS_ERROR or -Werror in CMAKE_CXX_FLAGS says so.
+# names the line of the kernel; with COMPILE_WARNING_AS_ERROR or -Werror in CMAKE_CXX_FLAGS it is an error.
 #
-# With -DCANDELA_SANITIZE=thread a second test, "<kind>/<name> has no data races", has ThreadSanitizer watch the plugin while
-# it is called from several threads at once. (Not of a target.) What is linked, other than LIBRARIES, is not part of it.
+# With -DCANDELA_SANITIZE=thread a second test, "<kind>/<name> has no data races", runs the plugin under ThreadSanitizer while
+# it is called from several threads at once. (Targets have no such test.) Apart from LIBRARIES, linked libraries are not part of it.
 
-# Once a folder, not once a build: what is set here is not seen in a folder beside, which finds Candela for itself.
+# Once per folder, not once per build: variables set here are not visible in a sibling folder that finds Candela itself.
 include_guard()
 
 set(CANDELA_PLUGIN_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
 include(${CMAKE_CURRENT_LIST_DIR}/CandelaThreads.cmake)
 
-# How batch loops are compiled, in plugins and in the core: wide vectors where the function's own target has them. (That
-# square roots set no errno must be the same for all who import a module, so candela::api says that.)
+# Options for batch loops, in plugins and in the core: wide vectors if the function's own target has them. (That
+# square roots do not set errno must be equal for all importers of a module, so candela::api specifies it.)
 if(NOT TARGET candela_batch_flags)
     add_library(candela_batch_flags INTERFACE)
     target_compile_options(candela_batch_flags INTERFACE
         $<$<NOT:$<CONFIG:Debug>>:-O3>
         # Without optimisation nothing is vectorised, which clang would report for every loop.
         $<$<AND:$<CXX_COMPILER_ID:Clang>,$<CONFIG:Debug>>:-Wno-pass-failed>
-        # As clang does unasked: otherwise g++ turns no condition within a loop into a blend.
+        # The default of clang: otherwise g++ does not turn conditions within loops into blends.
         $<$<CXX_COMPILER_ID:GNU>:-fno-trapping-math>
         $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-mprefer-vector-width=512>)
 endif()
 
-# What limits the harm of a memory error, in Candela's own code and in plugins, which share its process.
+# Hardening, which limits the harm of memory errors, for Candela's own code and for plugins, which share its process.
 set(CANDELA_HARDENING_COMPILE_OPTIONS
     -fstack-protector-strong -fstack-clash-protection
     $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-fcf-protection>)
@@ -76,8 +76,8 @@ function(candela_add_plugin id)
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON
         LINK_DEPENDS "${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map;$<TARGET_FILE:candela::manifest>")
     if(NOT TARGET candela_core)
-        # Shared libraries of its own are beside it, also where both are copied from the build folder; others are where they
-        # were linked. Linked as installed: else CMake makes room for the other path with a colon, and after that the loader
+        # Its own shared libraries are next to it, even if both are copied from the build folder; others are where they
+        # were linked. Linked as installed: otherwise CMake pads the path with a colon for the other one, after which the loader
         # looks for every library in the current folder.
         set_target_properties(${target} PROPERTIES
             BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN/../..;$ORIGIN" INSTALL_RPATH_USE_LINK_PATH ON)
@@ -91,8 +91,8 @@ function(candela_add_plugin id)
         cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
         target_compile_definitions(${target} PRIVATE CANDELA_KERNEL_FILE="${kernel}")
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS ${kernel})
-        # What programs that are generated from the kernel would not compile with is said now, once, at its line. A variable that
-        # is not read yet is a warning, while the formula is being written.
+        # Reports now, once, and at the kernel's line, what would not compile in programs generated from it. A variable that
+        # is not read yet is only a warning, while the formula is being written.
         target_compile_options(${target} PRIVATE
             -Wunused-variable -Werror=uninitialized
             $<$<CXX_COMPILER_ID:Clang>:-Werror=sometimes-uninitialized>)
@@ -103,7 +103,7 @@ function(candela_add_plugin id)
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS "${PLUGIN_EMBED}")
     endif()
     target_link_libraries(${target} PRIVATE candela::sdk candela_batch_flags ${PLUGIN_LIBRARIES})
-    # With "thread", the plugin itself is as always, and a second library of it is watched.
+    # With "thread", the plugin itself is unchanged, and a second library of it is instrumented.
     set(is_instrumented ${CANDELA_IS_SANITIZED})
     if(CANDELA_SANITIZE AND NOT CANDELA_SANITIZE STREQUAL "thread")
         set(is_instrumented ON)
@@ -114,19 +114,19 @@ function(candela_add_plugin id)
             target_link_options(${target} PRIVATE ${CANDELA_HARDENING_LINK_OPTIONS})
         endif()
         # Not for units that import modules: clang 19 loses the C library's inline functions there ("undefined symbol:
-        # memcpy.inline"). It checks nothing without optimisation, and says so.
+        # memcpy.inline"). Without optimisation, it checks nothing and prints a warning.
         target_compile_options(${target} PRIVATE
             $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE> $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
     endif()
-    # Only candela_* leaves the library: what two plugins both define could otherwise clash.
+    # The library exports only candela_*: symbols that two plugins both define could otherwise clash.
     target_link_options(${target} PRIVATE -Wl,--version-script=${CANDELA_PLUGIN_CMAKE_DIR}/plugin.map)
     if(NOT is_instrumented)
         # A missing symbol fails here, not when somebody loads the plugin. (Sanitizer runtimes live in the host.)
         target_link_options(${target} PRIVATE -Wl,-z,defs)
     endif()
 
-    # Why a kernel's loop is scalar, clang knows where in the kernel, but says of the SDK's header. So it is told to note it
-    # down, and the manifest's writer reads that.
+    # clang knows which line of the kernel makes a loop scalar, but its warning names the SDK's header. So it must record its
+    # remarks, which the manifest writer reads.
     set(loops)
     if(PLUGIN_KERNEL AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT is_instrumented)
         target_compile_options(${target} PRIVATE
@@ -152,7 +152,7 @@ function(candela_add_plugin id)
         if(NOT files)
             message(FATAL_ERROR "candela_add_plugin(${id}): there are no files in ${data}, the folder of DATA")
         endif()
-        # With a mark of its own: that files have changed links nothing, and what is gone there is gone here.
+        # Has its own stamp: changed files cause no linking, and files removed there are removed here.
         set(mark ${CMAKE_CURRENT_BINARY_DIR}/${file}.data)
         add_custom_command(OUTPUT ${mark} DEPENDS ${files}
             COMMAND ${CMAKE_COMMAND} -E rm -rf $<TARGET_FILE_DIR:${target}>/${file}
@@ -175,7 +175,7 @@ function(candela_add_plugin id)
         endif()
     endif()
 
-    # A test of all that a host relies on.
+    # Tests everything that a host relies on.
     if(TARGET candela::conformance AND (CANDELA_CONFORMANCE_TESTS OR NOT DEFINED CANDELA_CONFORMANCE_TESTS))
         if(is_sanitized_too)
             candela_find_symbolizer(symbolizer)
@@ -190,7 +190,7 @@ function(candela_add_plugin id)
                 COMMAND candela::conformance $<TARGET_FILE:${target}> ${PLUGIN_CONFORMANCE_VALUES})
             set_tests_properties("${id} conforms" PROPERTIES LABELS conformance TIMEOUT 900)
         elseif(NOT kind STREQUAL "target")
-            # The kit is instrumented as well: of its checks, those that start threads. (A target has none.)
+            # The kit is instrumented as well, and runs only the checks that start threads. (Targets have none.)
             candela_find_symbolizer(symbolizer)
             add_test(NAME "${id} has no data races" COMMAND candela::conformance $<TARGET_FILE:${target}>
                 ${PLUGIN_CONFORMANCE_VALUES} "--check=threads at once")
@@ -201,7 +201,7 @@ function(candela_add_plugin id)
 endfunction()
 
 # candela_install_plugin(<kind>/<name> [DESTINATION <dir>] [COMPONENT <name>]): the library, its manifest and its folder of
-# files, into lib/candela/plugins. Shared libraries of its own are to be installed there as well.
+# files, into lib/candela/plugins. Install its own shared libraries there as well.
 function(candela_install_plugin id)
     cmake_parse_arguments(PARSE_ARGV 1 PLUGIN "" "DESTINATION;COMPONENT" "")
     string(REPLACE "/" "_" suffix ${id})
@@ -234,7 +234,7 @@ function(candela_add_plugin_test id)
     set(target candela_${suffix})
     add_executable(${target}_test ${TEST_SOURCES})
     target_compile_features(${target}_test PRIVATE cxx_std_20)
-    # What is tested is the plugin, with candela/plugin_test.h; only who links candela::core imports modules.
+    # Tests use the plugin through candela/plugin_test.h; only those that link candela::core import modules.
     set(imports OFF)
     if("candela::core" IN_LIST TEST_LIBRARIES)
         set(imports ON)

@@ -3,7 +3,7 @@ include_guard()
 
 set(CANDELA_THREADS_DIR ${CMAKE_CURRENT_LIST_DIR})
 
-# candela_find_thread_sanitizer(<variable>): whether the compiler makes programs with it.
+# candela_find_thread_sanitizer(<variable>): whether the compiler can build programs with it.
 function(candela_find_thread_sanitizer result)
     include(CheckCXXSourceCompiles)
     set(CMAKE_REQUIRED_FLAGS -fsanitize=thread)
@@ -11,13 +11,13 @@ function(candela_find_thread_sanitizer result)
     set(${result} ${CANDELA_HAS_THREAD_SANITIZER} PARENT_SCOPE)
 endfunction()
 
-# candela_find_symbolizer(<variable>): what the environment needs so that reports name lines: a symbolizer for clang's runtime,
-# or addr2line, which is wherever programs are linked. Debian's clang 19 looks for neither itself. g++'s runtime needs none.
+# candela_find_symbolizer(<variable>): the environment variables that make reports name lines: a symbolizer for clang's runtime,
+# or addr2line, which is installed with every linker. Debian's clang 19 looks for neither itself. g++'s runtime needs none.
 function(candela_find_symbolizer result)
     string(REGEX MATCH "^[0-9]+" version "${CMAKE_CXX_COMPILER_VERSION}")
-    cmake_path(GET CMAKE_CXX_COMPILER PARENT_PATH beside)
+    cmake_path(GET CMAKE_CXX_COMPILER PARENT_PATH compiler_folder)
     find_program(CANDELA_SYMBOLIZER NAMES llvm-symbolizer llvm-symbolizer-${version} addr2line
-        HINTS ${beside} /usr/lib/llvm-${version}/bin)
+        HINTS ${compiler_folder} /usr/lib/llvm-${version}/bin)
     mark_as_advanced(CANDELA_SYMBOLIZER)
     set(options TSAN_OPTIONS=allow_addr2line=1)
     if(CANDELA_SYMBOLIZER)
@@ -56,7 +56,7 @@ function(candela_add_thread_sanitized target)
     target_compile_definitions(${sanitized} PRIVATE $<TARGET_PROPERTY:${target},COMPILE_DEFINITIONS>)
     target_include_directories(${sanitized} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
     target_compile_options(${sanitized} PRIVATE -fsanitize=thread -g -O1
-        # Instrumented loops are not vectorised, and clang would say so of each.
+        # Instrumented loops are not vectorised, and clang would report each of them.
         $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>)
     target_link_options(${sanitized} PRIVATE -fsanitize=thread
         -Wl,--version-script=${CANDELA_THREADS_DIR}/plugin.map)
@@ -67,7 +67,7 @@ function(candela_add_thread_sanitized target)
     if(ARG_DATA)
         set(data COMMAND ${CMAKE_COMMAND} -E copy_directory ${ARG_DATA} ${folder}/${file})
     endif()
-    # The manifest says of it what it says of the plugin.
+    # It has the same manifest as the plugin.
     add_custom_command(TARGET ${sanitized} POST_BUILD
         COMMAND ${CMAKE_COMMAND} -E copy $<TARGET_FILE_DIR:${target}>/${file}.json ${folder} ${data}
         VERBATIM)

@@ -1,6 +1,6 @@
-// Calls a plugin from several threads at once, each with inputs of its own. It and the plugin are built with
-// ThreadSanitizer, which reports data races and then ends the program with an exit code other than 0.
-// candela_add_plugin() builds it where CANDELA_SANITIZE is "thread".
+// Calls a plugin from several threads at once, each with its own inputs. This program and the plugin are
+// built with ThreadSanitizer, which reports data races and then makes the exit code non-zero.
+// candela_add_plugin() builds it if CANDELA_SANITIZE is "thread".
 //
 //     candela_threads PLUGIN.so [PARAMETER=VALUE...]     besides, required parameters get values of its own
 #include <candela/plugin_test.h>
@@ -37,7 +37,7 @@ const PluginDescriptor& descriptor_of(const fs::path& library) {
     void* const handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) throw std::runtime_error(::dlerror());
     void* const symbol = ::dlsym(handle, "candela_plugin_descriptor");
-    if (symbol == nullptr) throw std::runtime_error(library.string() + " is no plugin");
+    if (symbol == nullptr) throw std::runtime_error(library.string() + " is not a plugin");
     return *reinterpret_cast<const PluginDescriptor* (*)()>(symbol)();
 }
 
@@ -52,7 +52,7 @@ ParamSetting setting_from(std::string_view name, const std::string& value) {
     return {name, number};
 }
 
-/// A value that the parameter can have.
+/// A valid value for the parameter.
 ParamSetting usual_setting(const ParamSpec& p) {
     const float least = std::max(p.minimum, -1e3f), most = std::min(p.maximum, 1e3f);
     const double number = least <= 1 && most >= 1 ? 1.0 : 0.5 * (static_cast<double>(least) + most);
@@ -110,7 +110,7 @@ struct Vectors {
     candela::ConstVec3Span span() const { return {axes[0].data(), axes[1].data(), axes[2].data()}; }
 };
 
-/// What one thread gives to a plugin and gets from it.
+/// The inputs and results of one thread.
 struct Work {
     explicit Work(unsigned seed) : random(seed) {
         for (Vectors* const unit : {&normal, &observer, &tangent, &light}) fill(*unit);
@@ -269,7 +269,7 @@ Bytes written(const candela::ImageFormat& image, const candela::FileFormat& form
     return sink;
 }
 
-/// Files of an image format, one that all threads read.
+/// Files of an image format, including one that all threads read.
 class Folder {
   public:
     Folder() {
@@ -300,7 +300,7 @@ void call(const candela::ImageFormat& image, const PluginDescriptor& plugin, con
     }
 }
 
-/// Runs in all threads at once.
+/// Runs `use` in all threads at once.
 void run(const std::function<void(Work&)>& use) {
     std::barrier all_are_here(k_threads);
     std::vector<std::exception_ptr> problems(k_threads);
@@ -348,7 +348,7 @@ void test(const fs::path& library, const std::vector<std::string>& given) {
         if (const auto* const image = dynamic_cast<const candela::ImageFormat*>(&shared))
             call(*image, plugin, folder.path(), work);
     });
-    // Instances are created in any thread, too.
+    // Instances are also created in any thread.
     run([&](Work&) { candela::make_instance(directory, plugin.kind, plugin.name, settings); });
     std::printf("%s: called from %u threads\n", library.filename().c_str(), k_threads);
 }

@@ -22,7 +22,7 @@
 
 namespace {
 
-constexpr std::size_t k_points = 500;  // for each set of values, as for a plugin's own kernel
+constexpr std::size_t k_points = 500;  // per set of values, as for a plugin's own kernel
 constexpr int k_random_values = 20;
 
 std::string& answer_text() {
@@ -30,7 +30,7 @@ std::string& answer_text() {
     return text;
 }
 
-/// One call with one set of values, and where the answer's numbers are.
+/// One call with one set of values, and the position of the answer's numbers.
 struct Trial {
     Call call;
     Values values;
@@ -54,7 +54,7 @@ std::vector<Trial> trials_of(std::size_t points) {
     return trials;
 }
 
-/// How a term of an answer differs, over all trials of one call.
+/// The differences in one term of an answer, over all trials of one call.
 struct TermDifference {
     std::size_t differing = 0, points = 0;
     double largest = -1;
@@ -101,7 +101,7 @@ class Judgement {
     }
 
     nlohmann::json json() const {
-        // A term that several calls give is as wrong as it is in the worst of them.
+        // A term that several calls compute is judged by the worst of them.
         std::map<std::string, const TermDifference*> worst;
         std::size_t points = 0;
         for (const auto& [key, term] : terms_) {
@@ -113,7 +113,7 @@ class Judgement {
         for (const auto& [name, term] : worst) {
             nlohmann::json one = {{"term", name}, {"share", term->share()}};
             if (term->differing > 0) {
-                // What is not finite becomes null.
+                // Non-finite numbers become null.
                 one.update({{"largest", term->largest},
                             {"expected", term->expected},
                             {"actual", term->actual},
@@ -130,7 +130,7 @@ class Judgement {
                      float expected, float actual, float peak) {
         const double difference = std::abs(static_cast<double>(expected) - static_cast<double>(actual)) /
                                   (peak > 0 ? static_cast<double>(peak) : 1.0);
-        // Not a number is the worst there is.
+        // NaN is the worst result of all.
         if (!std::isfinite(term.largest) || (std::isfinite(difference) && difference <= term.largest)) return;
         term.largest = difference;
         term.expected = expected;
@@ -173,9 +173,9 @@ nlohmann::json judged() {
 
 void set_answer(std::string text) { answer_text() = std::move(text); }
 
-TEST_CASE("answer: it gives the numbers that the model gives", "[answer]") {
+TEST_CASE("answer: it computes the same numbers as the model", "[answer]") {
     if (candela::plugin_kind_named("reflection") != subject_manifest().kind)
-        FAIL("answers are about reflection models; this is another plugin");
-    if (needs_a_file()) FAIL("the model needs a file, which an exercise has not");
+        FAIL("answers are about reflection models; this plugin is not one");
+    if (needs_a_file()) FAIL("the model needs a file, which an exercise does not have");
     WARN(judged().dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
 }

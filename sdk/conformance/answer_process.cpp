@@ -22,11 +22,11 @@
 namespace {
 
 constexpr std::size_t k_room = 256UL * 1024 * 1024;
-constexpr unsigned k_seconds = 3;  // of processor time, for what takes milliseconds
+constexpr unsigned k_seconds = 3;  // of processor time, for work that takes milliseconds
 constexpr int k_descriptor = 3;
 
-// The memory that the two share: words of 32 bits, integers or floats. First how many inputs, points and
-// calls there are, then each call (its name's letters, its parameters, its tables, its number of results),
+// The memory that the two processes share: words of 32 bits, integers or floats. First the numbers of inputs,
+// points and calls, then each call (its name's letters, its parameters, its tables, its number of results),
 // then the inputs, then room for the results.
 
 class Writer {
@@ -82,7 +82,7 @@ class SharedWords {
     }
 
   private:
-    static void fail() { FAIL("no memory is left: " << std::strerror(errno)); }
+    static void fail() { FAIL("out of memory: " << std::strerror(errno)); }
     std::size_t bytes_;
     int file_;
     void* at_ = nullptr;
@@ -93,7 +93,7 @@ class Reader {
   public:
     explicit Reader(std::span<std::uint32_t> words) : words_(words) {}
     std::size_t integer() { return words_[at_++]; }
-    /// In the memory itself.
+    /// Returns a pointer into the memory itself.
     float* numbers(std::size_t count) {
         auto* const begin = reinterpret_cast<float*>(words_.data() + at_);
         at_ += count;
@@ -127,14 +127,14 @@ ComputedAnswer computed_answer(const std::filesystem::path& library, const std::
     std::ranges::copy(message, shared.all().data());
     posix_spawn_file_actions_t files;
     ::posix_spawn_file_actions_init(&files);
-    // The copy is not closed; onto itself, a descriptor only loses its mark.
+    // The duplicate is not close-on-exec; duplicating a descriptor onto itself only clears that flag.
     ::posix_spawn_file_actions_adddup2(&files, shared.file(), k_descriptor);
     std::string program = "/proc/self/exe", option = k_compute_option, file = library.string();
     char* const words[] = {program.data(), option.data(), file.data(), nullptr};
     pid_t child = 0;
     const int problem = ::posix_spawn(&child, program.c_str(), &files, nullptr, words, environ);
     ::posix_spawn_file_actions_destroy(&files);
-    if (problem != 0) FAIL("no process can be started: " << std::strerror(problem));
+    if (problem != 0) FAIL("cannot start a process: " << std::strerror(problem));
     ComputedAnswer answer;
     while (::waitpid(child, &answer.status, 0) < 0 && errno == EINTR) {
     }
@@ -144,7 +144,7 @@ ComputedAnswer computed_answer(const std::filesystem::path& library, const std::
 }
 
 void compute_answer(const char* library) {
-    // Whatever the kit has open is not for it.
+    // It must not inherit the kit's open files.
     static_cast<void>(::close_range(k_descriptor + 1, ~0U, 0));
     struct stat status{};
     if (::fstat(k_descriptor, &status) != 0) ::_exit(k_cannot_be_loaded);

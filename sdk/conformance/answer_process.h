@@ -1,5 +1,4 @@
-// A process that computes with an answer and knows nothing else: it has neither the plugin nor what the
-// plugin gives.
+// A process that evaluates an answer in isolation: it has neither the plugin nor the plugin's results.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +9,10 @@
 #include "batch.h"
 #include "kernel_program.h"
 
-/// The option by which this program becomes such a process.
+/// The option that turns this program into such a process.
 inline constexpr const char* k_compute_option = "--compute-answer";
 
-/// One call: what is asked for, and for which values.
+/// One call: the function, and the parameter values.
 struct AnswerCall {
     std::string name;  // "reflect"
     KernelInputs inputs;
@@ -21,16 +20,16 @@ struct AnswerCall {
 };
 
 struct ComputedAnswer {
-    int status = 0;              // as waitpid() says it
+    int status = 0;              // as from waitpid()
     std::vector<float> numbers;  // of all calls, array by array
 };
 
 /// The exit code of a process that cannot load the library; see also k_cannot_be_confined.
 inline constexpr int k_cannot_be_loaded = 126;
 
-/// Has the calls' numbers computed by the library that an answer has become, for all points of `in`.
+/// Computes the calls' numbers for all points of `in`, with the library compiled from an answer.
 ComputedAnswer computed_answer(const std::filesystem::path& library, const std::vector<AnswerCall>& calls,
                                const Arrays& in);
 
-/// The other side, in a process of its own.
+/// The other side, in its own process.
 [[noreturn]] void compute_answer(const char* library);

@@ -16,17 +16,17 @@ namespace {
 constexpr int k_meetings = 80;
 constexpr long k_shortest_work = 20'000, k_longest_work = 180'000, k_pause = 50'000;  // nanoseconds
 
-/// Of this thread; null while it is not to be interrupted.
+/// This thread's timer; null while the thread is not to be interrupted.
 thread_local timer_t* volatile timer_of_this_thread = nullptr;
 
 thread_local long interruption_count = 0;
 
-/// Once: a signal that already waits when the thread gets its turn again would stop it before it has done
-/// anything. After a time that varies: calls that take equally long would always be stopped at the same
-/// place.
+/// Arms the timer once: a pending signal would otherwise stop the thread as soon as it runs again, before it
+/// has done anything. The delay varies, because calls of equal duration would otherwise always be stopped at
+/// the same place.
 void interrupt_later(timer_t timer) {
     constexpr long k_range = k_longest_work - k_shortest_work;
-    constexpr long k_step = 618 * k_range / 1000;  // the golden section spreads them evenly
+    constexpr long k_step = 618 * k_range / 1000;  // the golden ratio spreads them evenly
     const long work = k_shortest_work + ++interruption_count * k_step % k_range;
     const itimerspec once{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = work}};
     ::timer_settime(timer, 0, &once, nullptr);
@@ -42,10 +42,10 @@ void pause_here(int) {
     errno = error;
 }
 
-/// While it exists, the thread that made it pauses again and again, wherever it is.
+/// While it exists, the thread that created it is paused again and again, wherever it is.
 class Interruptions {
   public:
-    /// Without timers from the system there are no interruptions.
+    /// If the system has no timers left, there are no interruptions.
     Interruptions() {
         sigevent event{};
         event.sigev_notify = SIGEV_THREAD_ID;

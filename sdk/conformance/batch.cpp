@@ -68,7 +68,7 @@ using namespace inputs;
 
 namespace {
 
-/// Another colour in every direction, and an object of no particular form: where a ray leaves it depends on
+/// Another colour in every direction, and an object of no particular shape: where a ray leaves it depends on
 /// that ray alone.
 class ColorfulSurroundings final : public candela::Surroundings {
   public:
@@ -154,7 +154,7 @@ BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb
 BatchSubject light_subject(const Values& values) {
     const std::shared_ptr<candela::Light> light = make<candela::Light>(values);
     BatchSubject subject{light, k_inputs, {}};
-    // Of thousands of samples, some from everywhere tell enough.
+    // Of thousands of samples, a few from all over are enough.
     constexpr int k_most_samples = 8;
     const int step = std::max(1, light->sample_count() / k_most_samples);
     for (int sample = 0; sample < light->sample_count(); sample += step) {
@@ -274,7 +274,7 @@ Arrays inputs_for(std::size_t count, unsigned seed) {
     const auto direction = [&] {
         return candela::normalized({normal(random), normal(random), normal(random)});
     };
-    // Of their own, so that all other inputs are what they are without triangles.
+    // Their own random numbers, so that all other inputs are the same as without triangles.
     std::mt19937 random_corner(seed + 1000);
     std::normal_distribution<float> normal_corner;
     const auto bent = [&](Vec3 n) {
@@ -282,7 +282,7 @@ Arrays inputs_for(std::size_t count, unsigned seed) {
                     z = normal_corner(random_corner);
         return candela::normalized(n + 0.3f * candela::normalized({x, y, z}));
     };
-    std::mt19937 random_color(seed + 2000);  // likewise
+    std::mt19937 random_color(seed + 2000);  // also separate
     Arrays in(k_inputs, count);
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3 n = direction();
@@ -318,7 +318,7 @@ Arrays aligned_inputs() {
     for (std::size_t i = 0; i < in.count(); ++i) {
         const Vec3 n = in.at(k_normal, i), t = in.at(k_tangent, i), v = in.at(k_observer, i);
         const Vec3 mirrored = candela::normalized(2 * dot(n, v) * n - v);
-        // Half of them with normals along an axis, where products are exact.
+        // Half of them have normals along an axis, where products are exact.
         const Vec3 views[] = {v, n, v, v, v, n, n, t, t, v, -t, t, v, n, v, t};
         const Vec3 lights[] = {v, v, n, mirrored, -v, n, -n, n, t, -n, t, -t, t, t, -mirrored, v};
         in.vec3(k_observer).set(i, views[i % k_cases]);

@@ -1,4 +1,4 @@
-// The plugins that work on batches, seen alike: arrays of floats in, arrays of floats out.
+// A uniform view of the plugins that work on batches: arrays of floats in, arrays of floats out.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ import candela.guard;
 import candela.math;
 import candela.punctual;
 
-/// Arrays of one length, with room before and after each that nobody may write to. What is read there is
+/// Arrays of equal length, with room before and after each that nobody may write to. Reading there yields
 /// NaN.
 class Arrays {
   public:
-    /// `shift`: floats by which each array starts off its alignment.
+    /// `shift`: the number of floats by which each array is misaligned.
     Arrays(std::size_t arrays, std::size_t count, std::size_t shift = 0);
 
     float* operator[](std::size_t array) {
@@ -40,15 +40,15 @@ class Arrays {
     candela::Vec3 at(std::size_t first, std::size_t i) const { return vec3(first)[i]; }
 
     void fill(float value);
-    /// A copy whose arrays end, or begin, at memory without access; its own copies share that. `name` says
-    /// what an array is called where a call trespasses (fence.h).
+    /// A copy whose arrays end, or begin, at inaccessible memory, which the copy's own copies share. `name`
+    /// names an array in messages about a call that trespasses (fence.h).
     Arrays fenced(Fence fence, const std::function<std::string(std::size_t array)>& name) const;
-    /// Fills the arrays with what only writing removes; is_written() finds it again.
+    /// Fills the arrays with canaries, which only writing removes; is_written() looks for them.
     void fill_with_guard();
     bool is_written(std::size_t array, std::size_t i) const { return !candela::is_guard((*this)[array][i]); }
     /// Elements [first, first + count) of all arrays.
     Arrays part(std::size_t first, std::size_t count, std::size_t shift = 0) const;
-    /// "before" or "after" where the room there was written to, or empty. Of arrays without a fence.
+    /// "before" or "after" if the room there was written to, otherwise empty. For arrays without a fence.
     std::string trespass() const;
     friend bool operator==(const Arrays& a, const Arrays& b);
 
@@ -57,14 +57,14 @@ class Arrays {
     std::size_t count_;
     std::size_t shift_;
     std::vector<std::vector<float>> data_;
-    std::vector<std::shared_ptr<Fenced>> fenced_;  // instead, if there are any
+    std::vector<std::shared_ptr<Fenced>> fenced_;  // used instead, if there are any
 };
 
 /// One way of calling an instance.
 struct Call {
     std::string name;                  // "reflect"
-    std::vector<std::string> outputs;  // what each three arrays of results are
-    bool adds = false;                 // to what is in the outputs
+    std::vector<std::string> outputs;  // the names of the results, each of three arrays
+    bool adds = false;                 // to the contents of the outputs
     bool may_be_negative = false;
     std::function<void(std::size_t count, const Arrays& in, Arrays& out)> run;
 };
@@ -76,7 +76,7 @@ struct BatchSubject {
     std::vector<Call> calls;
 };
 
-/// The inputs' places among the arrays, whatever the kind: each three of them.
+/// The positions of the inputs among the arrays, for all kinds: three arrays each.
 namespace inputs {
 inline constexpr std::size_t k_normal = 0;    // N
 inline constexpr std::size_t k_observer = 3;  // V
@@ -90,35 +90,35 @@ inline constexpr std::size_t k_vertex_normal = 24;
 inline constexpr std::size_t k_dpdu = 27;
 inline constexpr std::size_t k_dpdv = 30;
 inline constexpr std::size_t k_uv = 33;                // two
-inline constexpr std::size_t k_corner_positions = 35;  // of the triangle: three vectors
-inline constexpr std::size_t k_corner_normals = 44;    // likewise
+inline constexpr std::size_t k_corner_positions = 35;  // the triangle's: three vectors
+inline constexpr std::size_t k_corner_normals = 44;    // also three vectors
 inline constexpr std::size_t k_color = 53;             // C_o
 inline constexpr std::size_t k_inputs = 56;
 }  // namespace inputs
 
 BatchSubject batch_subject(const Values& values);
-/// Of a reflection model, on a surface of one colour: k_color is not read.
+/// For a reflection model, on a surface of one colour: k_color is not read.
 BatchSubject subject_of_one_color(const Values& values, candela::Rgb color);
 
-/// Lights as data, and an observer, among which inputs_for() places its points: a point light, one infinitely
-/// far away, and a spot light.
+/// Lights as data, and an observer, around which inputs_for() places its points: a point light, an infinitely
+/// distant one, and a spot light.
 const candela::PunctualLighting& punctual_lighting();
 
-/// Inputs as a renderer gives them, the same for one `seed`: unit vectors, positions, colours.
+/// Inputs as a renderer provides them, equal for equal `seed`: unit vectors, positions, colours.
 Arrays inputs_for(std::size_t count, unsigned seed = 1);
 /// Gives point `i` a triangle around its position, in the plane of its face normal, of about one metre.
 void put_triangle(Arrays& in, std::size_t i, const std::array<candela::Vec3, 3>& normals);
 /// Inputs whose vectors coincide, oppose each other or are orthogonal: V = N, L = V, a vertex normal that is
 /// the face normal …
 Arrays aligned_inputs();
-/// The same inputs in a world that is turned: all vectors and triangles are, positions are not.
+/// The same inputs in a rotated world: all vectors and triangles are rotated, positions are not.
 Arrays turned(const Arrays& in);
 candela::Vec3 turned(candela::Vec3 v);
 
-/// What the interfaces call an input in this call, "to_observer.x".
+/// The interface's name for an input of this call, "to_observer.x".
 std::string name_of_input(const Call& call, std::size_t array);
 
-/// What a call gives.
+/// The results of a call.
 Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift = 0);
 
 /// "N = [0, 1, 0], …": an input, for messages.

@@ -1,4 +1,4 @@
-// What must hold of every plugin that works on batches.
+// Requirements for all plugins that work on batches.
 #include "batch.h"
 
 #ifdef __SSE2__
@@ -24,17 +24,17 @@ namespace {
 
 constexpr double k_may_be_at_edges = 0.02;
 
-/// The first result that is no finite number.
+/// Finds the first non-finite result.
 void require_finite(const Call& call, const Values& values, const Arrays& in, const Arrays& out) {
     for (std::size_t a = 0; a < out.arrays(); ++a) {
         for (std::size_t i = 0; i < out.count(); ++i) {
             const float x = out[a][i];
-            if (!out.is_written(a, i)) continue;  // said by "written"
+            if (!out.is_written(a, i)) continue;  // reported by "written"
             if (!std::isfinite(x))
-                FAIL(call.name << " gives " << x << " as " << call.outputs[a / 3] << ", for "
+                FAIL(call.name << " returns " << x << " as " << call.outputs[a / 3] << ", for "
                                << text_of_input(in, i) << ", with " << values.text);
             if (x < 0 && !call.may_be_negative && call.outputs[a / 3] != "to_light")
-                FAIL(call.name << " gives a negative " << call.outputs[a / 3] << ", " << x << ", for "
+                FAIL(call.name << " returns a negative " << call.outputs[a / 3] << ", " << x << ", for "
                                << text_of_input(in, i) << ", with " << values.text);
         }
     }
@@ -45,19 +45,19 @@ bool close(float a, float b) {
     return std::abs(a - b) <= 1e-5f * std::max(std::abs(a), std::abs(b)) + 1e-6f;
 }
 
-/// The first place at which two results differ by more than rounding.
+/// Finds the first position at which two results differ by more than rounding.
 void require_close(const Call& call, const Arrays& a, const Arrays& b, std::size_t first,
                    const std::string& when) {
     for (std::size_t k = 0; k < b.arrays(); ++k) {
         for (std::size_t i = 0; i < b.count(); ++i) {
             if (!close(a[k][first + i], b[k][i]))
-                FAIL(call.name << " gives " << b[k][i] << " as " << call.outputs[k / 3] << " of point " << i
+                FAIL(call.name << " returns " << b[k][i] << " as " << call.outputs[k / 3] << " of point " << i
                                << " " << when << ", and " << a[k][first + i] << " otherwise");
         }
     }
 }
 
-/// Calls with arrays that end, or begin, at memory without access.
+/// Calls with arrays that end, or begin, at inaccessible memory.
 void require_no_trespass(const Call& call, const Arrays& in) {
     const auto output = [&](std::size_t array) {
         return fmt::format("{}.{}", call.outputs[array / 3], "xyz"[array % 3]);
@@ -71,7 +71,7 @@ void require_no_trespass(const Call& call, const Arrays& in) {
     }
 }
 
-/// The shortest of some rounds of calls.
+/// The shortest of several rounds of calls.
 double milliseconds(const Call& call, const Arrays& in, int rounds) {
     Arrays out(3 * call.outputs.size(), in.count());
     double best = std::numeric_limits<double>::infinity();
@@ -99,8 +99,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("written: every result that a light or shading model owes is written, for every point",
-          "[light][shading]") {
+TEST_CASE("written: a light or shading model writes every result, for every point", "[light][shading]") {
     const Arrays in = inputs_for(257);
     for (const Values& values : many_values(4)) {
         for (const Call& call : batch_subject(values).calls) {
@@ -116,8 +115,9 @@ TEST_CASE("written: every result that a light or shading model owes is written, 
     }
 }
 
-TEST_CASE("batches: any number of points, at any address, gives what the points give one at a time",
-          "[light][reflection][shading]") {
+TEST_CASE(
+    "batches: any number of points, at any address, yields the same results as the points one at a time",
+    "[light][reflection][shading]") {
     const Arrays in = inputs_for(2027);
     for (const Values& values : many_values(4)) {
         for (const Call& call : batch_subject(values).calls) {
@@ -157,7 +157,7 @@ TEST_CASE("bounds: nothing is read or written before or after the batch, and no 
     }
 }
 
-TEST_CASE("adding: a reflection model adds to what is there, and leaves the parts that it has no say in",
+TEST_CASE("adding: a reflection model adds to the existing values, and leaves the other parts unchanged",
           "[reflection]") {
     const Arrays in = inputs_for(64);
     for (const Call& call : batch_subject(default_values()).calls) {
@@ -170,17 +170,17 @@ TEST_CASE("adding: a reflection model adds to what is there, and leaves the part
             for (std::size_t i = 0; i < 64; ++i) {
                 if (!close(from_zero[a][i] + 1, from_one[a][i]))
                     FAIL(call.name << " does not add to the " << call.outputs[a / 3]
-                                   << " that is there: " << from_one[a][i] << " where 1 + " << from_zero[a][i]
-                                   << " is right, for " << text_of_input(in, i));
+                                   << " that is already there: " << from_one[a][i] << " where 1 + "
+                                   << from_zero[a][i] << " would be right, for " << text_of_input(in, i));
             }
         }
     }
 }
 
-TEST_CASE("repeatable: the same input gives the same bytes, again and from 8 threads at once",
+TEST_CASE("repeatable: the same input yields the same bytes, again and from 8 threads at once",
           "[light][reflection][shading]") {
-    // Threads at the same work would not notice that they share memory, so each has its own; and small
-    // batches, as a renderer's are, change hands often.
+    // Threads with equal work would not notice that they share memory, so each has its own; and they switch
+    // often, between small batches like a renderer's.
     constexpr std::size_t k_threads = 8, k_points = 256;
     constexpr int k_rounds = 60;
     constexpr auto k_longest = std::chrono::milliseconds(500), k_longest_in_all = 20 * k_longest;
@@ -194,18 +194,18 @@ TEST_CASE("repeatable: the same input gives the same bytes, again and from 8 thr
             for (const Arrays& own : in) {
                 first.push_back(outputs_of(call, own));
                 if (!(outputs_of(call, own) == first.back()))
-                    FAIL(call.name << " gives another result the second time, with " << values.text);
+                    FAIL(call.name << " returns a different result the second time, with " << values.text);
             }
             if (!hold_at_once(k_threads, k_rounds,
                               std::min(std::chrono::steady_clock::now() + k_longest, end),
                               [&](std::size_t t) { return outputs_of(call, in[t]) == first[t]; }))
-                FAIL(call.name << " gives another result when 8 threads call it at once, with "
+                FAIL(call.name << " returns a different result when 8 threads call it at once, with "
                                << values.text);
         }
     }
 }
 
-TEST_CASE("frame: in a world that is turned, a surface looks the same", "[reflection][shading]") {
+TEST_CASE("frame: in a rotated world, a surface looks the same", "[reflection][shading]") {
     if (declares("fixed-in-world")) SKIP("it declares fixed-in-world");
     const bool is_shading = subject_manifest().kind == candela::PluginKind::shading;
     const Arrays in = inputs_for(500), in_turned = turned(in);
@@ -226,10 +226,10 @@ TEST_CASE("frame: in a world that is turned, a surface looks the same", "[reflec
                 if (off <= 5e-3f * size + 1e-5f) continue;
                 if (differing++ == 0) first = i;
             }
-            // At an edge of a model, the last bit decides on which side of it a point is.
+            // At a discontinuity of a model, the last bit decides on which side a point is.
             if (static_cast<double>(differing) > k_may_be_at_edges * static_cast<double>(in.count()))
-                FAIL(call.name << " depends on the world's axes: with all vectors turned, " << differing
-                               << " of " << in.count() << " results are others, the first for "
+                FAIL(call.name << " depends on the world's axes: with all vectors rotated, " << differing
+                               << " of " << in.count() << " results differ, the first for "
                                << text_of_input(in, first) << ", with " << values.text);
         }
     }
@@ -250,14 +250,14 @@ TEST_CASE("independent: an instance does not depend on others made before, after
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (std::size_t c = 0; c < subjects[i].calls.size(); ++c) {
             if (!(outputs_of(subjects[i].calls[c], in) == alone[i][c]))
-                FAIL(subjects[i].calls[c].name << " gives another result while other instances exist, with "
+                FAIL(subjects[i].calls[c].name << " returns another result while other instances exist, with "
                                                << all[i].text);
         }
     }
 }
 
 #ifdef __SSE2__
-TEST_CASE("speed: it makes no denormal numbers, which are slow", "[light][reflection][shading]") {
+TEST_CASE("speed: it produces no denormal numbers, which are slow", "[light][reflection][shading]") {
     const Arrays in = inputs_for(1024);
     const unsigned usual_mode = _mm_getcsr();
     constexpr unsigned k_flush_to_zero = 0x8000, k_denormals_are_zero = 0x0040;
@@ -271,7 +271,7 @@ TEST_CASE("speed: it makes no denormal numbers, which are slow", "[light][reflec
     };
     for (const Values& values : many_values(8)) {
         for (const Call& call : batch_subject(values).calls) {
-            // What seems slow may have been interrupted, and is looked at again for longer.
+            // A seemingly slow call may have been interrupted, so it is measured again for longer.
             if (ratio(call, 4) <= k_much_longer) continue;
             const double slower = ratio(call, 20);
             if (slower > k_much_longer) {

@@ -25,7 +25,8 @@ void judge(Outcome& outcome, const std::string& text, int status) {
     bool is_done = false;
     const auto worsen = [&](Verdict verdict) { outcome.verdict = std::max(outcome.verdict, verdict); };
     std::istringstream lines(text);
-    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+    lines.exceptions(std::ios::badbit);  // otherwise std::getline() swallows std::bad_alloc, and the rest is
+                                         // lost
     for (std::string line; std::getline(lines, line);) {
         const std::size_t space = line.find(' ');
         const std::string verdict = line.substr(0, space);

@@ -1,4 +1,4 @@
-// One group of checks in a process of its own, so that a crash, a hang or an exit is a result.
+// Runs one group of checks in its own process, so that a crash, a hang or an exit is a result.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 #include "outcome.h"
 
-/// Where a child says what it found: lines of "<verdict> <message>", and "done" at the end.
+/// A child's report of its findings: lines of "<verdict> <message>", and "done" at the end.
 class Findings {
   public:
     explicit Findings(int descriptor) : descriptor_(descriptor) {}
@@ -17,10 +17,10 @@ class Findings {
     int descriptor_;
 };
 
-/// Runs `work` in a child with a process group of its own, standard output and error thrown away; ends it
-/// after `seconds`. Whatever it started has ended when this returns, and soon after this process is killed;
-/// its temporary files are gone then, too.
+/// Runs `work` in a child with its own process group, discarding standard output and error, and ends it after
+/// `seconds`. When this returns, everything that the child started has ended; if this process is killed, that
+/// happens soon afterwards. Temporary files are removed in both cases.
 Outcome run_in_child(const std::string& group, double seconds, const std::function<void(Findings&)>& work);
 
-/// Runs `work` in this process, where a debugger sees it; without a limit.
+/// Runs `work` in this process, where a debugger can see it; without a time limit.
 Outcome run_here(const std::string& group, const std::function<void(Findings&)>& work);

@@ -1,4 +1,4 @@
-// What a property is limited to: "where form is disc or ring and shininess is at least 1".
+// The condition on a property: "where form is disc or ring and shininess is at least 1".
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 import candela.parameters;
 
-/// One parameter's part of it.
+/// The part of a condition that concerns one parameter.
 struct Condition {
     enum class Kind { is_one_of, is_at_least, is_at_most };
     std::string parameter;
@@ -18,8 +18,8 @@ struct Condition {
 std::vector<std::string> names_in(const std::string& property_value);
 
 /// The conditions in a property's value, all of which must hold: none for "true". Throws
-/// std::invalid_argument with a sentence if it is neither.
+/// std::invalid_argument with a sentence if the value is neither.
 std::vector<Condition> conditions_of(const std::string& property_value);
 
-/// Whether all of them hold of the values. A parameter that does not exist satisfies none.
+/// Whether all of them hold for the values. A parameter that does not exist satisfies none.
 bool hold(const std::vector<Condition>& conditions, const candela::ParamSet& values);

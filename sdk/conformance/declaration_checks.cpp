@@ -1,4 +1,4 @@
-// What must hold of a plugin's description of itself: whatever it declares is something that exists.
+// Requirements for a plugin's description of itself: everything that it declares exists.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -50,13 +50,13 @@ constexpr auto k_known_properties = std::to_array<KnownProperty>({
     {PluginKind::target, "exact-shading", Takes::names},
 });
 
-/// What is wrong with a property's value; empty if nothing is.
+/// The problem with a property's value; empty if there is none.
 std::string wrong_with(Takes takes, const std::string& value) {
     std::array<float, 6> box{};
     int end = -1;
     switch (takes) {
         case Takes::nothing:
-            return value == "true" ? "" : fmt::format("'{}'; it takes no value but \"true\"", value);
+            return value == "true" ? "" : fmt::format("'{}'; its only value is \"true\"", value);
         case Takes::attenuation:
             return value == "constant" || value == "by distance"
                        ? ""
@@ -65,13 +65,13 @@ std::string wrong_with(Takes takes, const std::string& value) {
             int number = 0;
             const bool is_one = std::sscanf(value.c_str(), "%d%n", &number, &end) == 1 &&
                                 static_cast<std::size_t>(end) == value.size();
-            return is_one ? "" : fmt::format("'{}'; it takes an integer", value);
+            return is_one ? "" : fmt::format("'{}'; its value is an integer", value);
         }
         case Takes::a_box:
             return std::sscanf(value.c_str(), "%f %f %f %f %f %f", &box[0], &box[1], &box[2], &box[3],
                                &box[4], &box[5]) == 6
                        ? ""
-                       : fmt::format("'{}'; it takes six numbers, low x y z, high x y z", value);
+                       : fmt::format("'{}'; its value is six numbers, low x y z, high x y z", value);
         case Takes::names: {
             const std::vector<std::string> names = names_in(value);
             const bool are_names = !names.empty() && std::ranges::all_of(names, [](const std::string& name) {
@@ -95,7 +95,7 @@ std::string wrong_with(Takes takes, const std::string& value) {
     return {};
 }
 
-/// Why a name is no property of this plugin's kind.
+/// Why a name is not a property of this plugin's kind.
 std::string unknown_property(const std::string& name) {
     const PluginKind kind = subject_manifest().kind;
     std::vector<std::string> known;
@@ -108,13 +108,12 @@ std::string unknown_property(const std::string& name) {
                                name, candela::name_of(p.kind), candela::name_of(kind));
     }
     const std::string meant = candela::suggestion(name, known);
-    return fmt::format("it declares '{}', which nobody verifies{}{} ({})", name, meant.empty() ? "" : "; ",
-                       meant,
+    return fmt::format("unknown property '{}'{}{} ({})", name, meant.empty() ? "" : "; ", meant,
                        known.empty() ? fmt::format("a {} plugin has no properties", candela::name_of(kind))
                                      : fmt::format("known: {}", fmt::join(known, ", ")));
 }
 
-/// What is wrong with the presets: a scene that has their values must be a valid one.
+/// The problems with the presets: a scene with their values must be valid.
 std::vector<std::string> wrong_presets(const Manifest& m) {
     std::vector<std::string> problems;
     const auto schema = std::make_shared<const std::vector<candela::Parameter>>(m.parameters);
@@ -124,9 +123,9 @@ std::vector<std::string> wrong_presets(const Manifest& m) {
             problems.push_back(fmt::format("its preset '{}' {}", preset.name, what));
         };
         if (preset.name.empty() || !names.insert(preset.name).second)
-            wrong("has no name, or that of another one");
+            wrong("has no name, or the name of another");
         if (preset.values.empty()) wrong("has no values");
-        if (preset.color && m.kind != PluginKind::reflection) wrong("has a colour, and is no material");
+        if (preset.color && m.kind != PluginKind::reflection) wrong("has a colour, but is not a material");
         candela::ParamSet set(schema);
         for (const auto& [name, value] : preset.values) {
             const auto& parameter = m.parameters[set.index_of(name)];
@@ -172,11 +171,11 @@ TEST_CASE("declarations: its properties are those of its kind, its relations are
             if (std::ranges::find(parameters, name) != parameters.end()) continue;
             const std::string meant = candela::suggestion(name, parameters);
             FAIL_CHECK("its relation \"" << candela::text_of(relation) << "\" is about '" << name
-                                         << "', and it has no such parameter" << (meant.empty() ? "" : "; ")
+                                         << "', but it has no such parameter" << (meant.empty() ? "" : "; ")
                                          << meant);
         }
     }
     for (const std::string& problem : wrong_presets(m)) FAIL_CHECK(problem);
     if (!m.formats.empty() && m.kind != PluginKind::image)
-        FAIL_CHECK("it lists file formats, and is not an image plugin");
+        FAIL_CHECK("it lists file formats, but is not an image plugin");
 }

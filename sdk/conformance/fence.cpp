@@ -14,7 +14,7 @@
 
 namespace {
 
-// An index that is off by one batch, or by the size of a picture's row, still ends there.
+// Wide enough that an index off by a whole batch, or by a row of a picture, still lands in it.
 constexpr std::size_t k_without_access = std::size_t{1} << 20;
 
 std::vector<const Fenced*>& all_fenced() {
@@ -49,10 +49,10 @@ void on_fault(int signal, siginfo_t* fault, void* context) {
             ::siglongjmp(watched->back, 1);
         }
     }
-    ::signal(signal, SIG_DFL);  // it happens again
+    ::signal(signal, SIG_DFL);  // lets it happen again
 }
 
-/// While there is one, faults are looked at.
+/// Watches for faults while it exists.
 class Watching {
   public:
     explicit Watching(Watch& watch) {
@@ -106,7 +106,7 @@ bool Fenced::is_beyond(const void* address) const {
 std::string trespass_of(const std::function<void()>& call) {
     Watch watch;
     const Watching while_calling(watch);
-    // Nothing that has a destructor is made in this function between here and the jump back.
+    // This function creates no object with a destructor between here and the jump back.
     if (sigsetjmp(watch.back, 1) == 0) {  // NOLINT(cert-err52-cpp): a fault throws no exception
         call();
         return {};

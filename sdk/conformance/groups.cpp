@@ -13,7 +13,7 @@ namespace {
 
 Findings* receiver = nullptr;
 
-/// Passes on what Catch2 finds.
+/// Passes on Catch2's findings.
 class Listener final : public Catch::EventListenerBase {
   public:
     using Catch::EventListenerBase::EventListenerBase;
@@ -31,7 +31,7 @@ class Listener final : public Catch::EventListenerBase {
             case Catch::ResultWas::ExplicitSkip:
                 return receiver->add("skipped", message);
             case Catch::ResultWas::FatalErrorCondition:
-                return;  // the signal says it
+                return;  // the signal is reported instead
             default:
                 return receiver->add("failed", message);
         }
@@ -51,7 +51,7 @@ std::vector<std::string> groups_for(const std::string& kind) {
     for (Catch::TestCaseInfo* const group : Catch::getRegistryHub().getTestCaseRegistry().getAllInfos()) {
         if (has_tag(*group, "all") || has_tag(*group, kind)) found.push_back(group);
     }
-    // What is about every plugin comes first: the rest depends on it.
+    // The checks for every plugin come first: the rest depends on them.
     std::ranges::sort(found, [](const auto* a, const auto* b) {
         const bool a_is_for_all = has_tag(*a, "all"), b_is_for_all = has_tag(*b, "all");
         return a_is_for_all != b_is_for_all ? a_is_for_all : a->lineInfo < b->lineInfo;
@@ -63,7 +63,7 @@ std::vector<std::string> groups_for(const std::string& kind) {
 
 void run_group(const std::string& group, Findings& findings) {
     receiver = &findings;
-    static Catch::Session session;  // there may be one in a process
+    static Catch::Session session;  // a process may have only one
     Catch::ConfigData config;
     std::string escaped;
     for (const char c : group)
@@ -71,7 +71,7 @@ void run_group(const std::string& group, Findings& findings) {
             (c == ',' || c == '[' || c == '"' || c == '\\') ? std::string("\\") + c : std::string(1, c);
     config.testsOrTags = {escaped};
     config.rngSeed = 1;
-    config.defaultOutputFilename = "/dev/null";  // what it finds is reported otherwise
+    config.defaultOutputFilename = "/dev/null";  // findings are reported in another way
     session.useConfigData(config);
     session.run();
 }

@@ -10,5 +10,5 @@
 /// [<kind>].
 std::vector<std::string> groups_for(const std::string& kind);
 
-/// Runs one in this process.
+/// Runs one group in this process.
 void run_group(const std::string& group, Findings& findings);

@@ -1,4 +1,4 @@
-// What must hold of image formats.
+// Requirements for image formats.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,8 +36,8 @@ using candela::PixelType;
 
 namespace {
 
-/// A picture whose channels differ: red grows to the right, green downwards, as gently as lossy formats want
-/// it.
+/// A picture whose channels differ: red grows to the right, green downwards, smoothly enough for lossy
+/// formats.
 struct Picture {
     int width, height;
     std::vector<float> reals;
@@ -56,8 +56,8 @@ struct Picture {
         }
     }
 
-    /// One colour after another, in one row, for 1, 2, … pixels: what formats that count equal pixels are
-    /// tried with, around the largest counts of seven and eight bits as well.
+    /// One colour after another, in one row, for 1, 2, … pixels. This tests run-length encoding, including
+    /// runs around the largest counts of seven and eight bits.
     static Picture of_runs() {
         std::vector<std::size_t> colors;
         std::size_t run = 0;
@@ -111,7 +111,7 @@ class Memory final : public candela::ByteSink {
     std::vector<std::byte> bytes;
 };
 
-/// A disk that is full after some bytes.
+/// A disk that becomes full after some bytes.
 class FullDisk final : public candela::ByteSink {
   public:
     explicit FullDisk(std::size_t room) : room_(room) {}
@@ -147,8 +147,7 @@ class ReadBack final : public candela::PictureSink {
     std::vector<float> values;
 };
 
-/// Where a format is read: an installed plugin that is another one, or else this one; null where none reads
-/// it.
+/// A plugin that reads the format: preferably another installed one, otherwise this one; null if none does.
 std::shared_ptr<ImageFormat> reader_of(const FileFormat& format, const std::shared_ptr<ImageFormat>& writer) {
     static candela::Registry registry(candela::plugin_search_path({}));
     const candela::PluginFile* const other = registry.find_format(format.extension, candela::FormatUse::read);
@@ -161,14 +160,14 @@ std::shared_ptr<ImageFormat> reader_of(const FileFormat& format, const std::shar
     return format.reads ? writer : nullptr;
 }
 
-/// What comes back must be that on average: some formats are lossy, some round as floats.
+/// The largest allowed mean difference of a round trip: some formats are lossy, some round as floats.
 constexpr double k_mean_difference = 0.06;
 
-/// And that in each stretch of so many numbers.
+/// The same limit for each run of so many numbers.
 constexpr double k_local_difference = 0.2;
 constexpr std::size_t k_stretch = 96;
 
-/// The pixel from which on a stretch comes back as something else, or nothing.
+/// The pixel at which a run begins that comes back different, or nothing.
 std::optional<std::size_t> differing_stretch(const std::vector<float>& sent, const std::vector<float>& back) {
     for (std::size_t first = 0; first + k_stretch <= sent.size(); first += k_stretch) {
         double difference = 0;
@@ -179,7 +178,7 @@ std::optional<std::size_t> differing_stretch(const std::vector<float>& sent, con
     return std::nullopt;
 }
 
-/// Layers are for computing, so floats come back as they are, but for the precision of a half.
+/// Layers are for computing, so floats must come back unchanged, up to the precision of a half.
 std::optional<std::size_t> first_difference(const std::vector<float>& sent, const std::vector<float>& back) {
     for (std::size_t i = 0; i < sent.size(); ++i) {
         if (!(std::abs(sent[i] - back[i]) <= 1e-3f)) return i;
@@ -187,7 +186,7 @@ std::optional<std::size_t> first_difference(const std::vector<float>& sent, cons
     return std::nullopt;
 }
 
-/// A picture whose pixels end, or begin, at memory without access.
+/// A picture whose pixels end, or begin, at inaccessible memory.
 class FencedPicture {
   public:
     FencedPicture(const candela::PictureView& picture, Fence fence)
@@ -206,7 +205,7 @@ class FencedPicture {
     Fenced bytes_, reals_;
 };
 
-/// Rows that are each other's memory without access.
+/// Rows, each surrounded by inaccessible memory.
 class FencedRows final : public candela::PictureRows {
   public:
     FencedRows(const candela::PictureView& picture, Fence fence) : rows_(picture), fence_(fence) {}
@@ -220,7 +219,7 @@ class FencedRows final : public candela::PictureRows {
     std::optional<FencedPicture> current_;
 };
 
-/// Memory for a picture that is read.
+/// Memory for a picture being read.
 class FencedSink final : public candela::PictureSink {
   public:
     explicit FencedSink(Fence fence) : fence_(fence) {}
@@ -234,7 +233,8 @@ class FencedSink final : public candela::PictureSink {
     std::optional<Fenced> values_;
 };
 
-/// What is read outside a picture, its rows and its layers while a file of it is written; empty if nothing.
+/// Reads outside a picture, its rows and its layers while a file of it is written; empty if nothing
+/// is.
 std::string trespass_of_writing(const ImageFormat& writer, const FileFormat& format, const Picture& picture,
                                 Fence fence) {
     Memory memory;
@@ -269,7 +269,7 @@ void write_file(const fs::path& file, std::span<const std::byte> bytes) {
 
 }  // namespace
 
-TEST_CASE("round trip: what it writes is read as the same picture, of any size", "[image]") {
+TEST_CASE("round trip: what it writes reads back as the same picture, of any size", "[image]") {
     const std::shared_ptr<ImageFormat> writer = make<ImageFormat>(default_values());
     const TemporaryDirectory directory;
     int compared = 0;
@@ -294,7 +294,7 @@ TEST_CASE("round trip: what it writes is read as the same picture, of any size",
                            << " x " << back.height);
             if (const auto pixel = differing_stretch(picture.reals, back.values))
                 FAIL("from pixel " << *pixel << " on, the pixels of a ." << format.extension << " of "
-                                   << picture.size() << " come back as others");
+                                   << picture.size() << " come back different");
             for (std::size_t c = 0; c < 3; ++c) {
                 double difference = 0;
                 for (std::size_t i = c; i < picture.reals.size(); i += 3)
@@ -314,7 +314,7 @@ TEST_CASE("round trip: what it writes is read as the same picture, of any size",
     if (compared == 0) SKIP("no installed plugin reads its formats");
 }
 
-TEST_CASE("bounds: nothing outside the picture is read, or written where a file is read", "[image]") {
+TEST_CASE("bounds: nothing outside the picture is read, or written while a file is read", "[image]") {
     const auto plugin = make<ImageFormat>(default_values());
     const TemporaryDirectory directory;
     for (const FileFormat& format : subject().formats) {
@@ -345,7 +345,7 @@ TEST_CASE("layers: the picture in a file of layers is its first three channels",
         if (!format.layers) continue;
         has_any = true;
         if (format.pixels != PixelType::real)
-            FAIL("a ." << format.extension << " has layers, whose values are unbounded, and pixels of bytes");
+            FAIL("a ." << format.extension << " has layers, whose values are unbounded, but pixels of bytes");
         for (const Picture& picture : {Picture(1, 1), Picture(7, 5), Picture(64, 48)}) {
             const LayeredPicture layers(picture);
             const auto write = [&](candela::ByteSink& sink) {
@@ -355,10 +355,10 @@ TEST_CASE("layers: the picture in a file of layers is its first three channels",
             write(memory);
             write(again);
             if (memory.bytes != again.bytes)
-                FAIL("a ." << format.extension << " in layers is another file the second time");
+                FAIL("a ." << format.extension << " in layers is a different file the second time");
             if (!reports_full_disk(memory.bytes.size() - 1, write))
                 FAIL("a ." << format.extension
-                           << " in layers has no room on the disk, and nothing is reported");
+                           << " in layers runs out of disk space, but no error is reported");
             const auto reader = reader_of(format, writer);
             if (reader == nullptr) continue;
             const fs::path file = directory.path() / (std::string("layers.") + format.extension);
@@ -377,7 +377,7 @@ TEST_CASE("layers: the picture in a file of layers is its first three channels",
     if (!has_any) SKIP("it writes no layers");
 }
 
-TEST_CASE("truncated: a file that is cut off is refused, not read as a picture", "[image]") {
+TEST_CASE("truncated: a truncated file is refused, not read as a picture", "[image]") {
     const std::shared_ptr<ImageFormat> format_plugin = make<ImageFormat>(default_values());
     const TemporaryDirectory directory;
     bool reads_any = false;
@@ -399,14 +399,14 @@ TEST_CASE("truncated: a file that is cut off is refused, not read as a picture",
                 is_refused = true;
             }
             if (!is_refused)
-                FAIL("a ." << format.extension << " that is cut off after " << length << " of " << whole
+                FAIL("a ." << format.extension << " that is truncated after " << length << " of " << whole
                            << " bytes is read as if it were whole");
         }
     }
     if (!reads_any) SKIP("it reads no files");
 }
 
-TEST_CASE("repeatable: the same picture gives the same file, again and from 4 threads at once", "[image]") {
+TEST_CASE("repeatable: the same picture yields the same file, again and from 4 threads at once", "[image]") {
     const auto writer = make<ImageFormat>(default_values());
     for (const FileFormat& format : subject().formats) {
         const auto written = [&](const Picture& picture) {
@@ -421,17 +421,17 @@ TEST_CASE("repeatable: the same picture gives the same file, again and from 4 th
             first.push_back(written(picture));
             if (written(picture) != first.back())
                 FAIL("a ." << format.extension << " of " << picture.size()
-                           << " is another file the second time");
+                           << " is a different file the second time");
         }
         constexpr int k_rounds = 10;
         constexpr auto k_longest = std::chrono::seconds(2);
         if (!hold_at_once(pictures.size(), k_rounds, std::chrono::steady_clock::now() + k_longest,
                           [&](std::size_t t) { return written(pictures[t]) == first[t]; }))
-            FAIL("a ." << format.extension << " is another file while other threads write");
+            FAIL("a ." << format.extension << " is a different file while other threads write");
     }
 }
 
-TEST_CASE("failing writes: where its bytes cannot be stored it says so", "[image]") {
+TEST_CASE("failing writes: it reports that its bytes cannot be stored", "[image]") {
     const auto writer = make<ImageFormat>(default_values());
     const Picture picture(64, 48);
     for (const FileFormat& format : subject().formats) {
@@ -442,12 +442,12 @@ TEST_CASE("failing writes: where its bytes cannot be stored it says so", "[image
                     writer->write(picture.view(format.pixels), format.extension, sink);
                 }))
                 FAIL("after " << room << " of " << whole.bytes.size() << " bytes of a ." << format.extension
-                              << " the disk is full, and it reports nothing");
+                              << " the disk is full, but it reports nothing");
         }
     }
 }
 
-TEST_CASE("files of its own: it leaves none where it runs", "[image]") {
+TEST_CASE("files of its own: it leaves none in the working directory", "[image]") {
     const TemporaryDirectory directory;
     fs::current_path(directory.path());
     const auto writer = make<ImageFormat>(default_values());

@@ -4,7 +4,8 @@
 import candela.math;
 import candela.punctual;
 
-/// What a light sends to a point: its direction, and the share of its intensity (candela/punctual.h).
+/// The light that a source sends to a point: its direction, and the fraction of its intensity
+/// (candela/punctual.h).
 struct ExactIncident {
     candela::Vec3 to_light;
     double share;

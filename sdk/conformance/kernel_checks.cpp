@@ -1,5 +1,5 @@
-// What must hold of the text that programs are generated from: it is C++ and GLSL, and it is what the plugin
-// computes.
+// Requirements for the text from which programs are generated: it is C++ and GLSL, and computes what the
+// plugin computes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void skip_without_kernel() {
     if (subject().kernel.text == nullptr) SKIP("it has no kernel text: programs cannot be generated from it");
 }
 
-/// "cook_torrance" and "CookTorrance" alike.
+/// Makes "cook_torrance" and "CookTorrance" equal.
 std::string lower_without_separators(const std::string& name) {
     std::string result;
     for (const char c : name) {
@@ -57,15 +57,16 @@ void compare(const KernelProgram& program, const Call& call, const Values& value
         }
     }
     if (static_cast<double>(differing) > k_may_differ * static_cast<double>(in.count()))
-        FAIL("the kernel's text gives " << actual[array][first] << " as " << call.outputs[array / 3]
-                                        << " where " << call.name << " gives " << expected[array][first]
-                                        << ", for " << text_of_input(in, first) << ", with " << values.text);
+        FAIL("the kernel's text computes " << actual[array][first] << " as " << call.outputs[array / 3]
+                                           << " where " << call.name << " returns " << expected[array][first]
+                                           << ", for " << text_of_input(in, first) << ", with "
+                                           << values.text);
 }
 
 void compare_shape(const KernelProgram& program, const Values& values) {
     const candela::Mesh mesh =
         candela::place(*make<candela::Shape>(values), {.uv = true, .derivatives = true}, {}).mesh;
-    if (mesh.u.empty()) FAIL("it has kernel text, and its mesh has no texture coordinates to try it at");
+    if (mesh.u.empty()) FAIL("it has kernel text, but its mesh has no texture coordinates to test it at");
     float size = 0;
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
         size = std::max(size, candela::length(mesh.position.span()[i]));
@@ -74,24 +75,28 @@ void compare_shape(const KernelProgram& program, const Values& values) {
         const Vec3 expected = mesh.position.span()[i];
         const Vec3 actual = program.position(values, mesh.u[i], mesh.v[i]);
         if (candela::length(actual - expected) > 1e-4f * size)
-            FAIL(fmt::format(
-                "the kernel's text puts ({}, {}) at [{}, {}, {}], the mesh has [{}, {}, {}] there, with {}",
-                mesh.u[i], mesh.v[i], actual.x, actual.y, actual.z, expected.x, expected.y, expected.z,
-                values.text));
+            FAIL(
+                fmt::format("the kernel's text puts ({}, {}) at [{}, {}, {}], but the mesh has [{}, {}, {}] "
+                            "there, with {}",
+                            mesh.u[i], mesh.v[i], actual.x, actual.y, actual.z, expected.x, expected.y,
+                            expected.z, values.text));
     }
 }
 
 }  // namespace
 
-TEST_CASE("kernel names: all that it declares begins with its own name, as several stand in one program",
-          "[reflection][light][shading][shape]") {
+TEST_CASE(
+    "kernel names: everything that it declares begins with its own name, since one program may contain "
+    "several kernels",
+    "[reflection][light][shading][shape]") {
     skip_without_kernel();
     const candela::KernelText& kernel = subject().kernel;
     const std::string prefix = lower_without_separators(kernel.prefix);
     static const std::regex k_declared(
         R"(^(?:struct\s+(\w+)|#\s*define\s+(\w+)|(?:KERNEL|const|constexpr|inline|static)\s[\w\s]*?\b(\w+)\s*[({=\[]))");
     std::istringstream lines(kernel.text);
-    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+    lines.exceptions(std::ios::badbit);  // otherwise std::getline() swallows std::bad_alloc, and the rest is
+                                         // lost
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
@@ -101,18 +106,18 @@ TEST_CASE("kernel names: all that it declares begins with its own name, as sever
         if (lower_without_separators(name).starts_with(prefix)) continue;
         FAIL_CHECK(kernel_file_name()
                    << ":" << number << ": '" << name << "' may be declared by another kernel of "
-                   << "the same program; call it " << kernel.prefix << "_" << name << ", or so");
+                   << "the same program; call it " << kernel.prefix << "_" << name << ", for example");
     }
 }
 
-TEST_CASE("kernel as C++: the text compiles, and gives the numbers that the plugin gives",
+TEST_CASE("kernel as C++: the text compiles, and computes the same numbers as the plugin",
           "[reflection][light][shading][shape]") {
     skip_without_kernel();
     const KernelProgram program;
     if (!program.compiled().unused().empty())
-        WARN("the kernel has variables that nobody reads:" << program.compiled().unused());
+        WARN("the kernel has variables that are never read:" << program.compiled().unused());
     if (!program.compiled().warnings().empty())
-        FAIL_CHECK("programs that are generated from the kernel's text compile with warnings:"
+        FAIL_CHECK("programs generated from the kernel's text compile with warnings:"
                    << program.compiled().warnings());
     for (const Values& values : many_values(20)) {
         if (subject_manifest().kind == PluginKind::shape) {
@@ -121,8 +126,8 @@ TEST_CASE("kernel as C++: the text compiles, and gives the numbers that the plug
         }
         int calls = 0;
         for (const Call& call : batch_subject(values).calls) {
-            // What is seen of the surroundings, or of many lights, is put together from several functions,
-            // and a large source is its samples.
+            // The visible surroundings, and the effect of many lights, are computed from several functions,
+            // and a large source by its samples.
             if (call.name == "show_surroundings" || call.name == "reflect_punctual" || ++calls > 4) continue;
             compare(program, call, values);
         }
@@ -133,9 +138,9 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
           "[reflection][light][shading][shape]") {
     skip_without_kernel();
     const auto validator = candela::program_called("glslangValidator");
-    if (!validator) SKIP("there is no glslangValidator here");
+    if (!validator) SKIP("glslangValidator is not installed");
     const std::filesystem::path include = sdk_include_directory();
-    if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
+    if (include.empty()) SKIP("Candela's headers are not installed with the kit");
     std::string prelude;
     for (const char* const part : {"candela/table.glsl", "candela/prelude.kernel"}) {
         std::ifstream file(include / part);
@@ -155,7 +160,7 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
         static const std::regex k_error("ERROR: \\d+:(\\d+):");
         std::istringstream lines(compiled.out);
         lines.exceptions(
-            std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+            std::ios::badbit);  // otherwise std::getline() swallows std::bad_alloc, and the rest is lost
         std::string errors;
         for (std::string line; std::getline(lines, line) && errors.size() < 400;) {
             if (std::regex_search(line, k_error))

@@ -29,9 +29,9 @@ using candela::PluginKind;
 
 namespace {
 
-constexpr std::size_t k_slots = 9;  // floats that a parameter takes, whatever its type
+constexpr std::size_t k_slots = 9;  // floats per parameter, whatever its type
 
-/// Statements that fill the kernel's struct, whose members are called as the parameters (see KernelText).
+/// Statements that fill the kernel's struct, whose members have the parameters' names (see KernelText).
 std::string members_from_parameters() {
     std::string text;
     const std::vector<Parameter>& parameters = subject_manifest().parameters;
@@ -48,7 +48,7 @@ std::string members_from_parameters() {
                 text += fmt::format("    m.{} = int(p[{}]);\n", p.name, at);
                 break;
             case ParamType::text:
-                break;  // the kernel language has no texts
+                break;  // the kernel language has no strings
             case ParamType::file:
             case ParamType::numbers:
                 text += fmt::format(
@@ -68,8 +68,8 @@ std::string members_from_parameters() {
     return text;
 }
 
-/// What one point's call is, after the parameters, and where its result goes; the arrays are those of
-/// batch.h.
+/// The arguments of one point's call, after the parameters, and the destination of its result; the arrays are
+/// those of batch.h.
 std::string body_of(PluginKind kind) {
     namespace in = inputs;
     const auto three = [](const char* array, std::size_t first) {
@@ -132,11 +132,11 @@ std::string body_of(PluginKind kind) {
     }
 }
 
-/// What the kit adds to the kernel's text, in the compiler's messages.
+/// The code that the kit adds to the kernel's text, as compiler messages name it.
 constexpr const char* k_calls_file = "the kit's calls of it";
 
-/// The whole program. Functions get the parameters first, or not at all, and the sample's number last, if
-/// they take it.
+/// The whole program. Functions are passed the parameters first, or not at all, and the sample's number last,
+/// if they take it.
 std::string source(const std::string& kernel_text) {
     const candela::KernelText& kernel = subject().kernel;
     const std::string parameters = kernel.parameters;
@@ -169,10 +169,11 @@ std::string source(const std::string& kernel_text) {
     return text + body;
 }
 
-/// Lines that `is_wanted` takes, few enough to read.
+/// The lines that `is_wanted` accepts, few enough to read.
 std::string lines_of(const std::string& log, const std::function<bool(const std::string&)>& is_wanted) {
     std::istringstream lines(log);
-    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+    lines.exceptions(std::ios::badbit);  // otherwise std::getline() swallows std::bad_alloc, and the rest is
+                                         // lost
     std::string result;
     int shown = 0;
     for (std::string line; std::getline(lines, line) && shown < 4;) {
@@ -224,7 +225,7 @@ fs::path sdk_include_directory() {
 
 TemporaryDirectory::TemporaryDirectory() {
     std::string name = (fs::temp_directory_path() / "candela-kernel-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) FAIL("no folder can be made in " << fs::temp_directory_path());
+    if (::mkdtemp(name.data()) == nullptr) FAIL("cannot create a folder in " << fs::temp_directory_path());
     path_ = name;
 }
 
@@ -245,21 +246,21 @@ KernelInputs kernel_inputs(const Values& values) {
 
 CompiledKernel::CompiledKernel(const std::string& text, KernelAuthor author) {
     const auto compiler = candela::cxx_compiler();
-    if (!compiler) SKIP("there is no C++ compiler here");
+    if (!compiler) SKIP("no C++ compiler is installed");
     const fs::path include = sdk_include_directory();
-    if (include.empty()) SKIP("Candela's headers are not installed beside the kit");
+    if (include.empty()) SKIP("Candela's headers are not installed with the kit");
     const fs::path file = directory_.path() / "kernel.cpp";
     std::ofstream(file) << source(text);
-    // What it needs of the libraries is in the process already that loads it.
+    // The process that loads it already contains what it needs from libraries.
     std::vector<std::string> words{compiler->string(), "-std=c++20", "-O1",   "-fPIC",
                                    "-shared",          "-nostdlib",  "-Wall", "-Wextra",
                                    "-ffp-contract=off"};
-    // A local variable that is not initialised is NaN then; g++ 11 has no such option.
+    // Makes uninitialised local variables NaN; g++ 11 does not have this option.
     if (compiler->filename().string().find("clang") != std::string::npos)
         words.emplace_back("-ftrivial-auto-var-init=pattern");
-    // A loop without an end is to be found, not to be taken for one that ends.
+    // An infinite loop must be detected; the compiler must not assume that it ends.
     words.emplace_back("-fno-finite-loops");
-    // From an overflow, a compiler would conclude that an index is in range.
+    // From overflow being undefined, a compiler would conclude that an index is in range.
     if (author == KernelAuthor::anybody) words.insert(words.end(), {"-fwrapv", "-fstack-clash-protection"});
     words.insert(words.end(), {"-isystem", include.string(), file.string(), "-o", library().string()});
     const candela::ProgramOutput compiled = candela::run_program(words);

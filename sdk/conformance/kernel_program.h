@@ -1,4 +1,4 @@
-// A plugin's kernel text, compiled by whatever compiler this machine has.
+// A plugin's kernel text, compiled by this machine's compiler.
 #pragma once
 
 #include <boost/dll/shared_library.hpp>
@@ -10,13 +10,13 @@
 
 #include "batch.h"
 
-/// The folder that has candela/kernel.h, above the kit's own; empty where there is none.
+/// The folder that contains candela/kernel.h, above the kit's own; empty if there is none.
 std::filesystem::path sdk_include_directory();
 
-/// "cel.kernel": what messages call the plugin's kernel text, whose lines they count.
+/// "cel.kernel": the name of the plugin's kernel text in messages, which count its lines.
 std::string kernel_file_name();
 
-/// A folder that is gone when this is.
+/// A folder that is removed with this object.
 class TemporaryDirectory {
   public:
     TemporaryDirectory();
@@ -29,23 +29,23 @@ class TemporaryDirectory {
     std::filesystem::path path_;
 };
 
-/// What the compiler, or the loader, says of a text that cannot be run.
+/// The message of the compiler, or the loader, about a text that cannot be run.
 class KernelRefused : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Who has written a kernel's text, and with which care it is compiled.
+/// Who wrote a kernel's text, which determines the care with which it is compiled.
 enum class KernelAuthor : bool { of_the_plugin, anybody };
 
-/// A kernel's text, with functions that call its functions, as a library that nobody has loaded.
+/// A kernel's text, and functions that call its functions, as a library that is not yet loaded.
 class CompiledKernel {
   public:
-    /// Throws KernelRefused where the text is not C++; skips the check where there is no compiler.
+    /// Throws KernelRefused if the text is not C++; skips the check if there is no compiler.
     CompiledKernel(const std::string& text, KernelAuthor author);
     std::filesystem::path library() const { return directory_.path() / "kernel.so"; }
-    /// What the compiler warns of in the kernel's text, a line each, with the warnings that generated
-    /// programs are compiled with; `unused`: those of variables that nobody reads.
+    /// The compiler's warnings about the kernel's text, one per line, with the warning options of generated
+    /// programs; `unused`: those about variables that are never read.
     const std::string& warnings() const { return warnings_; }
     const std::string& unused() const { return unused_; }
 
@@ -54,23 +54,23 @@ class CompiledKernel {
     std::string warnings_, unused_;
 };
 
-/// What the functions of a compiled kernel are given beside the points.
+/// The inputs of a compiled kernel's functions in addition to the points.
 struct KernelInputs {
     std::vector<float> parameters;
     std::vector<std::vector<float>> tables;  // by parameter
 };
 KernelInputs kernel_inputs(const Values& values);
 
-/// The text as C++: `run` does what the plugin's call of that name does, one point after another.
+/// The text as C++: `run` computes the same as the plugin's call of that name, one point after another.
 class KernelProgram {
   public:
-    /// Of the plugin. Fails the check, with what the compiler says, where the text is not C++; skips it where
-    /// there is no compiler.
+    /// Compiles the plugin's kernel. Fails the check, with the compiler's message, if the text is not C++;
+    /// skips it if there is no compiler.
     KernelProgram();
 
     const CompiledKernel& compiled() const { return compiled_; }
 
-    /// What the calls of batch_subject() give, by name; `sample` is the light's.
+    /// Computes the results of the calls of batch_subject(), by name; `sample` is the light's.
     void run(const std::string& call, const Values& values, int sample, const Arrays& in, Arrays& out) const;
     /// A shape's position at (u, v) of its parameter square.
     candela::Vec3 position(const Values& values, float u, float v) const;

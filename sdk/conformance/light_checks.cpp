@@ -1,4 +1,4 @@
-// What must hold of lights, and what they declare.
+// Requirements for lights, and for what they declare.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -22,7 +22,7 @@ std::optional<Vec3> position_in(const Values& values) {
     return p != nullptr ? std::optional(*p) : std::nullopt;
 }
 
-/// The sum of what the samples tried send, diffusely, to receivers that face the light.
+/// The total diffuse light of the tested samples at receivers that face the light.
 std::vector<float> sent_to(const Values& values, const std::vector<Vec3>& points, Vec3 normal) {
     Arrays in = inputs_for(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -40,8 +40,8 @@ std::vector<float> sent_to(const Values& values, const std::vector<Vec3>& points
 
 constexpr float k_far = 1e5f;
 
-/// How many times as much light comes to 2 k_far as to k_far, by the parameters that the shipped lights share
-/// (candela/light_plugin.h); nothing where it has none of them.
+/// The ratio of the light at 2 k_far to that at k_far, according to the parameters that the shipped lights
+/// share (candela/light_plugin.h); nothing if the light has none of them.
 std::optional<double> law_of_parameters(const Values& values) {
     const candela::ParamSet& set = values.set;
     const auto value = [&](const char* name) -> const candela::Value* {
@@ -59,7 +59,7 @@ std::optional<double> law_of_parameters(const Values& values) {
     return (double{k_far} + *k) / (2 * double{k_far} + *k);
 }
 
-/// Whether a way that goes on from there in a direction goes away from each sample of the light.
+/// Whether a path from the point in that direction leads away from each sample of the light.
 bool is_beyond_all_samples(const Values& values, Vec3 point, Vec3 direction) {
     Arrays in = inputs_for(1);
     in.vec3(18).set(0, point);
@@ -71,7 +71,7 @@ bool is_beyond_all_samples(const Values& values, Vec3 point, Vec3 direction) {
     return true;
 }
 
-/// Holds what a light sends against what it says of itself, in double precision.
+/// Compares what a light sends with its description of itself, in double precision.
 void compare_with_data(const candela::Light& light, int sample, const candela::PunctualLight& data,
                        const Arrays& in, const Values& values) {
     Arrays out(9, in.count());
@@ -93,7 +93,7 @@ void compare_with_data(const candela::Light& light, int sample, const candela::P
                             differ(out.at(6, i), specular);
         if (is_off && differing++ == 0) first = i;
     }
-    // At the edge of a cone that is hard, the last bit decides on which side of it a point is.
+    // At the edge of a hard cone, the last bit decides on which side a point is.
     constexpr double k_may_be_at_edges = 0.02;
     if (static_cast<double>(differing) > k_may_be_at_edges * static_cast<double>(in.count())) {
         const ExactIncident exact = incident_of(data, in.at(inputs::k_position, first));
@@ -106,7 +106,7 @@ void compare_with_data(const candela::Light& light, int sample, const candela::P
 
 }  // namespace
 
-TEST_CASE("directions: where light comes from is a unit vector, to a millionth", "[light]") {
+TEST_CASE("directions: the direction to the light is a unit vector, to a millionth", "[light]") {
     const Arrays in = inputs_for(1000);
     for (const Values& values : many_values()) {
         for (const Call& call : batch_subject(values).calls) {
@@ -116,14 +116,14 @@ TEST_CASE("directions: where light comes from is a unit vector, to a millionth",
                 const Vec3 l = out.at(0, i);
                 const double size = std::sqrt(double{l.x} * l.x + double{l.y} * l.y + double{l.z} * l.z);
                 if (std::abs(size - 1) > 1e-6)
-                    FAIL(call.name << " gives a direction of length " << size << ", for "
+                    FAIL(call.name << " returns a direction of length " << size << ", for "
                                    << text_of_input(in, i) << ", with " << values.text);
             }
         }
     }
 }
 
-TEST_CASE("towards: from far away, what a light says is the way to it leads to it", "[light]") {
+TEST_CASE("towards: from far away, the returned direction leads to the light", "[light]") {
     constexpr float k_distance = 1e5f;
     const auto vector_called = [](const Values& values, const char* name) {
         const std::size_t index = values.set.index_of(name);
@@ -133,7 +133,7 @@ TEST_CASE("towards: from far away, what a light says is the way to it leads to i
     };
     for (const Values& values : many_values(10)) {
         const auto position = position_in(values), direction = vector_called(values, "direction");
-        if (!position && !direction) SKIP("it has neither a 'position' nor a 'direction'");
+        if (!position && !direction) SKIP("it has neither 'position' nor 'direction'");
         for (const Vec3 d :
              {Vec3{0, -1, 0}, Vec3{0, 1, 0}, Vec3{0.6f, -0.64f, 0.48f}, Vec3{-0.48f, 0.6f, 0.64f}}) {
             Arrays in = inputs_for(1);
@@ -146,8 +146,8 @@ TEST_CASE("towards: from far away, what a light says is the way to it leads to i
                 const bool is_dark = out.at(3, 0) == Vec3{} && out.at(6, 0) == Vec3{};
                 const Vec3 l = out.at(0, 0);
                 if (is_dark || dot(l, expected) > 0) continue;
-                FAIL(call.name << " says that its light is in the direction [" << l.x << ", " << l.y << ", "
-                               << l.z << "], and "
+                FAIL(call.name << " returns a light in the direction [" << l.x << ", " << l.y << ", " << l.z
+                               << "], and "
                                << (position ? "its position is" : "light with that 'direction' comes from")
                                << " on the other side, for " << text_of_input(in, 0) << ", with "
                                << values.text);
@@ -156,7 +156,8 @@ TEST_CASE("towards: from far away, what a light says is the way to it leads to i
     }
 }
 
-TEST_CASE("zero distance: a receiver at the light itself gets finite light from some direction", "[light]") {
+TEST_CASE("zero distance: a receiver at the light itself receives finite light from some direction",
+          "[light]") {
     for (const Values& values : many_values()) {
         const auto position = position_in(values);
         if (!position) SKIP("it has no position");
@@ -167,7 +168,7 @@ TEST_CASE("zero distance: a receiver at the light itself gets finite light from 
             const Arrays out = outputs_of(call, in);
             for (std::size_t a = 0; a < out.arrays(); ++a) {
                 if (!std::isfinite(out[a][0]) || !std::isfinite(out[a][63]))
-                    FAIL(call.name << " gives " << out[a][0] << " as " << call.outputs[a / 3]
+                    FAIL(call.name << " returns " << out[a][0] << " as " << call.outputs[a / 3]
                                    << " at the light's own position, with " << values.text);
             }
         }
@@ -183,15 +184,15 @@ TEST_CASE("fall-off, as declared: constant, or never brighter farther away", "[l
             const std::vector<float> sent =
                 sent_to(values, {{0, 0, 0}, {3, -2, 1}, {-100, 50, 20}}, {0, 1, 0});
             if (sent[0] != sent[1] || sent[0] != sent[2])
-                FAIL("declared constant, it sends " << sent[0] << " to one point and " << sent[2]
-                                                    << " to another, with " << values.text);
+                FAIL("declared constant, but it sends " << sent[0] << " to one point and " << sent[2]
+                                                        << " to another, with " << values.text);
             continue;
         }
         const auto position = position_in(values);
         if (!position)
             FAIL(
-                "it declares attenuation by distance, and has no parameter 'position' that the distance is "
-                "from");
+                "it declares attenuation by distance, but has no parameter 'position' to measure the "
+                "distance from");
         const std::optional<double> expected = law_of_parameters(values);
         for (const Vec3 d : {Vec3{0, -1, 0}, Vec3{0.6f, -0.64f, 0.48f}, Vec3{-0.48f, 0.6f, 0.64f}}) {
             const std::vector<float> far =
@@ -202,23 +203,24 @@ TEST_CASE("fall-off, as declared: constant, or never brighter farther away", "[l
                      << *expected << " times as much to " << 2 * k_far << " m as to " << k_far
                      << " m; it sends " << ratio << " times as much, with " << values.text);
             if (far[0] > 0 && !expected && !(ratio < 0.999))
-                FAIL("declared to fade by distance, it sends " << ratio << " times as much to " << 2 * k_far
-                                                               << " m as to " << k_far << " m, with "
-                                                               << values.text);
+                FAIL("declared to fade with distance, but it sends "
+                     << ratio << " times as much to " << 2 * k_far << " m as to " << k_far << " m, with "
+                     << values.text);
             float distance = 50;
             while (distance < 1e6f && !is_beyond_all_samples(values, *position + distance * d, d))
                 distance *= 2;
             const std::vector<float> sent =
                 sent_to(values, {*position + distance * d, *position + 2 * distance * d}, -d);
             if (sent[1] > sent[0] * 1.001f)
-                FAIL("declared to fade by distance, it sends " << sent[0] << " to " << distance << " m and "
-                                                               << sent[1] << " to " << 2 * distance
-                                                               << " m, with " << values.text);
+                FAIL("declared to fade with distance, but it sends "
+                     << sent[0] << " to " << distance << " m and " << sent[1] << " to " << 2 * distance
+                     << " m, with " << values.text);
         }
     }
 }
 
-TEST_CASE("samples: their number is not negative, and a light without any has an ambient part", "[light]") {
+TEST_CASE("samples: their number is not negative, and a light without samples has an ambient part",
+          "[light]") {
     for (const Values& values : many_values()) {
         const auto light = make<candela::Light>(values);
         if (light->sample_count() < 0)
@@ -228,7 +230,7 @@ TEST_CASE("samples: their number is not negative, and a light without any has an
     }
 }
 
-TEST_CASE("data: what a light says of itself as data is what it sends", "[light]") {
+TEST_CASE("data: the light's description of itself as data matches what it sends", "[light]") {
     Arrays in = inputs_for(500, 41);
     for (const Values& values : many_values()) {
         const auto light = make<candela::Light>(values);
@@ -243,7 +245,7 @@ TEST_CASE("data: what a light says of itself as data is what it sends", "[light]
                 if (!(candela::length(out.at(0, i) - Vec3{ambient.r, ambient.g, ambient.b}) <=
                       1e-5f * candela::length(out.at(0, i))))
                     FAIL("as data, its ambient light is ["
-                         << ambient.r << ", " << ambient.g << ", " << ambient.b << "]; it sends ["
+                         << ambient.r << ", " << ambient.g << ", " << ambient.b << "]; but it sends ["
                          << out[0][i] << ", " << out[1][i] << ", " << out[2][i] << "] for "
                          << text_of_input(in, i) << ", with " << values.text);
             }

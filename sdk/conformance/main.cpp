@@ -1,8 +1,8 @@
 // candela-conformance PLUGIN.so… [--json] [--check TEXT] [--set NAME=VALUE] [--time-limit SECONDS]
 //                     [--in-process] [--list KIND] [--answer FILE]
 //
-// The conformance kit: every group of checks in a process of its own. Run by `candela plugin test` and by the
-// tests that candela_add_plugin() makes.
+// The conformance kit: every group of checks in its own process. Run by `candela plugin test` and by the
+// tests that candela_add_plugin() creates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,10 +30,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As of the command, which runs this program.
+/// The command's codes; the command runs this program.
 enum class ExitCode : int { ok = 0, failure = 1, usage = 2, verification_failed = 4 };
 
-// A plugin that never returns would take its time in every check.
+// A plugin that never returns would use up its time in every check.
 constexpr int k_most_timed_out = 2;
 
 struct Options {
@@ -52,14 +52,14 @@ struct Report {
     std::vector<Outcome> outcomes;
 };
 
-/// The kind by the file's name: the manifest may be what is wrong.
+/// The kind according to the file's name: the manifest may be at fault.
 std::string kind_of(const fs::path& library) {
     const std::string name = library.filename().string();
     const std::string kind = name.substr(0, name.find('-'));
     return candela::plugin_kind_named(kind) ? kind : "all";
 }
 
-/// Says at once what came of a check: the next one may take long.
+/// Prints the result of a check at once, because the next one may take long.
 void print(const Outcome& outcome) {
     std::cout << fmt::format("  {:<9} {}\n", name_of(outcome.verdict), outcome.group);
     for (const std::string& message : outcome.messages) std::cout << fmt::format("            {}\n", message);
@@ -142,7 +142,7 @@ nlohmann::ordered_json json_of(const Report& report) {
             {"checks", std::move(outcomes)}};
 }
 
-/// "did you mean 'energy-bounded'?  ", by the words that checks' names begin with.
+/// "did you mean 'energy-bounded'?  ", from the words with which checks' names begin.
 std::string suggested_check(const std::string& name, const std::string& kind) {
     std::vector<std::string> words;
     for (const std::string& group : groups_for(kind)) {
@@ -154,11 +154,11 @@ std::string suggested_check(const std::string& name, const std::string& kind) {
     return meant.empty() ? meant : meant + "  ";
 }
 
-/// Nothing of a plugin that no check was run on is known.
+/// A plugin on which no check was run must not pass.
 std::string problem_with_filter(const Options& options) {
     if (options.only.empty()) return {};
     for (const std::string& file : options.files) {
-        if (!fs::is_regular_file(file)) continue;  // that is said when it is its turn
+        if (!fs::is_regular_file(file)) continue;  // reported when it is its turn
         const std::string kind = kind_of(file);
         if (std::ranges::any_of(groups_for(kind), [&](const std::string& group) {
                 return group.find(options.only) != std::string::npos;
@@ -179,17 +179,17 @@ int run(int argc, char** argv) {
     Options options;
     std::vector<std::string> settings;
     po::options_description visible;
-    visible.add_options()("help,h", "this help")("json", "as JSON")(
+    visible.add_options()("help,h", "show this help")("json", "print JSON")(
         "check", po::value<std::string>(&options.only)->value_name("TEXT"),
         "only the checks whose name contains TEXT")(
         "set", po::value<std::vector<std::string>>(&settings)->value_name("NAME=VALUE")->composing(),
         "a parameter's value for all checks, such as a file that the plugin needs (repeatable)")(
         "answer", po::value<std::string>(&options.answer)->value_name("FILE"),
-        "instead, judge another kernel text for the plugin, as candela exercise grade does")(
-        "in-process", "all checks in this process, without a time limit: for a debugger")(
+        "judge another kernel text for the plugin instead, like candela exercise grade")(
+        "in-process", "run all checks in this process, without a time limit: for a debugger")(
         "time-limit", po::value<double>(&options.time_limit)->value_name("SECONDS")->default_value(45, "45"),
         "for each check")("list", po::value<std::string>()->value_name("KIND"),
-                          "the checks for a kind of plugin");
+                          "list the checks for a kind of plugin");
     po::options_description all;
     all.add(visible).add_options()("file", po::value<std::vector<std::string>>(&options.files));
     po::positional_options_description positional;
@@ -198,9 +198,8 @@ int run(int argc, char** argv) {
     po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
     po::notify(values);
     if (values.contains("help")) {
-        std::cout << "Usage: candela plugin test PLUGIN.so... [options]\n\nChecks plugins for all that a "
-                     "host relies on, each check in a "
-                     "process of its own.\n\n"
+        std::cout << "Usage: candela plugin test PLUGIN.so... [options]\n\nChecks everything about plugins "
+                     "that a host relies on, each check in its own process.\n\n"
                   << visible;
         return 0;
     }
@@ -211,21 +210,21 @@ int run(int argc, char** argv) {
             for (const candela::PluginKind k : candela::k_plugin_kinds)
                 kinds.emplace_back(candela::name_of(k));
             const std::string meant = candela::suggestion(kind, kinds);
-            return usage(fmt::format("'{}' is no kind of plugin; {}(kinds: {})", kind,
+            return usage(fmt::format("unknown plugin kind '{}'; {}(kinds: {})", kind,
                                      meant.empty() ? "" : meant + ' ', fmt::join(kinds, ", ")));
         }
         for (const std::string& group : groups_for(kind)) std::cout << group << '\n';
         return 0;
     }
-    if (options.files.empty()) return usage("name one plugin or more, such as build/reflection-cel.so");
+    if (options.files.empty()) return usage("name at least one plugin, such as build/reflection-cel.so");
     constexpr double k_longest_limit = 86'400;
     if (!(options.time_limit > 0 && options.time_limit <= k_longest_limit))
-        return usage(fmt::format("--time-limit is {}; it can be more than 0, to {} seconds",
+        return usage(fmt::format("--time-limit is {}; it must be more than 0 and at most {} seconds",
                                  options.time_limit, k_longest_limit));
     options.json = values.contains("json");
     options.in_process = values.contains("in-process");
     if (options.in_process && options.files.size() > 1)
-        return usage("--in-process takes one plugin: another could not be told from it");
+        return usage("--in-process takes one plugin: it could not tell several apart");
     for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
         if (equals == 0 || equals == std::string::npos)
@@ -260,7 +259,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // Such a process has no business but this one.
+    // Such a process has no other task.
     if (argc == 3 && std::string_view(argv[1]) == k_compute_option) compute_answer(argv[2]);
     try {
         return run(argc, argv);

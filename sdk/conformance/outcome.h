@@ -1,4 +1,4 @@
-// What came of one group of checks.
+// The result of one group of checks.
 #pragma once
 
 #include <string>

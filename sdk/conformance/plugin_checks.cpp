@@ -1,4 +1,4 @@
-// What must hold of every plugin.
+// Requirements for every plugin.
 #include <malloc.h>
 
 #include <boost/dll/library_info.hpp>
@@ -18,7 +18,7 @@ std::size_t threads_of_this_process() {
         std::distance(std::filesystem::directory_iterator("/proc/self/task"), {}));
 }
 
-/// What the allocator has given out.
+/// The memory in use according to the allocator.
 std::size_t bytes_in_use() {
     const struct mallinfo2 info = ::mallinfo2();
     return info.uordblks + info.hblkhd;
@@ -35,11 +35,11 @@ TEST_CASE("handshake: it loads, its fingerprint is this Candela's, its manifest 
         WARN("loading it took " << static_cast<int>(ms) << " ms: every render that uses it waits for that");
 }
 
-TEST_CASE("file name: <kind>-<name>.so, as the host looks for it", "[all]") {
+TEST_CASE("file name: <kind>-<name>.so, as the host expects it", "[all]") {
     const candela::Manifest& m = subject_manifest();
     const std::string expected = std::string(candela::name_of(m.kind)) + "-" + m.name + ".so";
     if (subject_library().filename() != expected)
-        FAIL("the library is called '" << subject_library().filename().string() << "', so that nobody finds '"
+        FAIL("the library is called '" << subject_library().filename().string() << "', so hosts do not find '"
                                        << expected << "'");
 }
 
@@ -62,8 +62,9 @@ TEST_CASE("description: a title, a summary, and a meaning for each parameter", "
         WARN("it names no paper or book; readers want to know where a model comes from");
 }
 
-TEST_CASE("parameters: each default is within its own range, and the defaults agree with one another",
-          "[all]") {
+TEST_CASE(
+    "parameters: each default is within its own range, and the defaults are consistent with one another",
+    "[all]") {
     const candela::Manifest& m = subject_manifest();
     for (const candela::Parameter& p : m.parameters) {
         if (!p.default_value) continue;
@@ -77,8 +78,9 @@ TEST_CASE("parameters: each default is within its own range, and the defaults ag
     }
 }
 
-TEST_CASE("instances: one can be made with every allowed set of values, and they clean up after themselves",
-          "[all]") {
+TEST_CASE(
+    "instances: one can be created with every allowed set of values, and they clean up after themselves",
+    "[all]") {
     if (needs_a_file()) SKIP("it needs a file that only a user has");
     const candela::PluginDescriptor& plugin = subject();
     const std::size_t before = threads_of_this_process();
@@ -102,8 +104,8 @@ TEST_CASE("instances: one can be made with every allowed set of values, and they
     for (std::size_t i = 0; i < k_instances; ++i) delete plugin.create(delivered);
     const std::size_t memory_after = bytes_in_use();
     if (memory_after > memory_before + k_instances * k_negligible)
-        FAIL("each instance that is deleted leaves " << (memory_after - memory_before) / k_instances / 1024
-                                                     << " KiB of memory behind");
+        FAIL("each deleted instance leaks " << (memory_after - memory_before) / k_instances / 1024
+                                            << " KiB of memory");
     const std::size_t after = threads_of_this_process();
     if (after > before)
         FAIL("it leaves " << after - before << " threads running after its instances are gone");

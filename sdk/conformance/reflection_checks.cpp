@@ -1,4 +1,4 @@
-// What must hold of reflection models, and what they declare.
+// Requirements for reflection models, and for what they declare.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 constexpr Vec3 k_up{0, 1, 0};
 constexpr Vec3 k_tangent{1, 0, 0};
 
-/// What a model reflects of white light of intensity 1, for many pairs of directions on one surface.
+/// The reflection of white light of intensity 1 by a model, for many pairs of directions on one surface.
 class Reflections {
   public:
     explicit Reflections(const Values& values) : model_(make<ReflectionModel>(values)) {}
@@ -30,7 +30,7 @@ class Reflections {
         return of(inputs(to_observer, to_light, normal, tangent));
     }
 
-    /// The same, for what is asked of several models.
+    /// The same inputs, for comparing several models.
     static Arrays inputs(const std::vector<Vec3>& to_observer, const std::vector<Vec3>& to_light,
                          Vec3 normal = k_up, Vec3 tangent = k_tangent) {
         const std::size_t count = to_light.size();
@@ -84,9 +84,9 @@ std::vector<Vec3> random_directions_above(std::size_t count, unsigned seed) {
     return result;
 }
 
-/// The share of light that leaves towards an observer: the integral of what is reflected over all directions
-/// of light, over pi (a white Lambert surface has 1). Polar coordinates around the mirror direction, its
-/// distance in even steps of its logarithm, so that narrow highlights are met: 16,384 directions.
+/// The fraction of light that leaves towards an observer: the integral of the reflection over all directions
+/// of light, over pi (a white Lambert surface has 1). Polar coordinates around the mirror direction, with
+/// distances in even logarithmic steps to catch narrow highlights: 16,384 directions.
 class DirectionalAlbedo {
   public:
     explicit DirectionalAlbedo(Vec3 to_observer)
@@ -138,8 +138,8 @@ class DirectionalAlbedo {
     Arrays inputs_;
 };
 
-/// Values at which k_d + k_s does not exceed 1: where a model says that such a sum gives out more light than
-/// it receives, its energy is bounded only there.
+/// Values for which k_d + k_s does not exceed 1: if a model says that a larger sum reflects more light than
+/// it receives, its energy is bounded only for these.
 bool is_bounded(const Values& values) {
     return std::ranges::none_of(subject_manifest().relations, [&](const candela::Relation& relation) {
         return candela::validation_error(relation, values.set).has_value();
@@ -148,7 +148,7 @@ bool is_bounded(const Values& values) {
 
 }  // namespace
 
-TEST_CASE("horizon: light from below the surface is not reflected, unless it is declared", "[reflection]") {
+TEST_CASE("horizon: light from below the surface is not reflected, unless declared", "[reflection]") {
     if (declares("lights-below-horizon")) SKIP("it declares lights-below-horizon");
     const std::vector<Vec3> observers = random_directions_above(500, 2);
     std::vector<Vec3> lights;
@@ -164,8 +164,10 @@ TEST_CASE("horizon: light from below the surface is not reflected, unless it is 
     }
 }
 
-TEST_CASE("grazing: what comes or goes along the surface, or straight up, is finite and not negative",
-          "[reflection]") {
+TEST_CASE(
+    "grazing: light and observers along the surface, or straight above it, yield finite, non-negative "
+    "results",
+    "[reflection]") {
     std::vector<Vec3> observers, lights;
     const std::vector<double> angles{0,
                                      1e-4,
@@ -198,8 +200,7 @@ TEST_CASE("grazing: what comes or goes along the surface, or straight up, is fin
     }
 }
 
-TEST_CASE("reciprocal, where it is declared: light and observer may change places (Helmholtz)",
-          "[reflection]") {
+TEST_CASE("reciprocal, if declared: light and observer may change places (Helmholtz)", "[reflection]") {
     if (declared("reciprocal").empty()) SKIP("not declared");
     const std::vector<Vec3> v = random_directions_above(2000, 4), l = random_directions_above(2000, 5);
     for (const Values& values : many_values()) {
@@ -208,7 +209,7 @@ TEST_CASE("reciprocal, where it is declared: light and observer may change place
         const std::vector<Vec3> forth = reflections.of(v, l), back = reflections.of(l, v);
         for (std::size_t i = 0; i < v.size(); ++i) {
             if (v[i].y < 0.01f || l[i].y < 0.01f) continue;
-            // What is reflected holds the cosine of the light; without it the two agree.
+            // The reflection includes the cosine of the light; without it the two agree.
             const double a = double{largest(forth[i])} / double{l[i].y},
                          b = double{largest(back[i])} / double{v[i].y};
             if (!(std::abs(a - b) <= 1e-5 * std::max(a, b) + 1e-6))
@@ -220,8 +221,7 @@ TEST_CASE("reciprocal, where it is declared: light and observer may change place
     }
 }
 
-TEST_CASE("energy-bounded, where it is declared: no direction receives more light than falls in",
-          "[reflection]") {
+TEST_CASE("energy-bounded, if declared: no direction receives more light than falls in", "[reflection]") {
     if (declared("energy-bounded").empty()) SKIP("not declared");
     std::vector<Values> bounded;
     std::vector<Reflections> models;
@@ -236,14 +236,13 @@ TEST_CASE("energy-bounded, where it is declared: no direction receives more ligh
         for (std::size_t k = 0; k < models.size(); ++k) {
             const double share = albedo.of(models[k]);
             if (!(share <= 1.01))
-                FAIL("it sends out " << share << " times the light that falls in, towards an observer at "
-                                     << degrees << " degrees from N, with " << bounded[k].text);
+                FAIL("it emits " << share << " times the incident light towards an observer at " << degrees
+                                 << " degrees from N, with " << bounded[k].text);
         }
     }
 }
 
-TEST_CASE("isotropic, where it is declared: turning the surface about its normal changes nothing",
-          "[reflection]") {
+TEST_CASE("isotropic, if declared: turning the surface about its normal changes nothing", "[reflection]") {
     if (declared("isotropic").empty()) SKIP("not declared");
     const std::vector<Vec3> v = random_directions_above(300, 6), l = random_directions_above(300, 7);
     for (const Values& values : many_values(10)) {
@@ -264,8 +263,8 @@ TEST_CASE("isotropic, where it is declared: turning the surface about its normal
 
 namespace {
 
-/// What reflect() and reflect_ambient() make of lighting that is data, light by light, with all vectors to
-/// the lights turned a little.
+/// The results of reflect() and reflect_ambient() for lighting that is data, light by light, with all vectors
+/// to the lights turned slightly.
 std::vector<Vec3> one_by_one(const Values& values, const Arrays& given, Vec3 turn) {
     const candela::PunctualLighting& lighting = punctual_lighting();
     Arrays in = given;
@@ -300,14 +299,14 @@ std::vector<Vec3> one_by_one(const Values& values, const Arrays& given, Vec3 tur
 
 }  // namespace
 
-TEST_CASE("in one go: of many lights a model makes what it makes of them one by one", "[reflection]") {
+TEST_CASE("in one go: a model reflects many lights like their sum one by one", "[reflection]") {
     const Arrays in = inputs_for(500, 31);
     for (const Values& values : many_values(10)) {
         const BatchSubject subject = batch_subject(values);
         const auto call = std::ranges::find(subject.calls, "reflect_punctual", &Call::name);
         if (call == subject.calls.end()) SKIP("it has no reflect_punctual()");
         const Arrays out = outputs_of(*call, in);
-        // Where a highlight is sharp, or a model has steps, directions that differ by rounding tell.
+        // Sharp highlights and models with steps are sensitive even to rounding of directions.
         constexpr float k_rounding = 1e-6f;
         std::vector<std::vector<Vec3>> sums;
         for (const Vec3 turn :
@@ -323,8 +322,8 @@ TEST_CASE("in one go: of many lights a model makes what it makes of them one by 
             }
             const float rounding = high - low + 1e-5f * high + 1e-6f;
             if (!(got >= low - rounding && got <= high + rounding))
-                FAIL("reflect_punctual gives "
-                     << got << " of three lights and ambient light; one by one they "
+                FAIL("reflect_punctual returns "
+                     << got << " for three lights and ambient light; one by one they "
                      << "are " << largest(sums[0][i]) << ", for " << text_of_input(in, i) << ", with "
                      << values.text);
         }
@@ -332,7 +331,7 @@ TEST_CASE("in one go: of many lights a model makes what it makes of them one by 
 }
 
 TEST_CASE(
-    "colours: a point with a colour of its own looks as it does on a surface that is all of that colour",
+    "colours: a point with its own colour looks like a point of a surface that has that colour everywhere",
     "[reflection]") {
     constexpr std::size_t k_points = 70;  // more than a pass of the SDK's loops
     const Arrays in = inputs_for(k_points, 37);
@@ -349,7 +348,7 @@ TEST_CASE(
                     const float expected = alone[channel][0], got = together[c][channel][i];
                     if (!(std::abs(got - expected) <= 1e-5f * std::abs(expected) + 1e-6f))
                         FAIL(own.calls[c].name
-                             << " gives " << got << " in " << own.calls[c].outputs[channel / 3]
+                             << " returns " << got << " in " << own.calls[c].outputs[channel / 3]
                              << " at point " << i << ", whose colour is [" << color.x << ", " << color.y
                              << ", " << color.z << "] (SurfaceBatch::point_color), and " << expected
                              << " where the surface has that colour, for " << text_of_input(in, i)
@@ -360,7 +359,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("surroundings: where one intensity comes from everywhere, no more than that is seen in the object",
+TEST_CASE("surroundings: with one intensity from everywhere, no more than that is visible in the object",
           "[reflection]") {
     class Furnace final : public candela::Surroundings {
       public:
@@ -380,7 +379,7 @@ TEST_CASE("surroundings: where one intensity comes from everywhere, no more than
     };
     for (const Values& values : many_values()) {
         const auto model = make<ReflectionModel>(values);
-        if (!model->shows_surroundings()) SKIP("it does not show what surrounds the object");
+        if (!model->shows_surroundings()) SKIP("it does not show its surroundings");
         const Arrays in = inputs_for(1000);
         Arrays out(9, in.count());
         Furnace furnace;

@@ -16,7 +16,7 @@
 
 namespace {
 
-// Sanitizers have terabytes of shadow memory, of which little is used.
+// Sanitizers have terabytes of shadow memory, little of which is used.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define CANDELA_HAS_SHADOW_MEMORY
 #elif defined(__has_feature)
@@ -38,7 +38,7 @@ constexpr __u32 k_architecture = AUDIT_ARCH_X86_64;
 #elif defined(__aarch64__)
 constexpr __u32 k_architecture = AUDIT_ARCH_AARCH64;
 #else
-#error "which system calls a process may make is said by number, so the architecture has to be known here"
+#error "system calls are allowed by number, so the architecture must be known here"
 #endif
 
 constexpr rlim_t k_mib = rlim_t{1024} * 1024;
@@ -50,7 +50,7 @@ void limit(int what, rlim_t soft, rlim_t hard) {
     if (::setrlimit(static_cast<__rlimit_resource>(what), &wanted) != 0) ::_exit(k_cannot_be_confined);
 }
 
-/// Of this process, in bytes.
+/// The size of this process, in bytes.
 rlim_t size_of_address_space() {
     unsigned long pages = 0;
     std::FILE* const file = std::fopen("/proc/self/statm", "r");
@@ -59,7 +59,7 @@ rlim_t size_of_address_space() {
     return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Memory, time, and the end.
+/// System calls for memory, time, and exiting.
 constexpr std::array k_allowed = {
     SYS_brk,
     SYS_mmap,
@@ -74,11 +74,11 @@ constexpr std::array k_allowed = {
     SYS_exit_group,
     SYS_exit,
 #if defined(CANDELA_HAS_SHADOW_MEMORY)
-    // AddressSanitizer asks at the end where the stack of signals is.
+    // At exit, AddressSanitizer asks for the signal stack.
     SYS_sigaltstack,
 #endif
 #if defined(CANDELA_CHECKS_TYPES)
-    // UndefinedBehaviorSanitizer learns whether an address can be read by writing from it into a pipe.
+    // UndefinedBehaviorSanitizer finds out whether an address is readable by writing from it into a pipe.
     SYS_pipe2,
     SYS_write,
     SYS_close,

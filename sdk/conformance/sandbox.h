@@ -1,16 +1,16 @@
-// Limits for what is not trusted: the text of an answer to an exercise, compiled and run.
+// Limits for untrusted code: the text of an answer to an exercise, compiled and run.
 #pragma once
 
 #include <cstddef>
 
-/// The exit code of a process that confine() has ended.
+/// The exit code of a process that could not be confined.
 inline constexpr int k_cannot_be_confined = 125;
 
-/// For this process and all that it starts, compilers: processor time, size of files and memory. They are
-/// limits on accidents; what may be in a text at all is decided before it comes here.
+/// Limits processor time, file size and memory of this process and its children, which are compilers. This
+/// protects against accidents; what a text may contain is decided before it comes here.
 void limit_compiling();
 
-/// From here on this process computes in the memory that it has, with `room` bytes more, for `seconds` of
-/// processor time, and does nothing else: any system call but those for memory and for ending ends it
-/// (SIGSYS). Ends the process where the system cannot be told so. Irrevocable; for a child.
+/// From now on, this process can only compute, in its present memory and `room` bytes more, for `seconds` of
+/// processor time: any system call except those for memory and for exiting ends it (SIGSYS). Ends the process
+/// if the system does not support this. Irrevocable; for a child.
 void confine(std::size_t room, unsigned seconds);

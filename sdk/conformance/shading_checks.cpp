@@ -1,4 +1,4 @@
-// What must hold of shading models.
+// Requirements for shading models.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,13 +21,13 @@ using candela::Vec3;
 
 namespace {
 
-/// A mesh with what vertex normals are made from.
+/// A mesh with the inputs from which vertex normals are made.
 struct Facets {
     std::vector<Vec3> position;
     std::vector<std::uint32_t> indices;
 
     std::vector<Vec3> vertex_normals(const ShadingModel& model) const;
-    /// What the model reads or writes outside the mesh's arrays; empty if nothing.
+    /// The model's accesses outside the mesh's arrays; empty if there are none.
     std::string trespass(const ShadingModel& model, Fence fence) const;
 
   private:
@@ -138,14 +138,14 @@ TEST_CASE("unit: normals are unit vectors, to a millionth, at every point and ve
         const Arrays out = outputs_of(subject.calls.front(), in);
         for (std::size_t i = 0; i < in.count(); ++i) {
             if (!(std::abs(candela::length(out.at(0, i)) - 1) <= 1e-6f))
-                FAIL("normals() gives a vector of length " << candela::length(out.at(0, i)) << ", for "
-                                                           << text_of_input(in, i) << ", with "
-                                                           << values.text);
+                FAIL("normals() returns a vector of length " << candela::length(out.at(0, i)) << ", for "
+                                                             << text_of_input(in, i) << ", with "
+                                                             << values.text);
         }
         for (const Vec3 n : landscape(0.4f).vertex_normals(*make<ShadingModel>(values))) {
             if (!(std::abs(candela::length(n) - 1) <= 1e-6f))
-                FAIL("vertex_normals() gives a vector of length " << candela::length(n) << ", with "
-                                                                  << values.text);
+                FAIL("vertex_normals() returns a vector of length " << candela::length(n) << ", with "
+                                                                    << values.text);
         }
     }
 }
@@ -178,7 +178,7 @@ TEST_CASE("plane: on a plane, every normal is the plane's", "[shading]") {
 
 namespace {
 
-/// With the vertex normals of the interface's own.
+/// Inherits vertex_normals().
 class DefaultNormals final : public ShadingModel {
   public:
     candela::ShadingRate shading_rate() const noexcept override { return candela::ShadingRate::fragment; }
@@ -187,7 +187,7 @@ class DefaultNormals final : public ShadingModel {
 
 }  // namespace
 
-TEST_CASE("defaults: vertex normals that are declared to be the default ones are", "[shading]") {
+TEST_CASE("defaults: a model that declares the default vertex normals has them", "[shading]") {
     const Facets mesh = landscape(0.5f);
     const std::vector<Vec3> defaults = mesh.vertex_normals(DefaultNormals());
     for (const Values& values : many_values(10)) {
@@ -204,7 +204,7 @@ TEST_CASE("defaults: vertex normals that are declared to be the default ones are
     }
 }
 
-TEST_CASE("order: vertex normals do not depend on how vertices and triangles are numbered", "[shading]") {
+TEST_CASE("order: vertex normals do not depend on the numbering of vertices and triangles", "[shading]") {
     const Facets mesh = landscape(0.5f);
     std::vector<std::uint32_t> place(mesh.position.size());
     std::iota(place.begin(), place.end(), 0u);
@@ -219,7 +219,8 @@ TEST_CASE("order: vertex normals do not depend on how vertices and triangles are
         const std::vector<Vec3> before = mesh.vertex_normals(*model), after = shuffled.vertex_normals(*model);
         for (std::size_t i = 0; i < place.size(); ++i) {
             if (!(distance(before[i], after[place[i]]) <= 1e-5f))
-                FAIL("numbered otherwise, vertex " << i << " has another normal, with " << values.text);
+                FAIL("with another numbering, vertex " << i << " has a different normal, with "
+                                                       << values.text);
         }
     }
 }
@@ -233,8 +234,8 @@ TEST_CASE("motion: turning and moving a mesh turns its normals", "[shading]") {
         const std::vector<Vec3> before = mesh.vertex_normals(*model), after = moved.vertex_normals(*model);
         for (std::size_t i = 0; i < before.size(); ++i) {
             if (!(distance(turned(before[i]), after[i]) <= 2e-5f))
-                FAIL("a mesh that is turned does not have its normals turned, at vertex " << i << ", with "
-                                                                                          << values.text);
+                FAIL("turning the mesh does not turn its normals, at vertex " << i << ", with "
+                                                                              << values.text);
         }
     }
 }
@@ -250,9 +251,9 @@ TEST_CASE("degenerate: triangles without area, and vertices without triangles, l
         const std::vector<Vec3> normals = mesh.vertex_normals(*make<ShadingModel>(values));
         for (std::size_t i = 0; i < normals.size(); ++i) {
             if (!std::isfinite(normals[i].x + normals[i].y + normals[i].z))
-                FAIL("beside triangles without area, vertex " << i << " has the normal [" << normals[i].x
-                                                              << ", " << normals[i].y << ", " << normals[i].z
-                                                              << "], with " << values.text);
+                FAIL("with triangles without area, vertex " << i << " has the normal [" << normals[i].x
+                                                            << ", " << normals[i].y << ", " << normals[i].z
+                                                            << "], with " << values.text);
         }
         Arrays in = inputs_for(32);
         for (std::size_t i = 0; i < 32; ++i) {
@@ -270,7 +271,7 @@ TEST_CASE("degenerate: triangles without area, and vertices without triangles, l
         for (std::size_t i = 0; i < 32; ++i) {
             const Vec3 n = out.at(0, i);
             if (!std::isfinite(n.x + n.y + n.z))
-                FAIL("where interpolated normals, derivatives or edges vanish, normals() gives ["
+                FAIL("where interpolated normals, derivatives or edges vanish, normals() returns ["
                      << n.x << ", " << n.y << ", " << n.z << "], with " << values.text);
         }
     }

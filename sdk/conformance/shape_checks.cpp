@@ -1,4 +1,4 @@
-// What must hold of shapes, and what they declare.
+// Requirements for shapes, and for what they declare.
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
@@ -40,7 +40,7 @@ struct Topology {
     double volume = 0;
 };
 
-/// Vertices at one place count as one.
+/// Vertices at one position count as one.
 Topology topology_of(const Mesh& mesh) {
     const auto p = mesh.position.span();
     const std::vector<std::uint32_t> place = candela::welded(p, mesh.vertex_count());
@@ -71,7 +71,7 @@ bool is_same(const Mesh& a, const Mesh& b) {
            same(a.dpdu, b.dpdu) && same(a.dpdv, b.dpdv) && same(a.color, b.color);
 }
 
-/// Arrays that end, or begin, at memory without access.
+/// Arrays that end, or begin, at inaccessible memory.
 class FencedMesh final : public candela::MeshSink {
   public:
     explicit FencedMesh(Fence fence) : fence_(fence) {}
@@ -118,7 +118,7 @@ void skip_if_it_needs_a_file() {
 
 }  // namespace
 
-TEST_CASE("usable: it has triangles, of vertices that there are, at finite places", "[shape]") {
+TEST_CASE("usable: it has triangles of existing vertices, at finite positions", "[shape]") {
     skip_if_it_needs_a_file();
     for (const Values& values : many_values(10)) {
         if (mesh_of(values).triangle_count() == 0) FAIL("it has no triangles, with " << values.text);
@@ -138,7 +138,7 @@ TEST_CASE("bounds: nothing is read or written outside the mesh's arrays", "[shap
     }
 }
 
-TEST_CASE("closed, where it is declared: every edge lies between two triangles that agree on what is outside",
+TEST_CASE("closed, if declared: every edge lies between two triangles that agree on which side is outside",
           "[shape]") {
     skip_if_it_needs_a_file();
     if (!declares("closed")) {
@@ -162,23 +162,22 @@ TEST_CASE("Euler characteristic, as declared", "[shape]") {
     if (declared_number.empty()) SKIP("not declared");
     const int euler = topology_of(mesh_of(default_values())).euler;
     if (std::to_string(euler) != declared_number)
-        FAIL("vertices - edges + faces is " << euler << ", declared is " << declared_number);
+        FAIL("vertices - edges + faces is " << euler << ", but declared is " << declared_number);
 }
 
-TEST_CASE("area: no triangle is without one, with the default values", "[shape]") {
+TEST_CASE("area: every triangle has one, with the default values", "[shape]") {
     skip_if_it_needs_a_file();
     const Topology found = topology_of(mesh_of(default_values()));
     if (found.flat > 0) FAIL(found.flat << " triangles have no area");
 }
 
-TEST_CASE("normals: authored ones, and derivatives where there are some, agree with the faces", "[shape]") {
+TEST_CASE("normals: authored ones, and derivatives if there are any, agree with the faces", "[shape]") {
     skip_if_it_needs_a_file();
     const Values values = default_values();
     const candela::PlacedShape placed =
         candela::place(*make<candela::Shape>(values), {.uv = true, .derivatives = true}, {});
     const Mesh& mesh = placed.mesh;
-    if (placed.authored_normal.empty() && mesh.dpdu.empty())
-        SKIP("it brings neither normals nor derivatives");
+    if (placed.authored_normal.empty() && mesh.dpdu.empty()) SKIP("it has neither normals nor derivatives");
     const auto p = mesh.position.span();
     std::size_t against = 0, all = 0;
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
@@ -200,10 +199,10 @@ TEST_CASE("normals: authored ones, and derivatives where there are some, agree w
                      << " normals (or dp/du x dp/dv) at corners point to the other side than their triangle");
 }
 
-TEST_CASE("derivatives: dp/du and dp/dv are how far the surface goes on when u and v do", "[shape]") {
+TEST_CASE("derivatives: dp/du and dp/dv are the changes of position with u and v", "[shape]") {
     skip_if_it_needs_a_file();
     const Mesh mesh = mesh_of(default_values());
-    if (mesh.dpdu.empty() || mesh.u.empty()) SKIP("it brings no derivatives");
+    if (mesh.dpdu.empty() || mesh.u.empty()) SKIP("it has no derivatives");
     const auto p = mesh.position.span(), du = mesh.dpdu.span(), dv = mesh.dpdv.span();
     std::size_t differing = 0, all = 0;
     float told = 0, found = 0;
@@ -211,7 +210,7 @@ TEST_CASE("derivatives: dp/du and dp/dv are how far the surface goes on when u a
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = mesh.indices[t + k], b = mesh.indices[t + (k + 1) % 3];
             const Vec3 edge = p[b] - p[a];
-            // The trapezoidal rule: what the derivatives at both ends promise.
+            // The trapezoidal rule: what the derivatives at both ends predict.
             const Vec3 promised = 0.5f * ((mesh.u[b] - mesh.u[a]) * (du[a] + du[b]) +
                                           (mesh.v[b] - mesh.v[a]) * (dv[a] + dv[b]));
             if (candela::length(edge) == 0) continue;
@@ -223,8 +222,8 @@ TEST_CASE("derivatives: dp/du and dp/dv are how far the surface goes on when u a
     constexpr double k_may_be_at_poles = 0.2;
     if (static_cast<double>(differing) > k_may_be_at_poles * static_cast<double>(all))
         FAIL("along " << differing << " of " << all
-                      << " edges dp/du and dp/dv disagree with the positions; along the first they say "
-                      << told << " m, and it is " << found << " m long");
+                      << " edges dp/du and dp/dv disagree with the positions; along the first they predict "
+                      << told << " m, but it is " << found << " m long");
 }
 
 TEST_CASE("bounding box, as declared for the default values", "[shape]") {
@@ -233,7 +232,8 @@ TEST_CASE("bounding box, as declared for the default values", "[shape]") {
     if (text.empty()) SKIP("not declared");
     std::array<float, 6> b{};
     if (std::sscanf(text.c_str(), "%f %f %f %f %f %f", &b[0], &b[1], &b[2], &b[3], &b[4], &b[5]) != 6)
-        FAIL("'bounding-box' is declared as '" << text << "'; it takes six numbers, low x y z, high x y z");
+        FAIL("'bounding-box' is declared as '" << text
+                                               << "'; its value is six numbers, low x y z, high x y z");
     const Mesh mesh = mesh_of(default_values());
     const candela::Box box = candela::box_around(mesh.position.span(), mesh.vertex_count());
     const Vec3 low{b[0], b[1], b[2]}, high{b[3], b[4], b[5]};
@@ -241,7 +241,7 @@ TEST_CASE("bounding box, as declared for the default values", "[shape]") {
     if (candela::length(box.low - low) > allowed || candela::length(box.high - high) > allowed)
         FAIL("it reaches from [" << box.low.x << ", " << box.low.y << ", " << box.low.z << "] to ["
                                  << box.high.x << ", " << box.high.y << ", " << box.high.z
-                                 << "], declared is " << text);
+                                 << "], but declared is " << text);
 }
 
 TEST_CASE("density: with more segments its volume converges", "[shape]") {
@@ -249,7 +249,7 @@ TEST_CASE("density: with more segments its volume converges", "[shape]") {
     const Values defaults = default_values();
     const std::size_t index = defaults.set.index_of("segments");
     if (index == defaults.set.schema().size()) SKIP("it has no parameter 'segments'");
-    if (!declares("closed")) SKIP("only what is closed has a volume");
+    if (!declares("closed")) SKIP("only closed shapes have a volume");
     std::vector<double> volumes;
     for (const std::int64_t segments : {8, 16, 32, 64}) {
         Values values = defaults;
@@ -264,20 +264,20 @@ TEST_CASE("density: with more segments its volume converges", "[shape]") {
     }
 }
 
-TEST_CASE("repeatable: the same values give the same mesh, again and from 4 threads at once", "[shape]") {
+TEST_CASE("repeatable: the same values yield the same mesh, again and from 4 threads at once", "[shape]") {
     skip_if_it_needs_a_file();
     constexpr std::size_t k_threads = 4;
     std::vector<Values> values = many_values(static_cast<int>(k_threads));
-    values.erase(values.begin(), values.end() - k_threads);  // different meshes, as far as there are any
+    values.erase(values.begin(), values.end() - k_threads);  // different meshes, if there are any
     std::vector<Mesh> alone;
     for (const Values& one : values) {
         alone.push_back(mesh_of(one));
         if (!is_same(mesh_of(one), alone.back()))
-            FAIL("its mesh is another one the second time, with " << one.text);
+            FAIL("its mesh is different the second time, with " << one.text);
     }
     constexpr int k_rounds = 5;
     constexpr auto k_longest = std::chrono::seconds(2);
     if (!hold_at_once(k_threads, k_rounds, std::chrono::steady_clock::now() + k_longest,
                       [&](std::size_t t) { return is_same(mesh_of(values[t]), alone[t]); }))
-        FAIL("its mesh is another one while other threads make theirs");
+        FAIL("its mesh is different while other threads make theirs");
 }

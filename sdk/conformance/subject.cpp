@@ -43,7 +43,7 @@ Vec3 three(double x) {
     return {f, f, f};
 }
 
-/// The numbers that a text holds: one, or [three].
+/// The numbers in a text: one, or [three].
 std::vector<double> numbers_in(const std::string& text) {
     std::array<double, 3> v{};
     int end = -1;
@@ -54,7 +54,7 @@ std::vector<double> numbers_in(const std::string& text) {
     return {};
 }
 
-/// All numbers of a text, whatever its brackets and commas; none if anything else is in it.
+/// All numbers of a text, whatever its brackets and commas; none if it contains anything else.
 std::vector<float> all_numbers_in(std::string text) {
     std::ranges::replace_if(text, [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
     std::istringstream in(text);
@@ -63,13 +63,13 @@ std::vector<float> all_numbers_in(std::string text) {
     return numbers;
 }
 
-/// A text as a value of a parameter's type. Throws std::invalid_argument if it is none.
+/// Converts a text to a value of a parameter's type. Throws std::invalid_argument if that is impossible.
 candela::Value value_from(const Parameter& p, const std::string& text) {
     const std::vector<double> numbers = numbers_in(text);
     const auto require = [&](bool is_one) {
         if (is_one) return;
         throw std::invalid_argument(
-            fmt::format("'{}' is not what '{}' takes: {}", text, p.name, candela::constraint_text(p)));
+            fmt::format("'{}' is not a value for '{}': {}", text, p.name, candela::constraint_text(p)));
     };
     switch (p.type) {
         case ParamType::text:
@@ -108,17 +108,17 @@ candela::Value value_from(const Parameter& p, const std::string& text) {
 }
 
 bool is_fixed(const Parameter& p) {
-    // What may stand in a text or a file, nobody can make up.
+    // Valid texts and files cannot be made up.
     return p.type == ParamType::text || p.type == ParamType::file || given_values().contains(p.name);
 }
 
-constexpr float k_far = 1000;  // stands in for a bound that there is not
+constexpr float k_far = 1000;  // stands in for an absent bound
 
 struct Range {
     double low, high;
 };
 
-/// The least and the greatest allowed number; excluded bounds are left by a thousandth of the range.
+/// The least and the greatest number to test; excluded bounds are avoided by a thousandth of the range.
 Range range_of(const Parameter& p) {
     if (p.type == ParamType::color) return {0, 255};
     const bool has_low = p.minimum != candela::k_no_minimum, has_high = p.maximum != candela::k_no_maximum;
@@ -129,12 +129,12 @@ Range range_of(const Parameter& p) {
     const double hair = 1e-3 * std::min(range.high - range.low, 1.0);
     if (p.minimum_excluded) range.low += hair;
     if (p.maximum_excluded) range.high -= hair;
-    // No shape needs millions of faces to be judged.
+    // A few faces are enough to judge a shape.
     if (p.type == ParamType::integer) range.high = std::min(range.high, std::max(range.low, 64.0));
     return range;
 }
 
-/// A value at share `t` of the range, 0 to 1; `turn` tells the parts of a vector apart.
+/// The value at fraction `t` of the range, 0 to 1; `turn` makes the components of a vector differ.
 candela::Value value_at(const Parameter& p, double t, const Vec3& turn) {
     const Range range = range_of(p);
     const auto at = [&](double share) { return range.low + share * (range.high - range.low); };
@@ -198,12 +198,12 @@ Values named(candela::ParamSet set) {
 
 template <class Interface>
 std::unique_ptr<Interface> made(const Values& values) {
-    if (needs_a_file()) SKIP("it needs a file that only a user has: --set NAME=FILE gives it one");
+    if (needs_a_file()) SKIP("it needs a file that only a user has; --set NAME=FILE provides one");
     const auto delivered = values.set.delivered(candela::ColorEncoding::none);
     std::unique_ptr<candela::Instance> instance(subject().create(delivered));
     if (instance == nullptr) FAIL("create() returned nothing with " << values.text);
     auto* const typed = dynamic_cast<Interface*>(instance.get());
-    if (typed == nullptr) FAIL("what create() returned does not have the interface of its kind");
+    if (typed == nullptr) FAIL("create() returned an object without the interface of its kind");
     static_cast<void>(instance.release());
     return std::unique_ptr<Interface>(typed);
 }
@@ -224,7 +224,7 @@ const candela::Manifest& subject_manifest() {
         try {
             return candela::manifest_from_json(std::string(std::istreambuf_iterator<char>(in), {}));
         } catch (const std::exception& problem) {
-            FAIL("its manifest '" << path.string() << "' is wrong: " << problem.what());
+            FAIL("its manifest '" << path.string() << "' is invalid: " << problem.what());
             throw;
         }
     }();
@@ -255,7 +255,7 @@ bool declares_for(const std::string& property, const Values& values) {
     try {
         return hold(conditions_of(*value), values.set);
     } catch (const std::invalid_argument&) {
-        return true;  // "declarations" says what is wrong with it
+        return true;  // "declarations" reports the problem
     }
 }
 

@@ -1,4 +1,4 @@
-// What must hold of targets.
+// Requirements for targets.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ class Exported {
             export_.emplace(*scene, candela::ExportRequest{.title = title, .abilities = target.abilities()},
                             registry_);
         } catch (const candela::Error& problem) {
-            SKIP("the plugins of the default scene are not here: " << problem.what());
+            SKIP("the default scene's plugins are not installed: " << problem.what());
         }
     }
     const candela::ExportedScene& scene() const { return export_->scene(); }
@@ -86,7 +86,7 @@ void write_or_refuse(const Target& target, const Exported& exported, const std::
     try {
         for (const ExportedFile& file : files_of(target, exported)) {
             if (std::ranges::any_of(file.name, [](char c) { return static_cast<unsigned char>(c) < ' '; }))
-                FAIL("of " << what << " it makes a file with control characters in its name");
+                FAIL("of " << what << " it creates a file with control characters in its name");
         }
     } catch (const candela::Error& refusal) {
         WARN("it refuses " << what << ": " << refusal.what());
@@ -99,7 +99,7 @@ std::vector<std::string> exact_models(PluginKind kind) {
     return names.empty() ? std::vector<std::string>() : names_in(names);
 }
 
-/// A light with the parameters that it must have, as TOML.
+/// A light with its required parameters, as TOML.
 std::string light_text(const candela::PluginFile& light) {
     std::string text = fmt::format("[[light]]\ntype = \"{}\"\n", light.manifest.name);
     for (const candela::Parameter& p : light.manifest.parameters) {
@@ -110,7 +110,7 @@ std::string light_text(const candela::PluginFile& light) {
     return text;
 }
 
-/// A disk that is full from the beginning.
+/// A disk that is full from the start.
 class FullDisk final : public candela::FileSink {
   public:
     void write(const char*, std::span<const std::byte>) override {
@@ -120,7 +120,7 @@ class FullDisk final : public candela::FileSink {
 
 }  // namespace
 
-TEST_CASE("files: the default scene becomes files, the main one among them, named within their folder",
+TEST_CASE("files: the default scene becomes files, including the main one, named within their folder",
           "[target]") {
     const auto target = make<Target>(default_values());
     const Exported exported(*target);
@@ -131,7 +131,7 @@ TEST_CASE("files: the default scene becomes files, the main one among them, name
         FAIL("the default scene is refused: " << problem.what());
     }
     if (std::ranges::find(files, target->main_file(), &ExportedFile::name) == files.end())
-        FAIL_CHECK("its main file, '" << target->main_file() << "', is none of those that it writes");
+        FAIL_CHECK("its main file, '" << target->main_file() << "', is not among those that it writes");
     for (const ExportedFile& file : files) {
         if (file.content.empty()) FAIL_CHECK("the file '" << file.name << "' is empty");
     }
@@ -160,7 +160,7 @@ TEST_CASE("odd scenes: without lights, without objects, with hostile names, it w
                     "hostile names");
 }
 
-TEST_CASE("exact models: of those that it declares to express exactly, it approximates nothing", "[target]") {
+TEST_CASE("exact models: it does not approximate those that it declares to express exactly", "[target]") {
     constexpr PluginKind k_kinds[] = {PluginKind::light, PluginKind::reflection, PluginKind::shading};
     const auto target = make<Target>(default_values());
     candela::Registry registry(search_path());
@@ -177,7 +177,7 @@ TEST_CASE("exact models: of those that it declares to express exactly, it approx
                 return registry.find(model.first, model.second) == nullptr;
             };
             if (std::ranges::any_of(models, is_missing)) {
-                WARN("not everything is here that a scene with " << name << " needs");
+                WARN("not everything is installed that a scene with " << name << " needs");
                 continue;
             }
             const Exported exported(
@@ -188,12 +188,12 @@ TEST_CASE("exact models: of those that it declares to express exactly, it approx
             const auto program = candela::program_of(*target, subject_manifest().name, exported.scene());
             for (const std::string& sentence : program.approximations)
                 FAIL_CHECK("it declares " << candela::name_of(kind) << "/" << name
-                                          << " to be exact, and approximates: " << sentence);
+                                          << " to be exact, but approximates: " << sentence);
         }
     }
 }
 
-TEST_CASE("full disk: what the host throws while files are written comes out of it", "[target]") {
+TEST_CASE("full disk: exceptions of the host while files are written come out of write()", "[target]") {
     const auto target = make<Target>(default_values());
     const Exported exported(*target);
     FullDisk disk;
@@ -203,10 +203,10 @@ TEST_CASE("full disk: what the host throws while files are written comes out of 
     } catch (const std::exception&) {
         says_so = true;
     }
-    if (!says_so) FAIL("the disk is full, and it reports nothing");
+    if (!says_so) FAIL("the disk is full, but it reports nothing");
 }
 
-TEST_CASE("files of its own: writing leaves none where it runs", "[target]") {
+TEST_CASE("files of its own: writing leaves none in the working directory", "[target]") {
     const auto target = make<Target>(default_values());
     const Exported exported(*target);
     const TemporaryDirectory directory;
@@ -234,12 +234,12 @@ TEST_CASE("picture: what it writes can be built, and draws a picture of the imag
         target->build(directory.path().c_str(), programs);
         target->draw(directory.path().c_str(), picture.c_str(), programs);
     } catch (const std::exception& problem) {
-        WARN("no picture can be drawn on this machine: " << problem.what());
+        WARN("this machine cannot draw the picture: " << problem.what());
         return;
     }
     std::ifstream file(picture, std::ios::binary);
     std::string head(24, '\0');
-    if (!file.read(head.data(), 24) || !head.starts_with("\x89PNG")) FAIL("it draws no PNG file");
+    if (!file.read(head.data(), 24) || !head.starts_with("\x89PNG")) FAIL("it does not draw a PNG file");
     const auto number_at = [&](std::size_t at) {
         int number = 0;
         for (std::size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(head[i]);
@@ -247,6 +247,6 @@ TEST_CASE("picture: what it writes can be built, and draws a picture of the imag
     };
     const auto& image = exported.scene().image;
     if (number_at(16) != image.width || number_at(20) != image.height)
-        FAIL(fmt::format("its picture has {} x {} pixels, the image {} x {}", number_at(16), number_at(20),
-                         image.width, image.height));
+        FAIL(fmt::format("its picture has {} x {} pixels, but the image has {} x {}", number_at(16),
+                         number_at(20), image.width, image.height));
 }

@@ -23,7 +23,7 @@ Overloads made_functions() {
     const auto add = [&](const char* name, std::vector<Type> arguments, Type result) {
         all[name].push_back({std::move(arguments), result});
     };
-    // The same of numbers and, component by component, of vectors.
+    // Functions of numbers and, component by component, of vectors.
     const auto componentwise = [&](std::initializer_list<const char*> names, std::size_t count) {
         for (const char* const name : names) {
             add(name, std::vector<Type>(count, k_float), k_float);
@@ -65,7 +65,7 @@ Overloads made_functions() {
 Overloads made_constructors() {
     const Type vec2 = vector_of(2), vec3 = vector_of(3), vec4 = vector_of(4);
     Overloads all;
-    // An argument of the wanted type is taken as it is, so that no number becomes another first.
+    // An argument that already has the wanted type is used unchanged, so that no number is converted first.
     all["float"] = {{{k_float}, k_float}, {{k_int}, k_float}, {{k_bool}, k_float}};
     all["int"] = {{{k_int}, k_int}, {{k_float}, k_int}, {{k_bool}, k_int}};
     all["vec2"] = {{{k_float}, vec2}, {{k_float, k_float}, vec2}, {{vec2}, vec2}};

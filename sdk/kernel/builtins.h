@@ -1,4 +1,5 @@
-// What every kernel can use: types, their constructors, and the functions of candela/kernel.h.
+// The built-in parts of the kernel language: types, their constructors, and the functions of
+// candela/kernel.h.
 #pragma once
 
 #include <map>
@@ -18,16 +19,16 @@ struct Signature {
 
 using Overloads = std::map<std::string, std::vector<Signature>, std::less<>>;
 
-/// Those of numbers, vectors, matrices and tables. What prelude.kernel declares is not among them.
+/// The functions of numbers, vectors, matrices and tables, without those that prelude.kernel declares.
 const Overloads& builtin_functions();
 /// float(…), int(…), vec3(…) and so on.
 const Overloads& builtin_constructors();
 
 std::optional<Type> builtin_type(std::string_view name);
-/// Of a type that is not a struct.
+/// The name of a type that is not a struct.
 std::string_view name_of(Type::Kind kind);
 
-/// How many components a vector has; 0 of what is not one.
+/// The number of components of a vector; 0 if the type is not one.
 int components_of(Type type);
 Type vector_of(int components);
 

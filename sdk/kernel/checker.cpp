@@ -63,8 +63,8 @@ void Checker::resolve(TypeName& type) const {
     throw Refusal{
         type.place,
         fmt::format("unknown type '{}'; {}", shortened(type.name),
-                    meant.empty() ? "there are float, int, bool, vec2, vec3, vec4, mat3, Table, "
-                                    "structs of the kernel, and those of every kernel, such as Surface"
+                    meant.empty() ? "the types are float, int, bool, vec2, vec3, vec4, mat3, Table, structs "
+                                    "of the kernel, and those of every kernel, such as Surface"
                                   : meant)};
 }
 
@@ -103,8 +103,8 @@ void Checker::constant(Constant& constant) {
     const Expression& value = declaration.expressions.front();
     if (!is_constant(value))
         throw Refusal{value.place,
-                      "the value of a constant outside functions is made of numbers, "
-                      "constants, operators and constructors alone"};
+                      "a constant outside functions may consist only of numbers, constants, operators and "
+                      "constructors"};
 }
 
 void Checker::function(Function& function) {
@@ -127,10 +127,9 @@ void Checker::function(Function& function) {
     statements(function.body);
     close_scope();
     if (is_reachable_) {
-        // An answer is a body on its own: what is missing there is missing at its end.
+        // An answer is only a body, so the missing return is reported at its end.
         const Place at = function.body.empty() ? function.end : function.body.back().place;
-        throw Refusal{at,
-                      fmt::format("{}() has a way to its end on which nothing is returned", function.name)};
+        throw Refusal{at, fmt::format("{}() has a path to its end that returns nothing", function.name)};
     }
     function.steps = steps_;
     function.size = size_;

@@ -15,7 +15,7 @@
 
 namespace candela::kernel_language {
 
-/// What a kernel declares, for itself and for those that follow it.
+/// The declarations of a kernel, for itself and for the kernels that follow it.
 struct Declared {
     struct Callable {
         Signature signature;
@@ -25,17 +25,17 @@ struct Declared {
     std::map<std::string, Callable, std::less<>> functions;
 };
 
-/// A variable, or a constant, while it can be seen.
+/// A variable or a constant in scope.
 struct Seen {
     Type type;
     bool is_constant = false;
     bool counts_a_loop = false;
-    std::optional<std::int64_t> value{};  // of an integer that is known here already
+    std::optional<std::int64_t> value{};  // of an integer that is known at compile time
 };
 
 class Checker {
   public:
-    /// Of a kernel that can use what `prelude` declares.
+    /// For a kernel that can use what `prelude` declares.
     explicit Checker(Declared prelude) : declared_(std::move(prelude)) {}
 
     /// Fills in types, conversions and costs. Throws Refusal.
@@ -88,9 +88,9 @@ class Checker {
     Declared declared_;
     std::map<std::string, Place, std::less<>> functions_to_come_;
     Type result_{};
-    std::string function_;  // that is checked
+    std::string function_;  // the function being checked
     std::vector<Seen> seen_;
-    std::vector<bool> assigned_;  // for each of them
+    std::vector<bool> assigned_;  // for each variable
     std::map<std::string, std::vector<std::size_t>, std::less<>> visible_;
     std::vector<std::set<std::string>> scopes_;
     std::string being_declared_;
@@ -100,7 +100,7 @@ class Checker {
     std::uint64_t steps_ = 0, size_ = 0;
 };
 
-/// Whether an expression of this type stands for a vector that C++ builds only when asked to.
+/// Whether an expression of this type yields a vector that C++ constructs only on conversion.
 bool is_swizzle(const Expression& expression);
 
 }  // namespace candela::kernel_language

@@ -25,7 +25,7 @@ void make_real(Expression& expression) {
     expression.type = k_float;
 }
 
-/// The type of a product, sum, difference or quotient; none where there is no such operator.
+/// The type of a product, sum, difference or quotient; none if there is no such operator.
 Type arithmetic(std::string_view sign, Type a, Type b) {
     if (is_number(a) && is_number(b)) return a == k_int && b == k_int ? k_int : k_float;
     const bool is_vector = components_of(a) > 0, is_other_vector = components_of(b) > 0;
@@ -89,11 +89,11 @@ void Checker::check_as(Expression& expression, Type wanted, std::string_view wha
     if (wanted == k_float) make_real(expression);
     if (expression.type == wanted) return;
     std::string hint;
-    if (wanted == k_int && expression.type == k_float) hint = "; int(x) cuts the fraction off";
+    if (wanted == k_int && expression.type == k_float) hint = "; int(x) drops the fraction";
     if (wanted == k_bool && is_number(expression.type)) hint = "; compare it, as in x != 0";
     if (components_of(wanted) > 0 && is_number(expression.type))
         hint = fmt::format("; {}(x) has it in all components", text_of(wanted));
-    throw Refusal{expression.place, fmt::format("{} {}, and this is {}{}", what, text_of(wanted),
+    throw Refusal{expression.place, fmt::format("{} {}, but this is {}{}", what, text_of(wanted),
                                                 text_of(expression.type), hint)};
 }
 
@@ -116,9 +116,9 @@ void Checker::refuse_unknown(const Expression& expression) const {
     const std::string& name = expression.text;
     if (builtin_functions().contains(name) || declared_.functions.contains(name))
         throw Refusal{expression.place,
-                      fmt::format("'{}' is a function; it is called with arguments in ()", name)};
+                      fmt::format("'{}' is a function; call it with arguments in ()", name)};
     if (const auto type = builtin_type(name))
-        throw Refusal{expression.place, fmt::format("'{0}' is a type; a value is made with {0}(…)", name)};
+        throw Refusal{expression.place, fmt::format("'{0}' is a type; make a value with {0}(…)", name)};
     std::vector<std::string> names;
     for (const auto& [each, numbers] : visible_)
         if (!numbers.empty()) names.push_back(each);
@@ -131,11 +131,11 @@ Type Checker::unary(Expression& expression) {
     const Type type = check(expression.operands.front());
     if (expression.text == "!") {
         if (type == k_bool) return type;
-        throw Refusal{expression.place, fmt::format("'!' is for bool, and this is {}", text_of(type))};
+        throw Refusal{expression.place, fmt::format("'!' is for bool, but this is {}", text_of(type))};
     }
     if (is_number(type) || components_of(type) > 0) return type;
     throw Refusal{expression.place,
-                  fmt::format("'-' is for numbers and vectors, and this is {}", text_of(type))};
+                  fmt::format("'-' is for numbers and vectors, but this is {}", text_of(type))};
 }
 
 Type Checker::binary(Expression& expression) {
@@ -146,11 +146,11 @@ Type Checker::binary(Expression& expression) {
                       fmt::format("'{}' does not take {} and {}{}", sign, text_of(a), text_of(b), hint)};
     };
     if (sign == "&&" || sign == "||") {
-        if (a != k_bool || b != k_bool) refuse("; both sides are conditions");
+        if (a != k_bool || b != k_bool) refuse("; both sides must be conditions");
         return k_bool;
     }
     if (sign == "%") {
-        if (a != k_int || b != k_int) refuse("; the remainder of float is mod(x, y)");
+        if (a != k_int || b != k_int) refuse("; the remainder of floats is mod(x, y)");
         return k_int;
     }
     if (is_arithmetic(sign)) {
@@ -178,10 +178,10 @@ Type Checker::swizzle(const Expression& expression, Type of) const {
         const bool is_color = name.find_first_not_of("rgba") == std::string::npos;
         throw Refusal{expression.place,
                       fmt::format("{} has no '{}'; its components are {}{}", text_of(of), shortened(name),
-                                  fmt::join(known, ", "), is_color ? ", also where they are a colour" : "")};
+                                  fmt::join(known, ", "), is_color ? ", even for colours" : "")};
     }
     if (is_swizzle(expression.operands.front()))
-        throw Refusal{expression.place, "a swizzle is not swizzled again"};
+        throw Refusal{expression.place, "a swizzle cannot be swizzled again"};
     return vector_of(static_cast<int>(name.size()));
 }
 
@@ -211,7 +211,7 @@ Type Checker::index(Expression& expression) {
                       "components are v.x, v.y, v.z"};
     const auto column = value_of(expression.operands[1]);
     if (!column || *column < 0 || *column > 2)
-        throw Refusal{expression.operands[1].place, "a column of a matrix is m[0], m[1] or m[2]"};
+        throw Refusal{expression.operands[1].place, "the columns of a matrix are m[0], m[1] and m[2]"};
     return vector_of(3);
 }
 
@@ -221,15 +221,15 @@ Type Checker::conditional(Expression& expression) {
     if (a == b) return a;
     if (!is_number(a) || !is_number(b))
         throw Refusal{expression.place,
-                      fmt::format("both values of '?' have the same type; these are {} and {}", text_of(a),
-                                  text_of(b))};
+                      fmt::format("both values of '?' must have the same type; these are {} and {}",
+                                  text_of(a), text_of(b))};
     make_real(expression.operands[1]);
     make_real(expression.operands[2]);
     return k_float;
 }
 
 const Signature* Checker::fitting(const Expression& call, const std::vector<Signature>& overloads) const {
-    // First as they are, then with integers as numbers with a fraction.
+    // First as they are, then with integers converted to real numbers.
     for (const bool converts : {false, true}) {
         for (const Signature& each : overloads) {
             const bool fits =
@@ -265,7 +265,7 @@ Type Checker::called(Expression& call, const std::vector<Signature>& overloads) 
 Type Checker::call(Expression& expression) {
     const std::string& name = expression.text;
     if (seen_as(name) != nullptr || name == being_declared_)
-        throw Refusal{expression.place, fmt::format("'{}' is a variable here, and cannot be called", name)};
+        throw Refusal{expression.place, fmt::format("'{}' is a variable here and cannot be called", name)};
     for (Expression& argument : expression.operands) check(argument);
     if (const auto found = builtin_constructors().find(name); found != builtin_constructors().end())
         return called(expression, found->second);
@@ -283,7 +283,7 @@ Type Checker::call(Expression& expression) {
     if (const auto found = builtin_functions().find(name); found != builtin_functions().end())
         return called(expression, found->second);
     if (name == function_)
-        throw Refusal{expression.place, fmt::format("{}() calls itself; there is no recursion", name)};
+        throw Refusal{expression.place, fmt::format("{}() calls itself; recursion is not allowed", name)};
     if (functions_to_come_.contains(name))
         throw Refusal{expression.place,
                       fmt::format("{}() is declared further down; move it before {}()", name, function_)};

@@ -1,4 +1,4 @@
-// The checker of statements: what is assigned when, and that all loops end.
+// The checker of statements: which variables are assigned when, and that all loops end.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using Kind = Statement::Kind;
 
 constexpr const char* k_loop_form =
-    "a loop has a constant bound, as in for (int i = 0; i < 8; ++i), or i < min(n, 8)";
+    "a loop needs a constant bound, as in for (int i = 0; i < 8; ++i), or i < min(n, 8)";
 
 std::vector<bool> both(const std::vector<bool>& a, const std::vector<bool>& b) {
     std::vector<bool> result(a.size());
@@ -56,7 +56,7 @@ void Checker::statement(Statement& statement) {
         case Kind::next:
             if (loops_ == 0)
                 throw Refusal{statement.place,
-                              fmt::format("this '{}' is in no loop",
+                              fmt::format("this '{}' is not in a loop",
                                           statement.kind == Kind::leave ? "break" : "continue")};
             is_reachable_ = false;
             return;
@@ -79,7 +79,7 @@ void Checker::declare(Statement& statement) {
 }
 
 void Checker::assign(Statement& statement) {
-    // Only what is left of the operator; a variable that is not assigned yet is what this may be for.
+    // Only the operator remains to be checked; the statement may be the variable's first assignment.
     std::string path;
     Expression* root = &statement.expressions.front();
     while (root->kind == Expression::Kind::member) {
@@ -91,24 +91,25 @@ void Checker::assign(Statement& statement) {
     const std::size_t number = *found;
     const Seen& target = seen_[number];
     if (target.counts_a_loop)
-        throw Refusal{root->place,
-                      fmt::format("'{}' counts a loop, and is not assigned to within it", root->text)};
+        throw Refusal{
+            root->place,
+            fmt::format("'{}' is a loop's counter and must not be assigned to within it", root->text)};
     if (target.is_constant)
-        throw Refusal{root->place, fmt::format("'{}' is a constant, and cannot be assigned to", root->text)};
+        throw Refusal{root->place, fmt::format("'{}' is a constant and cannot be assigned to", root->text)};
     const std::string& sign = statement.name;
     const bool reads = sign != "=";
     const bool was_assigned = assigned_[number];
-    if (!reads) assigned_[number] = true;  // while its path is looked at
+    if (!reads) assigned_[number] = true;  // while its path is checked
     const Type type = check(statement.expressions.front());
     assigned_[number] = was_assigned;
     if (is_swizzle(statement.expressions.front()))
         throw Refusal{statement.place,
-                      "several components are not assigned to at once; assign each, as in "
-                      "v.x = 1.0f, or the whole vector"};
+                      "assigning to several components at once is not allowed; assign each, as in v.x = "
+                      "1.0f, or the whole vector"};
     if (statement.expressions.size() == 1) {  // ++ and --
         if (type != k_int && type != k_float)
             throw Refusal{statement.name_place,
-                          fmt::format("'{}' is for numbers; this is a {}", sign, text_of(type))};
+                          fmt::format("'{}' is for numbers, but this is a {}", sign, text_of(type))};
         return;
     }
     Expression& value = statement.expressions[1];
@@ -127,10 +128,10 @@ void Checker::assign(Statement& statement) {
     }
     if (type != k_int && type != k_float)
         throw Refusal{statement.name_place,
-                      fmt::format("'{}' is not for a {}; write a = a {} b, if there is that", sign,
+                      fmt::format("'{}' is not for a {}; write a = a {} b, if that exists", sign,
                                   text_of(type), sign.substr(0, 1))};
     if (sign == "%=" && type != k_int)
-        throw Refusal{statement.name_place, "'%=' is for int; the remainder of float is mod(x, y)"};
+        throw Refusal{statement.name_place, "'%=' is for int; the remainder of floats is mod(x, y)"};
     check_as(value, type, fmt::format("'{}{}' is", root->text, path));
 }
 
@@ -143,7 +144,7 @@ void Checker::branch(Statement& statement) {
     const bool true_ends = std::exchange(is_reachable_, was_reachable);
     assigned_.resize(seen_.size());
     if (statement.statements.size() > 1) in_scope(statement.statements[1]);
-    // Only a way that goes on counts.
+    // Only paths that continue count.
     if (!is_reachable_) {
         assigned_ = std::move(if_true);
         assigned_.resize(seen_.size());
@@ -177,7 +178,7 @@ void Checker::loop(Statement& statement) {
     statements(statement.statements[2].statements);  // in the scope of the counter
     --loops_;
     iterations_ = around;
-    // It may have run no time at all.
+    // The body may not have run at all.
     assigned_ = before;
     assigned_.resize(seen_.size());
     is_reachable_ = was_reachable;
@@ -196,16 +197,16 @@ std::uint64_t Checker::iterations_of(const Statement& loop) const {
     };
     const auto first = counter.expressions.empty() ? std::nullopt : value_of(counter.expressions.front());
     if (!first || counter.is_constant)
-        throw Refusal{counter.place, std::string("a loop begins at a constant; ") + k_loop_form};
+        throw Refusal{counter.place, std::string("a loop must begin at a constant; ") + k_loop_form};
     if (!is_counter(step.expressions.front()))
-        throw Refusal{step.place, fmt::format("the step of a loop changes its variable '{}'; {}",
+        throw Refusal{step.place, fmt::format("the step of a loop must change its variable '{}'; {}",
                                               counter.name, k_loop_form)};
     std::optional<std::int64_t> width = 1;
     if (step.expressions.size() > 1) width = value_of(step.expressions[1]);
     const bool is_sum = step.name == "++" || step.name == "--" || step.name == "+=" || step.name == "-=";
     if (!is_sum || !width || *width == 0)
         throw Refusal{step.name_place,
-                      std::string("a loop's step is ++i, --i, i += 2 or i -= 2; ") + k_loop_form};
+                      std::string("a loop's step must be ++i, --i, i += 2 or i -= 2; ") + k_loop_form};
     if (step.name.starts_with('-')) width = -*width;
     const std::string& compared = condition.text;
     const bool goes_up = compared == "<" || compared == "<=", goes_down = compared == ">" || compared == ">=";
@@ -228,11 +229,11 @@ std::uint64_t Checker::iterations_of(const Statement& loop) const {
     const std::int64_t distance = (goes_up ? *last - *first : *first - *last) + (compared.size() > 1 ? 1 : 0);
     const std::int64_t stride = std::abs(*width);
     const std::int64_t times = distance <= 0 ? 0 : (distance + stride - 1) / stride;
-    // Beyond the end, a counter must still be an int.
+    // At the end, a counter must still be an int.
     constexpr std::int64_t k_largest = 2147483647;
     if (std::abs(*last) + 1 + stride > k_largest)
         throw Refusal{limit.place,
-                      fmt::format("a loop's bound lies between -{0} and {0}", k_largest - 1 - stride)};
+                      fmt::format("a loop's bound must be between -{0} and {0}", k_largest - 1 - stride)};
     return static_cast<std::uint64_t>(times);
 }
 

@@ -1,4 +1,4 @@
-// A kernel as text again, every word of it made from what was understood.
+// Writes a kernel as text again, using only what was understood.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace candela::kernel_language {
 
 namespace {
 
-// Names of the language never begin with candela_. C++ leaves a conversion of what no int can be, and the
-// quotient of two ints, open in some cases, so that a compiler may draw conclusions that reach beyond them.
+// Names in the language never begin with candela_. C++ leaves a conversion to int that is out of range, and
+// some quotients of two ints, undefined, so that a compiler may draw far-reaching conclusions from them.
 constexpr std::string_view k_guards =
     R"(KERNEL int candela_whole(float x) { return x > -2147483648.0f && x < 2147483648.0f ? int(x) : 0; }
 KERNEL int candela_quotient(int a, int b) { return b == 0 ? 0 : (b == -1 ? -a : a / b); }
@@ -27,7 +27,7 @@ bool is_in_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// How strongly an expression holds together: the higher, the fewer parentheses.
+/// How tightly an expression binds: the higher, the fewer parentheses.
 int precedence_of(const Expression& expression) {
     if (expression.becomes_real) return 9;  // a call
     switch (expression.kind) {
@@ -74,7 +74,7 @@ std::string canonical_real(std::string text) {
     return text + "f";
 }
 
-/// The name of a file as a string literal of C++ can have it.
+/// The name of a file, safe in a C++ string literal.
 std::string safe_name(const std::string& name) {
     std::string result;
     for (const char c : name) result += is_in_word(c) || c == '.' || c == '-' ? c : '_';
@@ -99,7 +99,7 @@ class Emitter {
         out_ += '\n';
         if (!guarded_) return std::move(out_);
         std::string guards;
-        // A macro would put text of its own in a name's place.
+        // A macro would replace a name by its own text.
         for (const std::string& name : names_)
             guards += fmt::format("#ifdef {0}\n#error '{0}' is a macro of C++; choose another name\n#endif\n",
                                   name);
@@ -107,7 +107,7 @@ class Emitter {
     }
 
   private:
-    // Where what is written next would stand, counted as in its source.
+    // The position, in terms of its source, of what is written next.
 
     void begin_source(std::uint8_t source, std::size_t line) {
         source_ = source;
@@ -122,7 +122,7 @@ class Emitter {
         return static_cast<std::size_t>(std::ranges::upper_bound(begins, place.offset) - begins.begin());
     }
 
-    /// Moves on to a place, as far as that is further on.
+    /// Advances to a position, if that is further on.
     void at(Place place) {
         if (place.source != source_) return;
         const std::size_t line = line_of(place);
@@ -281,7 +281,7 @@ class Emitter {
         expression(value);
     }
 
-    /// In parentheses if it holds together less than `least`.
+    /// Adds parentheses if it binds less tightly than `least`.
     void operand(const Expression& each, int least) {
         const bool is_loose = precedence_of(each) < least;
         if (is_loose) put("(");
@@ -301,7 +301,7 @@ class Emitter {
     void expression(const Expression& each) {
         if (each.becomes_real && each.kind == Expression::Kind::integer)
             return put(each.place, each.text + ".0f");
-        // A vector of C++ rather than what becomes one.
+        // Yields a C++ vector rather than a swizzle that converts to one.
         const bool is_built = guarded_ && is_swizzle(each);
         if (each.becomes_real) put("float(");
         if (is_built) put(fmt::format("{}(", name_of(each.type.kind)));

@@ -19,7 +19,7 @@ using Kind = Expression::Kind;
 
 constexpr const char* k_no_pointers = "the kernel language has neither pointers nor references";
 
-/// From those that bind least.
+/// From the loosest to the tightest.
 constexpr std::array<std::array<std::string_view, 4>, 6> k_levels{
     {{"||"}, {"&&"}, {"==", "!="}, {"<", "<=", ">", ">="}, {"+", "-"}, {"*", "/", "%"}}};
 
@@ -45,9 +45,10 @@ class ExpressionParser {
         Expression result{.kind = kind, .place = token.place, .text = std::string(token.text)};
         for (const Expression& operand : operands) result.depth = std::max(result.depth, operand.depth + 1);
         if (result.depth > k_deepest_expression)
-            TokenReader::refuse(token, fmt::format("more than {} operations depend on one another here; give "
-                                                   "a part of them a name",
-                                                   k_deepest_expression));
+            TokenReader::refuse(
+                token,
+                fmt::format("more than {} operations depend on one another here; give a part of them a name",
+                            k_deepest_expression));
         result.operands = std::move(operands);
         return result;
     }
@@ -124,10 +125,11 @@ class ExpressionParser {
             tokens_.expect_closing(open);
             if (tokens_.peek().kind == Token::Kind::name || tokens_.peek().kind == Token::Kind::integer ||
                 tokens_.peek().kind == Token::Kind::real)
-                TokenReader::refuse(tokens_.peek(),
-                                    fmt::format("expected an operator or ';' before '{}'; types are "
-                                                "converted with float(x) or int(x)",
-                                                tokens_.peek().text));
+                TokenReader::refuse(
+                    tokens_.peek(),
+                    fmt::format(
+                        "expected an operator or ';' before '{}'; convert types with float(x) or int(x)",
+                        tokens_.peek().text));
             return inner;
         }
         if (token.kind != Token::Kind::name) tokens_.refuse_next("a value");
@@ -135,8 +137,8 @@ class ExpressionParser {
         const bool is_call = tokens_.peek(1).text == "(";
         if (is_type_keyword(token.text)) {
             if (!is_call)
-                TokenReader::refuse(
-                    token, fmt::format("'{0}' is a type; a value is converted with {0}(x)", token.text));
+                TokenReader::refuse(token,
+                                    fmt::format("'{0}' is a type; convert a value with {0}(x)", token.text));
             return call(tokens_.take());
         }
         const Token& name = tokens_.expect_name("a value");

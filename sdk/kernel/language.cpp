@@ -28,8 +28,9 @@ Problem problem_at(const Source& source, std::size_t offset, const std::string& 
 
 void require_size(const Source& source, std::size_t longest) {
     if (source.text.size() > longest)
-        throw problem_at(source, 0,
-                         fmt::format("the text has {} bytes; {} are allowed", source.text.size(), longest));
+        throw problem_at(
+            source, 0,
+            fmt::format("the text has {} bytes; at most {} are allowed", source.text.size(), longest));
 }
 
 const Declared& prelude() {

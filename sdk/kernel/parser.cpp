@@ -33,7 +33,7 @@ class Parser {
             } else if (tokens_.is("KERNEL")) {
                 declarations.emplace_back(function());
             } else if (tokens_.is("}")) {
-                TokenReader::refuse(tokens_.peek(), "this '}' closes nothing");
+                TokenReader::refuse(tokens_.peek(), "this '}' has no opening '{'");
             } else {
                 tokens_.refuse_next("a struct, a constant (const) or a function (KERNEL)");
             }
@@ -44,7 +44,7 @@ class Parser {
     std::vector<Statement> body() {
         std::vector<Statement> statements;
         while (!tokens_.at_end()) {
-            if (tokens_.is("}")) TokenReader::refuse(tokens_.peek(), "this '}' closes nothing");
+            if (tokens_.is("}")) TokenReader::refuse(tokens_.peek(), "this '}' has no opening '{'");
             statement(statements);
         }
         return statements;
@@ -93,8 +93,8 @@ class Parser {
                 const bool is_constant = tokens_.skip("const");
                 if (tokens_.is("in") || tokens_.is("out") || tokens_.is("inout"))
                     TokenReader::refuse(tokens_.peek(),
-                                        "arguments are values, and functions return their "
-                                        "result; there is no 'in', 'out' or 'inout'");
+                                        "arguments are values, and functions return their result; 'in', "
+                                        "'out' and 'inout' do not exist");
                 const TypeName its_type = type();
                 const Token& its_name = tokens_.expect_new_name("the argument's name");
                 result.parameters.push_back({.is_constant = is_constant,
@@ -111,7 +111,8 @@ class Parser {
         return result;
     }
 
-    /// Those in braces, of which the opening one is taken. Where the closing one is.
+    /// Parses statements in braces whose opening brace has been read. Returns the position of the closing
+    /// one.
     Place statements_until(const Token& open, std::vector<Statement>& statements) {
         const TokenReader::Level level(tokens_);
         while (!tokens_.is("}")) {
@@ -162,7 +163,7 @@ class Parser {
                token.text == "bool" || tokens_.peek(1).kind == Token::Kind::name;
     }
 
-    /// "const float a = 1.0f, b = 2.0f;", as a statement for each name.
+    /// "const float a = 1.0f, b = 2.0f;", as one statement per name.
     void declare(std::vector<Statement>& to) {
         const Place place = tokens_.peek().place;
         const bool is_constant = tokens_.skip("const");
@@ -209,9 +210,8 @@ class Parser {
         if ((sign.text == "*" || sign.text == "&&") && what.kind == Expression::Kind::variable)
             TokenReader::refuse(sign, k_no_pointers);
         if (sign.text == "(")
-            TokenReader::refuse(first,
-                                "a call alone does nothing, since functions only return values; "
-                                "assign or return it");
+            TokenReader::refuse(
+                first, "a call alone has no effect, since functions only return values; assign or return it");
         if (sign.text == ":") TokenReader::refuse(first, "the kernel language has no labels");
         for (const std::string_view known : k_assignments) {
             if (sign.kind != Token::Kind::sign || sign.text != known) continue;
@@ -232,14 +232,14 @@ class Parser {
             Expression of_it{
                 .kind = Expression::Kind::member, .place = member.place, .text = std::string(member.text)};
             of_it.depth = result.depth + 1;
-            if (of_it.depth > 16) TokenReader::refuse(member, "structs are nested less deeply than this");
+            if (of_it.depth > 16) TokenReader::refuse(member, "structs are not nested this deeply");
             of_it.operands.push_back(std::move(result));
             result = std::move(of_it);
         }
         return result;
     }
 
-    /// What is done after a condition, always in a block.
+    /// The body of a condition or a loop, always as a block.
     Statement dependent() {
         Statement block{.kind = Kind::block, .place = tokens_.peek().place};
         if (tokens_.is("{")) {

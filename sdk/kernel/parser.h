@@ -1,4 +1,4 @@
-// From tokens to a kernel whose types and names nobody has looked at.
+// From tokens to a kernel whose types and names are still unchecked.
 #pragma once
 
 #include <cstdint>

@@ -64,7 +64,7 @@ void TokenReader::refuse_next(const std::string& expected) const {
         refuse(token, problem_with_name(token.text));
     if (token.text == "[") refuse(token, "the kernel language has neither arrays nor attributes");
     if (token.text == "=" && expected.starts_with("an operator") && !expected.ends_with("';'"))
-        refuse(token, "an assignment is a statement of its own; numbers are compared with ==");
+        refuse(token, "an assignment is a statement of its own; compare numbers with ==");
     if (token.text == ",")
         refuse(token, fmt::format("expected {}; the kernel language has no operator ','", expected));
     if (token.text == "++" || token.text == "--")
@@ -72,7 +72,8 @@ void TokenReader::refuse_next(const std::string& expected) const {
     const std::string message = token.kind == Token::Kind::end
                                     ? fmt::format("expected {} before the end", expected)
                                     : fmt::format("expected {} before '{}'", expected, shortened(token.text));
-    // What is missing at the end of a line is missing there, not at the beginning of the next one.
+    // If something is missing at the end of a line, the message points there, not to the beginning of the
+    // next line.
     if (at_ > 0) {
         const std::string_view last = tokens_[at_ - 1].text;
         // Both are views of one text.
@@ -86,7 +87,7 @@ void TokenReader::refuse_next(const std::string& expected) const {
 }
 
 TokenReader::Level::Level(TokenReader& reader) : reader_(reader) {
-    // Counted first: what refuses leaves nothing behind that goes on parsing.
+    // Counts first, so that nothing continues to parse after a refusal.
     if (++reader_.depth_ > k_deepest_nesting)
         refuse(reader_.peek(),
                fmt::format("brackets and statements are nested more than {} deep", k_deepest_nesting));

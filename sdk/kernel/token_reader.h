@@ -1,4 +1,4 @@
-// Tokens one after another, and what a parser says of them.
+// Reads tokens one after another, and reports syntax errors.
 #pragma once
 
 #include <cstddef>
@@ -19,22 +19,23 @@ class TokenReader {
     bool is(std::string_view text) const;
     bool at_end() const { return peek().kind == Token::Kind::end; }
     const Token& take();
-    /// Whether it was the next token, which is then taken.
+    /// Reads the next token if it has this text; returns whether it does.
     bool skip(std::string_view text);
-    /// Takes it, or refuses what is there, with what is `wanted` otherwise, such as "an operator or ".
+    /// Reads a token with this text; otherwise refuses what is there, naming what else is `wanted`, such as
+    /// "an operator or ".
     const Token& expect(std::string_view text, std::string_view wanted = {});
-    /// The bracket that closes `open`.
+    /// Reads the bracket that closes `open`.
     const Token& expect_closing(const Token& open);
-    /// A name for something that is declared.
+    /// Reads a name for something that is declared.
     const Token& expect_new_name(std::string_view what);
-    /// Any name but a keyword of C++.
+    /// Reads any name except a keyword of C++.
     const Token& expect_name(std::string_view what);
 
     [[noreturn]] static void refuse(const Token& token, std::string message);
     /// "expected ';', got 'x'".
     [[noreturn]] void refuse_next(const std::string& expected) const;
 
-    /// One level of nesting, as long as it lives. Refuses those that are too deep.
+    /// One level of nesting while it exists. Refuses levels that are too deep.
     class Level {
       public:
         explicit Level(TokenReader& reader);
@@ -52,7 +53,7 @@ class TokenReader {
     std::size_t depth_ = 0;
 };
 
-/// An expression, up to the first token that does not belong to it.
+/// Parses an expression, up to the first token that does not belong to it.
 Expression parsed_expression(TokenReader& tokens);
 
 }  // namespace candela::kernel_language

@@ -53,7 +53,7 @@ class Lexer {
         at_ += length;
     }
 
-    /// Over blanks and comments.
+    /// Skips blanks and comments.
     void skip() {
         while (at_ < text_.size()) {
             if (is_space(text_[at_])) {
@@ -71,8 +71,8 @@ class Lexer {
         }
     }
 
-    /// Over a comment, of which nothing is told apart from what C++ takes for one: where a line ends with a
-    /// backslash, C++ joins it with the next before it looks for comments at all.
+    /// Skips a comment. The only error in a comment is a line that ends with a backslash: C++ joins it with
+    /// the next before it looks for comments.
     void comment(std::size_t end) {
         for (; at_ < end; ++at_) {
             refuse_line_end(at_);
@@ -87,7 +87,7 @@ class Lexer {
         }
     }
 
-    /// A carriage return alone ends a line for some compilers, and not for others.
+    /// A carriage return alone ends a line for some compilers, but not for others.
     void refuse_line_end(std::size_t at) const {
         if (text_[at] == '\r' && (at + 1 >= text_.size() || text_[at + 1] != '\n'))
             refuse(at, R"(a line ends with \n, or with \r\n)");
@@ -106,15 +106,15 @@ class Lexer {
         if (c == '"' || c == '\'') refuse(at_, "the kernel language has no strings");
         if (pair == "<:" || pair == ":>" || pair == "[[")
             refuse(at_, "the kernel language has neither arrays nor attributes");
-        if (pair == "<%" || pair == "%>") refuse(at_, "braces are written { and }");
+        if (pair == "<%" || pair == "%>") refuse(at_, "write braces as { and }");
         if (pair == "::" || pair == "->" || pair == "<<" || pair == ">>")
             refuse(at_, fmt::format("the kernel language has no '{}'", pair));
         for (const std::string_view known : k_pairs)
             if (pair == known) return take(Token::Kind::sign, 2);
         if (c == '&')
             refuse(at_,
-                   "the kernel language has neither pointers nor references, nor operators of bits; "
-                   "'and' is written &&");
+                   "the kernel language has neither pointers nor references, nor operators of bits; write "
+                   "'and' as &&");
         if (k_signs.find(c) != std::string_view::npos) return take(Token::Kind::sign, 1);
         const std::string_view character = first_character(text_.substr(at_));
         refuse(at_, fmt::format("the kernel language has no '{}'", printable(character)));
@@ -133,7 +133,7 @@ class Lexer {
         return from;
     }
 
-    /// "3", "0.5", ".5", "5.", "1e-6", each of the latter also with an f.
+    /// "3", "0.5", ".5", "5.", "1e-6"; all except the first may end in f.
     void number() {
         std::size_t length = digits(0);
         bool is_real = false;
@@ -152,7 +152,7 @@ class Lexer {
         if (is_real && (peek(length) == 'f' || peek(length) == 'F')) ++length;
         if (begins_name(peek(length)) || is_digit(peek(length)) || peek(length) == '\'' ||
             peek(length) == '.')
-            refuse(at_, "this is not a number of the kernel language; write it as in 0.5 or 3");
+            refuse(at_, "this is not a number of the kernel language; write it like 0.5 or 3");
         if (length > k_longest_word)
             refuse(at_, fmt::format("a number has at most {} characters", k_longest_word));
         if (is_real && !std::isfinite(std::strtof(digits_only.c_str(), nullptr)))

@@ -1,4 +1,4 @@
-// The words of the kernel language.
+// The tokens of the kernel language.
 #pragma once
 
 #include <cstdint>
@@ -17,22 +17,22 @@ struct Token {
     Place place{};
 };
 
-/// What is wrong at a place; becomes a Problem where the texts are known.
+/// A problem at a position; becomes a Problem where the texts are known.
 struct Refusal {
     Place place;
     std::string message;
 };
 
-/// The tokens of `text`, an `end` last. Throws Refusal.
+/// The tokens of `text`, followed by an `end`. Throws Refusal.
 std::vector<Token> tokens_of(std::string_view text, std::uint8_t source);
 
-/// What may not be the name of anything a kernel declares, and why; empty if it may.
+/// Why a kernel must not declare this name; empty if it may.
 std::string problem_with_name(std::string_view name);
 
-/// Whether C++ or the language itself has a word for itself.
+/// Whether the word is reserved by C++ or by the language itself.
 bool is_keyword(std::string_view word);
 
-/// "the kernel language has no 'while'; …", with what it has instead.
+/// "the kernel language has no 'while'; …", with the alternative.
 std::string refusal_of_keyword(std::string_view word);
 
 }  // namespace candela::kernel_language

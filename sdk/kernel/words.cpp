@@ -1,4 +1,4 @@
-// Names that nobody may give to anything, since C++ has them for itself.
+// Names that kernels must not declare, because C++ reserves them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace candela::kernel_language {
 
 namespace {
 
-/// Those that the language has, too.
+/// The keywords that the language also has.
 constexpr std::array<std::string_view, 12> k_own = {"if",     "else",  "for",   "return", "break", "continue",
                                                     "struct", "const", "float", "int",    "bool",  "true"};
 
-/// The other keywords of C++, and what GNU compilers add without a leading "_".
+/// The other keywords of C++, and those that GNU compilers add without a leading "_".
 constexpr std::array<std::string_view, 87> k_foreign = {"alignas",
                                                         "alignof",
                                                         "and",
@@ -109,7 +109,7 @@ bool is_one_of(std::string_view word, const auto& words) {
     return std::ranges::find(words, word) != words.end();
 }
 
-/// Macros and names that headers and compilers have without a leading "_".
+/// Macros and names of headers and compilers without a leading "_".
 constexpr std::array<std::string_view, 9> k_taken = {"defined", "errno", "i386",   "linux", "std",
                                                      "stderr",  "stdin", "stdout", "unix"};
 
@@ -126,9 +126,10 @@ bool is_keyword(std::string_view word) {
 
 std::string refusal_of_keyword(std::string_view word) {
     std::string text = fmt::format("the kernel language has no '{}'", word);
-    if (word == "while" || word == "do") text += "; a loop has a constant bound: for (int i = 0; i < 8; ++i)";
+    if (word == "while" || word == "do")
+        text += "; a loop needs a constant bound: for (int i = 0; i < 8; ++i)";
     if (word == "double") text += "; numbers with a fraction are float";
-    if (word == "auto") text += "; say the type: float, int, bool, vec3 …";
+    if (word == "auto") text += "; name the type: float, int, bool, vec3 …";
     if (word == "void") text += "; every function returns a value";
     if (word == "switch" || word == "goto") text += "; choose with if, or with condition ? a : b";
     if (word == "and" || word == "or" || word == "not")

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the compiler noted of one loop. The file is YAML as clang writes it: a document for each remark,
-/// whose keys begin lines.
+/// The compiler's remark on one loop. The file is YAML written by clang: one document per remark, whose keys
+/// begin lines.
 struct Remark {
     std::string type;  // "!Analysis", "!Failure"
     std::string file, line, column, function;
@@ -30,7 +30,7 @@ std::string unquoted(std::string_view text) {
     return result;
 }
 
-/// The value behind `key` up to one of `ends`, without the spaces around it.
+/// The value after `key` up to one of `ends`, trimmed.
 std::string value_of(std::string_view text, std::string_view key, std::string_view ends) {
     const std::size_t at = text.find(key);
     if (at == std::string_view::npos) return "";
@@ -70,7 +70,7 @@ std::vector<Remark> remarks_in(const fs::path& record) {
     return all;
 }
 
-/// Another place, or another cause at the same one.
+/// Adds another place, or another cause at the same place.
 void add(std::vector<ScalarLoop>& loops, const std::string& place, std::string why) {
     const auto loop = std::ranges::find(loops, place, &ScalarLoop::place);
     if (loop == loops.end()) {

@@ -1,19 +1,18 @@
-// Why loops over points were not vectorised, with the lines of the kernel that are the cause.
+// Why loops over points were not vectorised, with the responsible lines of the kernel.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/// What keeps a loop from being vectorised.
+/// The reason why a loop was not vectorised.
 struct ScalarLoop {
     std::string place;  // "/home/me/cel.kernel:12:5"
-    std::string why;    // as the compiler says it
+    std::string why;    // in the compiler's words
 };
 
-/// Places and causes, each once, of the batch loops (candela/multiversion.h) of an object file that are
-/// scalar; empty where there are none. `record`: what clang has noted of the file's loops
-/// (-fsave-optimization-record, pass loop-vectorize). Places in `kernel` are told, and others only where
-/// there are none.
+/// The scalar batch loops (candela/multiversion.h) of an object file, as places and causes, each once; empty
+/// if there are none. `record`: clang's remarks on the file's loops (-fsave-optimization-record, pass
+/// loop-vectorize). Places in `kernel` are preferred; others are returned only if there are none.
 std::vector<ScalarLoop> scalar_loops(const std::filesystem::path& record,
                                      const std::filesystem::path& kernel);

@@ -1,8 +1,8 @@
 // candela-manifest PLUGIN.so OUTPUT.json [--author=NAME] [--license=SPDX]
 //                  [--scalar-loops=warning|error --kernel=FILE OBJECT...]
 //
-// Writes a plugin's manifest from its own descriptor. Run by candela_add_plugin(). Beside the object files
-// lies what clang has noted of their loops; those that are scalar are said first, as warnings or errors.
+// Writes a plugin's manifest from its own descriptor. Run by candela_add_plugin(). Next to each object file
+// are clang's remarks on its loops; those that are scalar are reported first, as warnings or errors.
 #include <fmt/format.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -32,7 +32,7 @@ struct Options {
     std::string plugin, output, author, license, scalar_loops, kernel;
     std::vector<std::filesystem::path> objects;
 
-    /// Returns whether the words are understood.
+    /// Returns whether the arguments are valid.
     bool read(int argc, char** argv) {
         if (argc < 3) return false;
         plugin = argv[1];
@@ -58,13 +58,13 @@ struct Options {
     }
 };
 
-/// Says which loops are scalar; returns whether that is an error.
+/// Reports the scalar loops; returns whether that is an error.
 bool judge_loops(const Options& options) {
     bool is_error = false;
     for (std::filesystem::path record : options.objects) {
         record.replace_extension(".opt.yaml");
         if (!std::filesystem::exists(record)) {
-            std::fprintf(stderr, "%s is not there: whether loops over points are vectorized is not known\n",
+            std::fprintf(stderr, "%s is missing: whether loops over points are vectorized is not known\n",
                          record.c_str());
         }
         for (const ScalarLoop& loop : scalar_loops(record, options.kernel)) {
@@ -78,7 +78,7 @@ bool judge_loops(const Options& options) {
     return is_error;
 }
 
-/// On the main thread of a process that nothing else runs in.
+/// On the main thread of a process that runs nothing else.
 void write_manifest(const Options& options) {
     const candela::PluginDescriptor& descriptor = candela::load_plugin(options.plugin, nullptr);
     candela::Manifest manifest = candela::manifest_of(descriptor, candela::host_abi());
@@ -87,12 +87,12 @@ void write_manifest(const Options& options) {
     manifest.author = options.author;
     manifest.license = options.license;
     const std::string json = candela::to_json(manifest);
-    const std::filesystem::path beside = options.output + ".new";
+    const std::filesystem::path temporary = options.output + ".new";
     {
-        std::ofstream out(beside, std::ios::binary);
-        if (!(out << json) || !out.flush()) throw std::runtime_error("cannot write " + beside.string());
+        std::ofstream out(temporary, std::ios::binary);
+        if (!(out << json) || !out.flush()) throw std::runtime_error("cannot write " + temporary.string());
     }
-    std::filesystem::rename(beside, options.output);
+    std::filesystem::rename(temporary, options.output);
 }
 
 constexpr std::string_view k_done = "done";
@@ -101,10 +101,10 @@ void say_in(int report, std::string_view text) {
     if (::write(report, text.data(), text.size()) != static_cast<ssize_t>(text.size())) ::_exit(1);
 }
 
-/// What keeps the manifest from being written; empty if it is. What the plugin does when it is loaded may end
-/// the process, or keep it for ever.
+/// Why the manifest could not be written; empty if it was. Code that runs when the plugin is
+/// loaded may end the process, or block it forever.
 std::string problem_with(const Options& options) {
-    constexpr double k_longest = 120;  // seconds, on a machine that builds much else
+    constexpr double k_longest = 120;  // seconds, on a machine that is busy building
     const GuardedEnd end = run_guarded(k_longest, [&](int report) {
         try {
             write_manifest(options);

@@ -18,8 +18,8 @@ std::vector<const char*> pointers_to(const std::vector<std::string>& words) {
     return pointers;
 }
 
-/// What CMake is told about the compiler: nothing, if it finds one by itself; else the newest whose name has
-/// a version, as Debian installs them.
+/// CMake's option for the compiler: none, if CMake finds one by itself; otherwise the newest one with a
+/// versioned name, as Debian installs them.
 std::vector<std::string> compiler_option(ProgramRunner& programs) {
     constexpr std::array k_known_to_cmake = {"c++", "g++", "clang++"};
     if (std::getenv("CXX") != nullptr ||

@@ -23,7 +23,7 @@ void write(FileSink& files, const char* name, std::string_view content) {
 TemporaryFolder::TemporaryFolder(std::string_view name, const std::filesystem::path& parent) {
     std::string path = (parent / name).string() + "-XXXXXX";
     if (::mkdtemp(path.data()) == nullptr)
-        throw std::runtime_error("no folder can be made in " + parent.string());
+        throw std::runtime_error("cannot create a folder in " + parent.string());
     path_ = path;
 }
 
@@ -33,12 +33,12 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view content) {
-    std::filesystem::path beside = file;
-    beside += ".part";
-    // What is there may be a link to a file of somebody else's.
+    std::filesystem::path part = file;
+    part += ".part";
+    // The existing file may be a link to a file of somebody else's.
     std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    const int descriptor = ::open(beside.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    std::filesystem::remove(part, ignored);
+    const int descriptor = ::open(part.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     bool is_written = descriptor >= 0;
     while (is_written && !content.empty()) {
         const ssize_t count = ::write(descriptor, content.data(), content.size());
@@ -47,10 +47,10 @@ void write_whole(const std::filesystem::path& file, std::string_view content) {
     }
     if (descriptor >= 0 && ::close(descriptor) != 0) is_written = false;
     if (!is_written) {
-        std::filesystem::remove(beside, ignored);
+        std::filesystem::remove(part, ignored);
         throw std::runtime_error("'" + file.string() + "' cannot be written");
     }
-    std::filesystem::rename(beside, file);
+    std::filesystem::rename(part, file);
 }
 
 std::string_view picture_file_source() { return candela_target_picture_file; }

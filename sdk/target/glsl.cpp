@@ -31,19 +31,19 @@ namespace {
 
 constexpr const char* k_preamble =
     "#define KERNEL\n"
-    "// GLSL leaves open what becomes of the zero vector; here it stays zero.\n"
+    "// GLSL leaves the result for the zero vector undefined; here it stays zero.\n"
     "vec2 unit_or_zero(vec2 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
     "vec3 unit_or_zero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
     "vec4 unit_or_zero(vec4 v) { return v * inversesqrt(max(dot(v, v), 1.0e-36)); }\n"
     "#define normalize unit_or_zero\n\n";
 
-/// "point_light": what names that have to do with a model's lights begin with.
+/// "point_light": the prefix of all names related to a model's lights.
 std::string light_name(const ExportedModel& model) {
     return fmt::format("{}_light", model.plugin->kernel.prefix);
 }
 
 constexpr const char* k_light_table =
-    "// What the lights' structs hold, a texel per member and {0} in a row: as bits, so that a texel can be "
+    "// The members of the lights' structs, one per texel and {0} in a row: as bits, so that a texel can be "
     "a vector, a\n"
     "// number or an integer. A texture has room for any number of lights, uniform variables for a few "
     "hundred.\n"
@@ -53,7 +53,7 @@ constexpr const char* k_light_table =
     "float table_float(int at) {{ return intBitsToFloat(table_bits(at).x); }}\n"
     "int table_int(int at) {{ return table_bits(at).x; }}\n\n";
 
-/// How a shader reads a member of a struct from the texels from `at` on.
+/// How a shader reads a member of a struct from the texels starting at `at`.
 std::string read_member(ParamType type, std::size_t offset) {
     const auto read = [&](const char* reader, std::size_t beyond = 0) {
         const std::size_t texel = offset + beyond;
@@ -77,7 +77,7 @@ std::string read_member(ParamType type, std::size_t offset) {
     }
 }
 
-/// A light model's lights: how one is read, and the loop that adds them up.
+/// A light model's lights: how to read one, and the loop that adds them up.
 struct LightLoop {
     std::string declarations;
     std::string statements;
@@ -133,7 +133,7 @@ std::string lights_text(const ExportedScene& scene) {
     }
     return text + declarations +
            "\nReflected reflect_light(Surface s, vec3 to_light);\nvec3 reflect_ambient(Surface s);\n\n"
-           "// What the lights do at a place: ambient, diffuse and specular light, added up.\n"
+           "// The sum of the ambient, diffuse and specular light at a point.\n"
            "vec3 lights_at(Surface s, Receiver r) {\n    vec3 sum = vec3(0.0);\n" +
            statements + "    return sum;\n}\n";
 }
@@ -143,7 +143,8 @@ std::string uniform_of(const ExportedModel& model, const char* name) {
                                  : "";
 }
 
-/// What is made of the parameters is made once for each vertex or pixel, before its lights are gone through.
+/// Values derived from the parameters are computed once for each vertex or pixel, before the loop over its
+/// lights.
 std::string preparation_of(const ExportedModel& model, const char* name, const char* macro) {
     if (!has_function(model, "prepare")) return "";
     return fmt::format(
@@ -151,7 +152,7 @@ std::string preparation_of(const ExportedModel& model, const char* name, const c
         constants_type(model), name, prepared(model, name), macro);
 }
 
-/// Where light is evaluated, in a program that has no such models too.
+/// For programs in which not every model has a preparation.
 std::string calls_of_preparations(const ExportedScene& scene) {
     const auto call_of = [](const auto& models, const char* name, const char* macro) {
         const bool is_there = std::ranges::any_of(
@@ -195,11 +196,11 @@ std::string shading_text(const ExportedShading& model) {
                             model.needs.triangle ? "p, seen_triangle" : "p"));
 }
 
-/// Something that the shaders of a stage have only in programs of scenes that need it.
+/// A part that a stage's shaders have only in programs of scenes that need it.
 struct Feature {
     bool is_there = false;
     const char* declarations = "";
-    const char* place = "";  // of `statement`, in the stage's text
+    const char* place = "";  // after `statement`, in the stage's text
     const char* condition = "";
     const char* statement = "";
 };
@@ -230,7 +231,8 @@ bool has_trigonometry(const std::string& code) {
 const GlslDepth k_reversed_depth{
     .uniform = "uniform float near;\n",
     .statement =
-        "    // Depths grow towards the eye; in perspective near / distance, which a float buffer holds with "
+        "    // Depths grow towards the eye; in perspective they are near / distance, which a float buffer "
+        "holds with "
         "the same relative precision at\n    // all distances.\n"
         "    gl_FragDepth = is_orthographic ? 1.0 - gl_FragCoord.z : near * gl_FragCoord.w;\n"};
 

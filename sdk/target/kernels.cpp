@@ -21,7 +21,7 @@ namespace candela::target {
 
 namespace {
 
-/// All that a kernel declares at the top: structs, functions.
+/// Everything that a kernel declares at the top: structs, functions.
 std::vector<std::string> declared_names(const std::string& kernel) {
     std::vector<std::string> names;
     const std::vector<Token> tokens = tokens_of(kernel);
@@ -41,7 +41,7 @@ const KernelFunction* function_of(const ExportedModel& model, std::string_view n
     return nullptr;
 }
 
-/// The words of a text, but for those of the standard library.
+/// The words of a text, except those of the standard library.
 std::set<std::string> words_of(std::string_view text) {
     const auto begins_word = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -62,7 +62,7 @@ struct Paragraph {
     bool is_kept = false;
 };
 
-/// What lines of a library declare: "struct X {", "inline vec3 x(", "const float x =".
+/// The names that the lines of a library declare: "struct X {", "inline vec3 x(", "const float x =".
 std::vector<std::string> declared_by(const std::string& code) {
     const auto begins_declaration = [](std::string_view word) {
         return word == "KERNEL" || word == "inline" || word == "static" || word == "const";
@@ -90,7 +90,8 @@ std::vector<std::string> declared_by(const std::string& code) {
 std::vector<Paragraph> paragraphs_of(const std::string& text) {
     std::vector<Paragraph> all;
     std::istringstream lines(text);
-    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+    lines.exceptions(std::ios::badbit);  // otherwise std::getline() swallows std::bad_alloc, and the rest is
+                                         // lost
     std::string line, current;
     const auto end = [&] {
         if (current.empty()) return;
@@ -155,7 +156,7 @@ std::string constants_type(const ExportedModel& model) {
             return std::string(tokens[i + 1].text);
     }
     throw std::runtime_error(
-        fmt::format("the kernel of {} does not say what {} returns", id_of(model), name));
+        fmt::format("the kernel of {} does not declare the return type of {}", id_of(model), name));
 }
 
 std::string prepared(const ExportedModel& model, const std::string& parameters) {
@@ -194,8 +195,8 @@ void require_different_names(const ExportedScene& scene) {
             const auto [at, is_new] = whose.try_emplace(name, id);
             if (is_new || at->second == id) continue;
             throw std::runtime_error(
-                fmt::format("the kernels of {} and {} both declare '{}', so that they cannot stand in one "
-                            "program; a name that begins with the model's own would do",
+                fmt::format("the kernels of {} and {} both declare '{}', so they cannot be combined in one "
+                            "program; use a name that begins with the model's own",
                             at->second, id, name));
         }
     }

@@ -84,7 +84,7 @@ std::string html_text(std::string_view text) {
 std::string script_json(std::string json) { return replace_all(std::move(json), "<", "\\u003c"); }
 
 void append_base64(std::span<const std::byte> bytes, std::string& text) {
-    // Two digits at a time, of twelve bits.
+    // Two digits at a time, twelve bits each.
     static const std::array<std::array<char, 2>, 4096> pairs = [] {
         std::array<std::array<char, 2>, 4096> result{};
         for (std::size_t i = 0; i < result.size(); ++i) result[i] = {k_digits[i >> 6], k_digits[i & 63u]};
@@ -123,7 +123,7 @@ std::string base64_decoded(std::string_view text) {
     for (const char c : text) {
         if (c == '=') break;
         const std::size_t digit = k_digits.find(c);
-        if (digit == std::string_view::npos) throw std::invalid_argument("this is no base64 text");
+        if (digit == std::string_view::npos) throw std::invalid_argument("malformed base64");
         group = group << 6 | static_cast<std::uint32_t>(digit);
         bits += 6;
         if (bits < 8) continue;

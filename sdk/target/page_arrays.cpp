@@ -29,7 +29,7 @@ std::string PageArrays::put(std::span<const std::byte> bytes) {
 }
 
 std::vector<PageTexture> put_textures(const ExportedScene& scene, PageArrays& arrays) {
-    // Browsers read a page of a hundred megabytes, and none of a few hundred.
+    // Browsers can read a page of a hundred megabytes, but not one of several hundred.
     constexpr std::size_t k_most_bytes = std::size_t{96} << 20;
     std::vector<PageTexture> textures;
     std::size_t bytes = 0;
@@ -38,8 +38,8 @@ std::vector<PageTexture> put_textures(const ExportedScene& scene, PageArrays& ar
         bytes += pixels.bytes.size();
         if (bytes > k_most_bytes)
             throw std::runtime_error(fmt::format(
-                "the scene's textures take more than {} MiB, for which a page has no room; make them "
-                "smaller (the first that is too much is '{}', {} x {} pixels of {} bits)",
+                "the scene's textures take more than {} MiB, the limit of a page; make them smaller (the "
+                "first beyond the limit is '{}', {} x {} pixels of {} bits)",
                 k_most_bytes >> 20, texture.file, pixels.width, pixels.height, pixels.is_encoded ? 24 : 48));
         textures.push_back({.title = title_of(texture),
                             .width = pixels.width,

@@ -26,11 +26,11 @@ const char* browser_among(ProgramRunner& programs) {
     constexpr std::array k_names = {"chromium", "chromium-browser", "google-chrome"};
     const auto found = std::ranges::find_if(k_names, [&](const char* name) { return programs.has(name); });
     if (found == k_names.end())
-        throw std::runtime_error("the page is drawn by Chromium, and there is no 'chromium' on this machine");
+        throw std::runtime_error("Chromium draws the page, but 'chromium' is not installed");
     return *found;
 }
 
-/// Percent-encoded where a URL wants it.
+/// Percent-encodes the characters that a URL requires it for.
 std::string file_url(const fs::path& path) {
     std::string url = "file://";
     for (const char c : fs::absolute(path).string()) {
@@ -41,7 +41,7 @@ std::string file_url(const fs::path& path) {
     return url;
 }
 
-/// What stands in <pre id="..."> of a page's text.
+/// The contents of <pre id="..."> in a page's text.
 std::optional<std::string> content_of(const std::string& html, const std::string& id) {
     const std::size_t tag = html.find("<pre id=\"" + id + "\"");
     if (tag == std::string::npos) return std::nullopt;
@@ -70,13 +70,13 @@ void draw_page(const fs::path& page, const fs::path& picture, ProgramRunner& pro
                                       profile_option.c_str(),
                                       "--virtual-time-budget=60000",
                                       "--timeout=120000"};
-    // Chromium's own sandbox cannot be had as root; the page is our own text.
+    // Chromium's own sandbox does not work for root; the page is our own text.
     if (::geteuid() == 0) words.push_back("--no-sandbox");
     words.insert(words.end(), {"--dump-dom", url.c_str()});
     const ProgramResult result = programs.run(words);
     const std::string html = result.out;
     if (const auto problem = content_of(html, "problem"))
-        throw std::runtime_error(fmt::format("the page says: {}", *problem));
+        throw std::runtime_error(fmt::format("the page reports: {}", *problem));
     const auto data = content_of(html, "picture");
     constexpr std::string_view k_begin = "data:image/png;base64,";
     if (!data || !data->starts_with(k_begin)) {

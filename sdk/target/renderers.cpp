@@ -28,7 +28,7 @@ const ParamValue* value_named(const ExportedModel& model, const ExportedValues& 
     return nullptr;
 }
 
-/// What is given for both directions, or their geometric mean.
+/// The common value for both directions, or their geometric mean.
 std::optional<float> mean_value(const ExportedModel& model, const ExportedValues& values,
                                 std::string_view both, std::string_view along, std::string_view across) {
     if (const auto value = real_value(model, values, both)) return value;
@@ -77,7 +77,8 @@ std::optional<Highlight> highlight_of(const ExportedModel& model, const Exported
     Highlight result{.specular = *specular,
                      .alpha = alpha ? std::clamp(*alpha, 1e-3f, 1.0f) : std::sqrt(2 / (*exponent + 2))};
     if (!alpha) return result;
-    // An index of 100 says that the highlight is ks times nothing, which is how models are imported.
+    // An index of 100 means that the highlight is ks without a Fresnel factor, which is how models are
+    // imported.
     constexpr float k_constant = 100;
     const float ior = real_value(model, values, "ior").value_or(k_constant);
     const float mirrored = ior < k_constant ? (ior - 1) / (ior + 1) : 1;

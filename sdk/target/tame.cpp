@@ -29,7 +29,7 @@ constexpr std::array k_latin = std::to_array<std::string_view>({
     "w", "Y", "y", "Y", "Z", "z", "Z", "z", "Z", "z", "s",
 });
 
-// From U+0391 on: Greek, as ISO 843 type 2 has it.
+// From U+0391 on: Greek, according to ISO 843 type 2.
 constexpr std::array k_greek = std::to_array<std::string_view>({
     "A", "B", "G", "D", "E", "Z", "I", "Th", "I", "K", "L", "M", "N", "X", "O", "P", "R", "_", "S", "T",
     "Y", "F", "Ch", "Ps", "O", "I", "Y", "a", "e", "i", "i", "y", "a", "b", "g", "d", "e", "z", "i", "th",
@@ -37,7 +37,7 @@ constexpr std::array k_greek = std::to_array<std::string_view>({
     "y", "o",
 });
 
-// From U+0410 on: Cyrillic, as English writes it.
+// From U+0410 on: Cyrillic, transliterated as in English.
 constexpr std::array k_cyrillic = std::to_array<std::string_view>({
     "A", "B", "V", "G", "D", "E", "Zh", "Z", "I", "J", "K", "L", "M", "N", "O", "P", "R", "S", "T", "U",
     "F", "Kh", "Ts", "Ch", "Sh", "Shch", "_", "Y", "_", "E", "Yu", "Ya", "a", "b", "v", "g", "d", "e", "zh",
@@ -52,7 +52,7 @@ struct Alphabet {
 };
 constexpr Alphabet k_alphabets[] = {{0xc0, k_latin}, {0x391, k_greek}, {0x410, k_cyrillic}};
 
-/// In ASCII; '_' for what is neither a letter nor one of a few marks.
+/// In ASCII; '_' for characters other than letters and a few marks.
 std::string tame_character(char32_t c) {
     const bool is_plain =
         (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||

@@ -23,7 +23,7 @@ std::string filled(std::string_view text, const ValueViews& values) {
         const std::string_view name = text.substr(begin + 1, end - begin - 1);
         const auto value = std::ranges::find(values, name, &ValueViews::value_type::first);
         if (value == values.end())
-            throw std::logic_error("a template has a place that nothing fills: " + std::string(name));
+            throw std::logic_error("a template has a placeholder without a value: " + std::string(name));
         parts.push_back(value->second);
         at = end + 1;
         const bool is_whole_line =

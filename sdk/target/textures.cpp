@@ -19,7 +19,7 @@ namespace {
 
 constexpr int k_not_encoded = -1;
 
-/// For each intensity the byte that is decoded to it.
+/// For each intensity, the byte that decodes to it.
 std::vector<int> encoded_bytes(ColorEncoding encoding) {
     std::vector<int> bytes(65536, k_not_encoded);
     for (int i = 0; i < 256; ++i) {

@@ -14,11 +14,11 @@ struct Token {
     bool is_word() const;
 };
 
-/// Those of `code`, which has no comments and which they point into. With regular expressions, of which
-/// libstdc++ compiles one in a millisecond, this took an eighth of the time that a page takes.
+/// The tokens of `code`, which has no comments; they point into it. Regular expressions, of which libstdc++
+/// compiles one per millisecond, would take an eighth of the time for writing a page.
 std::vector<Token> tokens_of(std::string_view code);
 
-/// What one of them is; nothing beyond the last.
+/// The text of token `i`; empty past the last.
 std::string_view text_at(const std::vector<Token>& tokens, std::size_t i);
 
 }  // namespace candela::target

@@ -6,7 +6,7 @@
 
 namespace candela::target {
 
-/// With U+FFFD for what is no UTF-8.
+/// Replaces everything that is not UTF-8 by U+FFFD.
 std::string valid_utf8(std::string_view text);
 
 }  // namespace candela::target

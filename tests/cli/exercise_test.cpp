@@ -173,10 +173,10 @@ TEST_CASE("exercise: what is not in the kernel language is refused before it is 
         {"[[gnu::noreturn]] int x = 0;", "neither arrays nor attributes"},
         {"float a[1000000000];", "neither arrays nor attributes"},
         {"std::exit(0);", "no '::'"},
-        {"}\nvoid f() {", "closes nothing"},
+        {"}\nvoid f() {", "has no opening '{'"},
         {"{", "not closed"},
         {"// a comment that goes on \\\n#include <x>", "must not end with"},
-        {"while (true) { }", "a loop has a constant bound"},
+        {"while (true) { }", "a loop needs a constant bound"},
         {"float x = exit(0);", "unknown function 'exit'"},
     };
     for (std::size_t i = 0; i < texts.size(); ++i)

@@ -39,13 +39,13 @@ set(CMAKE_CXX_COMPILER_VERSION 13.0.1)" '' "is Clang 13.0.1 (choose another with
 refused other-compiler Ninja "$cxx" "$project
 set(CMAKE_CXX_COMPILER_ID MSVC)" '' "Candela's plugins need g++ 12 or clang 14, or newer;"
 refused modules-by-make 'Unix Makefiles' "$cxx" "$project" "$program" \
-    "candela::core, whose C++ modules need the generator Ninja, and this is Unix Makefiles"
-refused modules-by-gcc Ninja g++ "$project" "$program" "candela::core, whose C++ modules need clang 19 or newer, and this is GNU"
+    "candela::core, whose C++ modules need the generator Ninja, but this is Unix Makefiles"
+refused modules-by-gcc Ninja g++ "$project" "$program" "candela::core, whose C++ modules need clang 19 or newer, but this is GNU"
 refused modules-by-old-cmake Ninja "$cxx" "$project
-set(CMAKE_VERSION 3.27.1)" "$program" "candela::core, whose C++ modules need CMake 3.28 or newer, and this is 3.27.1"
+set(CMAKE_VERSION 3.27.1)" "$program" "candela::core, whose C++ modules need CMake 3.28 or newer, but this is 3.27.1"
 refused modules-without-scanner Ninja "$cxx" "$project
 set(CMAKE_CXX_COMPILER_CLANG_SCAN_DEPS CMAKE_CXX_COMPILER_CLANG_SCAN_DEPS-NOTFOUND)" "$program" \
-    "candela::core, whose C++ modules need clang-scan-deps, which is not beside the compiler (package clang-tools-$("$cxx" -dumpversion | cut -d. -f1))"
+    "candela::core, whose C++ modules need clang-scan-deps, which is not next to the compiler (package clang-tools-$("$cxx" -dumpversion | cut -d. -f1))"
 
 # A project's own older standard is raised for the plugin.
 mkdir "$scratch/old-standard"

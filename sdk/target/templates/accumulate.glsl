@@ -1,4 +1,4 @@
-// Adds the picture of one sample to the sum of those before.
+// Adds the picture of one sample to the sum of the previous ones.
 uniform sampler2D picture;
 uniform sampler2D sum;
 uniform float weight;

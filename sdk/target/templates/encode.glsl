@@ -1,4 +1,4 @@
-// From intensities to what a screen or a file takes: IEC 61966-2-1 (sRGB), or as they are.
+// Encodes intensities for a screen or a file: IEC 61966-2-1 (sRGB), or unchanged.
 uniform sampler2D sum;
 uniform bool is_srgb;
 out vec4 pixel;

@@ -3,7 +3,7 @@ uniform bool is_orthographic;
 uniform vec3 towards_observer;
 uniform vec3 object_color;
 
-// The intensity that a place of a surface sends to the observer. `color`: what the object's colour is multiplied with; `facing`:
+// The intensity that a point of a surface sends to the observer. `color` multiplies the object's colour; `facing`:
 // -1 where an open surface is seen from behind.
 vec3 intensity_at(vec3 place, ShadingPoint point, vec3 color, float facing) {
 @PREPARATION@

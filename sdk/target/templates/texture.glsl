@@ -1,12 +1,12 @@
 #define TEXTURED
-// A texture's texels, 65535 for an intensity of 1: the picture, and its mip levels in a row along its longer side. They are whole
-// numbers, which no driver filters: between them, and between levels, the functions below do, so that every driver draws the same.
+// A texture's texels, 65535 for an intensity of 1: the picture, and its mip levels in a row along its longer side. They are
+// integers, which no driver filters: the functions below interpolate, so that every driver draws the same picture.
 uniform highp usampler2D color_texels;
 struct ColorTexture {
     int width;
     int height;
     int levels;
-    bool repeats;  // beyond its edges; else the colours there go on
+    bool repeats;  // beyond its edges; otherwise the edge colours continue
 };
 uniform ColorTexture color_texture;
 int color_texture_levels(ColorTexture t) { return t.levels; }
@@ -15,7 +15,7 @@ int color_texture_height(ColorTexture t, int level) { return max(t.height >> lev
 vec3 color_texture_texel(ColorTexture t, int level, int x, int y) {
     int longer = max(t.width, t.height);
     int along = longer - (longer >> max(level - 1, 0));
-    ivec2 beside = t.width >= t.height ? ivec2(along, t.height) : ivec2(t.width, along);
-    return vec3(texelFetch(color_texels, (level == 0 ? ivec2(0) : beside) + ivec2(x, y), 0).rgb) / 65535.0;
+    ivec2 corner = t.width >= t.height ? ivec2(along, t.height) : ivec2(t.width, along);
+    return vec3(texelFetch(color_texels, (level == 0 ? ivec2(0) : corner) + ivec2(x, y), 0).rgb) / 65535.0;
 }
 

@@ -1,5 +1,5 @@
-// A picture that colours are multiplied with, or one of its mip levels. Texels are intensities, 65535 for 1: red, green, blue,
-// and a fourth that means nothing.
+// A picture that multiplies colours, or one of its mip levels. Texels are intensities, 65535 for 1: red,
+// green, blue, and a fourth channel as padding.
 struct TextureLevel {
     int width = 0, height = 0;
     std::vector<std::uint16_t> texels;
@@ -7,7 +7,8 @@ struct TextureLevel {
 
 std::string folder_of(const std::string& path) { return path.substr(0, path.find_last_of("/\\") + 1); }
 
-// Where pictures are looked for: where the program is, or above that, and last beside this source, as it was compiled.
+// Where pictures are searched for: next to the program, or above it, and finally next to this source, as it
+// was compiled.
 std::vector<std::string> texture_folders = {folder_of(__FILE__)};
 
 void look_for_textures_at(const std::string& program) {
@@ -15,7 +16,7 @@ void look_for_textures_at(const std::string& program) {
     if (!folder.empty()) texture_folders.insert(texture_folders.begin(), {folder, folder + "../"});
 }
 
-// A PPM file (P6). The numbers of one of 8 bits are colours, those of one of 16 bits are intensities.
+// A PPM file (P6). The numbers of an 8-bit file are colours, those of a 16-bit file are intensities.
 TextureLevel read_ppm(const std::string& name) {
     std::string path;
     std::ifstream file;
@@ -37,7 +38,7 @@ TextureLevel read_ppm(const std::string& name) {
     const int largest = number();
     file.get();
     if (!file || magic != "P6" || level.width < 1 || level.height < 1 || (largest != 255 && largest != 65535))
-        throw std::runtime_error("the texture " + path + " cannot be read: it has to be a PPM file of 8 or 16 bits");
+        throw std::runtime_error("the texture " + path + " cannot be read: it must be a PPM file with 8 or 16 bits");
     std::vector<std::uint16_t> intensity(256);
     for (std::size_t i = 0; i < 256; ++i) intensity[i] = static_cast<std::uint16_t>(65535 * decoded(static_cast<float>(i) / 255) + 0.5f);
     const std::size_t bytes = largest == 255 ? 1 : 2;
@@ -49,11 +50,12 @@ TextureLevel read_ppm(const std::string& name) {
             if (level.texels.size() % 4 == 3) level.texels.push_back(0);
         }
     }
-    if (!file) throw std::runtime_error("the texture " + path + " is cut off");
+    if (!file) throw std::runtime_error("the texture " + path + " is truncated");
     return level;
 }
 
-// The next level: each of its texels is the mean of those that it covers, two by two, or parts of three where one is left over.
+// The next level: each of its texels is the mean of those that it covers, two by two, or parts of three if
+// one is left over.
 TextureLevel halved(const TextureLevel& from) {
     TextureLevel to{std::max(from.width / 2, 1), std::max(from.height / 2, 1), {}};
     const double across = static_cast<double>(from.width) / to.width, down = static_cast<double>(from.height) / to.height;

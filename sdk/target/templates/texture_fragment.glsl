@@ -1,6 +1,6 @@
 
 #if defined(TEXTURED) && defined(LIT_AT_FRAGMENT)
-// How the line of sight moves from pixel to pixel: in metres, at a distance of 1 in perspective.
+// The change of the line of sight from pixel to pixel: in metres, at a distance of 1 in perspective.
 uniform vec3 pixel_right;
 uniform vec3 pixel_up;
 #ifndef NEEDS_TRIANGLE

@@ -1,5 +1,5 @@
-// GLSL leaves to the driver how exact these are; some have 11 bits, with which the rim of a cone or of a highlight lies
-// elsewhere. Here they are exact to some units of a float's last bit.
+// GLSL leaves the precision of these to the driver; some have 11 bits, which moves the rim of a cone or of a highlight.
+// Here they are exact to a few units of a float's last bit.
 float exact_sin(float x) {
     float n = floor(0.318309886 * x + 0.5);
     float r = ((x - n * 3.140625) - n * 9.67502593994e-4) - n * 1.50995799e-7;  // x - n pi

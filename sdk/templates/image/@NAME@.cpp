@@ -11,8 +11,8 @@ using namespace candela::sdk;
 
 namespace {
 
-/// A line "@NAME@ <width> <height>", then red, green and blue, a byte each, in rows from the top. As a beginning: put your
-/// format here, and say where it is specified.
+/// A line "@NAME@ <width> <height>", then red, green and blue, one byte each, in rows from the top. This is a
+/// starting point: put your format here, and name its specification.
 class @TYPE@Format final : public candela::ImageFormat {
   public:
     explicit @TYPE@Format(const NoParams&) {}
@@ -23,7 +23,8 @@ class @TYPE@Format final : public candela::ImageFormat {
         sink.write(std::as_bytes(picture.bytes));
     }
 
-    // A file is anybody's: nothing that it says is believed, and no memory is asked for that its length does not account for.
+    // A file may come from anybody: do not trust its header, and do not allocate more memory than its length
+    // justifies.
     void read(const char* path, candela::PictureSink& sink) const override {
         std::ifstream file(path, std::ios::binary | std::ios::ate);
         const auto length = static_cast<std::size_t>(file.tellg());
@@ -31,9 +32,9 @@ class @TYPE@Format final : public candela::ImageFormat {
         std::string name;
         int width = 0, height = 0;
         if (!(file >> name >> width >> height) || name != "@NAME@" || file.get() != '\n')
-            throw std::runtime_error("it does not begin as a .@NAME@ does");
+            throw std::runtime_error("it does not begin like a .@NAME@ file");
         if (width < 1 || width > 65536 || height < 1 || height > 65536)
-            throw std::runtime_error("its width or height is none from 1 to 65536");
+            throw std::runtime_error("its width or height is not from 1 to 65536");
         const std::size_t size = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
         if (length < size) throw std::runtime_error("it ends before its last pixel");
         std::vector<char> bytes(size);

@@ -19,7 +19,7 @@ class Memory final : public candela::ByteSink {
 
 }  // namespace
 
-TEST_CASE("two pixels side by side are a header and six bytes") {
+TEST_CASE("two pixels next to each other are a header and six bytes") {
     const auto format = candela::sdk::make<candela::ImageFormat>(CANDELA_PLUGIN_DIR, "@NAME@");
     const std::array<std::uint8_t, 6> pixels{'a', 'b', 'c', 'd', 'e', 'f'};
     Memory memory;

@@ -9,9 +9,9 @@ using namespace candela::sdk;
 
 constexpr auto k_fields = fields(light_color(&@TYPE@Light::color),
                                  light_intensity(&@TYPE@Light::intensity, "intensity at one metre"),
-                                 point(&@TYPE@Light::position, "position", "where the light is"));
+                                 point(&@TYPE@Light::position, "position", "position of the light"));
 
-// What is declared here, the conformance kit verifies.
+// The conformance kit verifies everything declared here.
 constexpr candela::Property k_properties[] = {{"attenuation", "by distance"}};
 
 CANDELA_LIGHT_PLUGIN(@IDENT@, @TYPE@Light, k_fields,

@@ -5,7 +5,7 @@
 
 using Catch::Matchers::WithinAbs;
 
-TEST_CASE("two metres away, a quarter of the light arrives, from where the light is") {
+TEST_CASE("two metres away, a quarter of the light arrives, from the light's position") {
     const auto light = candela::sdk::make<candela::Light>(
         CANDELA_PLUGIN_DIR, "@NAME@", {{"position", candela::Vec3{0, 2, 0}}, {"intensity", 3.0}});
 

@@ -9,7 +9,7 @@ using namespace candela::sdk;
 
 constexpr auto k_fields = fields(ambient_coefficient(&@TYPE@Material::ka), diffuse_coefficient(&@TYPE@Material::kd));
 
-// What is declared here, the conformance kit verifies.
+// The conformance kit verifies everything declared here.
 constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}, {"isotropic"}};
 
 CANDELA_REFLECTION_PLUGIN(@IDENT@, @TYPE@Material, k_fields,

@@ -6,7 +6,7 @@ namespace candela::kernel {
 
 using namespace candela::sdk;
 
-// Light is evaluated once a face, vertex or fragment.
+// Light is evaluated once per face, vertex or fragment.
 CANDELA_SHADING_PLUGIN(@IDENT@, fragment, NoParams, k_no_fields,
                        {.title = "@TITLE@",
                         .summary = "One sentence about it.",

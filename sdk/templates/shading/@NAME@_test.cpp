@@ -6,7 +6,7 @@
 
 using Catch::Matchers::WithinAbs;
 
-TEST_CASE("between a face that looks up and a vertex normal that looks along x, the normal is the diagonal") {
+TEST_CASE("between a face that points up and a vertex normal along x, the normal is the diagonal") {
     const auto model = candela::sdk::make<candela::ShadingModel>(CANDELA_PLUGIN_DIR, "@NAME@");
 
     const float zero = 0, one = 1;

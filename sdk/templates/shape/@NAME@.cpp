@@ -13,7 +13,7 @@ constexpr auto k_fields = fields(real(&@TYPE@Shape::width, "width", 1, "across")
                                  real(&@TYPE@Shape::height, "height", 1.4f, "from pole to pole").above(0).unit("m"),
                                  segments(&@TYPE@Shape::segments, 64, "faces around; half as many from pole to pole"));
 
-// What is declared here, the conformance kit verifies.
+// The conformance kit verifies everything declared here.
 constexpr candela::Property k_properties[] = {
     {"closed"}, {"euler-characteristic", "2"}, {"parametric"}, {"bounding-box", "-0.5 -0.7 -0.5 0.5 0.7 0.5"}};
 

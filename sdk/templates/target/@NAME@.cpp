@@ -10,18 +10,19 @@ using namespace candela;
 
 namespace {
 
-/// The triangles of a scene as a Wavefront OBJ, in metres. As a beginning: put what you turn a scene into here.
+/// The triangles of a scene as a Wavefront OBJ, in metres. This is a starting point: write your own format
+/// here.
 class @TYPE@Target final : public Target {
   public:
     explicit @TYPE@Target(const sdk::NoParams&) {}
 
-    // It needs the formula of no model. What a target cannot express, the host refuses with a message.
+    // It needs no model's formula. The host refuses, with a message, what a target cannot express.
     TargetAbilities abilities() const noexcept override { return {.models_without_kernel = true, .surroundings = true}; }
     const char* main_file() const noexcept override { return "scene.obj"; }
 
     void write(const ExportedScene& scene, FileSink& files) const override {
         std::ostringstream text;
-        std::size_t before = 1;  // vertices are counted from 1, through all objects
+        std::size_t before = 1;  // vertices are counted from 1, across all objects
         for (std::size_t o = 0; o < scene.objects.size(); ++o) {
             const ExportedMesh mesh = scene.geometry->in_world_space(o);
             text << "o " << target::tame(scene.objects[o].label) << '\n';

@@ -79,7 +79,7 @@ class Qoi final : public candela::ImageFormat {
             std::uint32_t number = 0;
             for (int i = 0; i < 4; ++i) number = number << 8 | next();
             if (number < 1 || number > 65536)
-                throw std::runtime_error("its width or height is none from 1 to 65536");
+                throw std::runtime_error("its width or height is not from 1 to 65536");
             return static_cast<int>(number);
         };
         if (bytes.size() < 14 || std::memcmp(bytes.data(), "qoif", 4) != 0)
