@@ -1,4 +1,4 @@
-// A scene that tests draw and go on with.
+// A scene that tests draw and modify.
 #pragma once
 
 #include <fmt/format.h>

@@ -19,7 +19,7 @@ using candela::ParamType;
 using candela::PluginKind;
 using candela::Vec3;
 
-/// What was broken, and where.
+/// The broken constraint and its position.
 struct Change {
     std::string rule;
     std::string message;
@@ -85,7 +85,7 @@ class Breaker {
         const std::size_t count = scene_.count(header);
         return count > 0 ? &scene_.table(header, below(count)) : nullptr;
     }
-    /// The table of that header, made where the scene leaves it out.
+    /// The table with that header, added if the scene omits it.
     SceneTable& the(const std::string& header) {
         if (scene_.count(header) == 0) scene_.tables.push_back({header, {}});
         return scene_.table(header);
@@ -302,7 +302,7 @@ class Breaker {
         return Change{"light at observer", "is where the observer is", light, "position"};
     }
 
-    /// Objects whose middle is inside of them.
+    /// Objects that enclose their centre.
     std::vector<std::size_t> full_objects() {
         std::vector<std::size_t> result;
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {

@@ -1,4 +1,4 @@
-// Valid scenes with one constraint broken by chance.
+// Valid scenes with one randomly chosen constraint broken.
 #pragma once
 
 #include <map>
@@ -7,11 +7,11 @@
 #include "random_scene.h"
 
 struct BrokenScene {
-    std::string rule;     // which constraint, for messages and for counting
+    std::string rule;     // name of the constraint, for messages and for counting
     std::string text;     // the whole file
-    std::string message;  // what the error must say, among other things
-    int line = 0;         // where it must be; 0: the rule is about something that is not there
+    std::string message;  // a part of the expected error
+    int line = 0;         // where it must be; 0: the constraint is about something missing
 };
 
-/// The random scene of that seed with one thing changed so that exactly one constraint no longer holds.
+/// The random scene of that seed with one change, so that exactly one constraint is violated.
 BrokenScene broken_scene(unsigned seed);

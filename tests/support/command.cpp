@@ -96,7 +96,7 @@ RunningProgram::~RunningProgram() {
 
 bool RunningProgram::has_ended() const {
     siginfo_t state{};
-    // WNOWAIT leaves it to be waited for.
+    // WNOWAIT keeps it waitable.
     return ::waitid(P_PID, static_cast<id_t>(child_), &state, WEXITED | WNOHANG | WNOWAIT) == 0 &&
            state.si_pid == child_;
 }

@@ -31,7 +31,7 @@ inline Decoded read_by(const char* plugin, const std::filesystem::path& file) {
     return picture;
 }
 
-/// What the plugin says is wrong with a file; empty if nothing is.
+/// The plugin's error message for a file; empty if it reads the file.
 inline std::string problem_of(const char* plugin, const std::filesystem::path& file) {
     try {
         static_cast<void>(read_by(plugin, file));

@@ -1,4 +1,4 @@
-// What a run of the command is to come to.
+// Checks the result of a run of the command.
 #pragma once
 
 #include <catch2/catch_test_macros.hpp>
@@ -7,7 +7,7 @@
 
 #include "support/command.h"
 
-/// Its exit code, and what it says on standard error, among other things.
+/// Checks the exit code, and that standard error contains `parts`.
 inline void expect(const CommandResult& result, int exit_code, const std::vector<std::string>& parts) {
     INFO(result.err);
     CHECK(result.exit_code == exit_code);

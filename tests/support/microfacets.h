@@ -1,4 +1,4 @@
-// Integrals over directions, for what distributions and reflection models must add up to.
+// Integrals over directions, to check the normalisation of distributions and reflection models.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ inline double over_hemisphere(const std::function<double(Double3)>& f, int steps
     return sum * step * 2 * std::numbers::pi / steps;
 }
 
-/// The share of even white light from everywhere that a white surface facing +y sends towards `to_observer`.
+/// The fraction of uniform white light that a white surface facing +y reflects towards `to_observer`.
 inline double directional_albedo(const candela::ReflectionModel& model, candela::Vec3 to_observer) {
     constexpr int k_steps = 200;
     std::vector<ReflectionSample> samples;
@@ -45,8 +45,8 @@ inline double directional_albedo(const candela::ReflectionModel& model, candela:
     return over_hemisphere(towards_observer, k_steps) / std::numbers::pi;
 }
 
-/// Fresnel's equations for the two polarisations (Born, Wolf 1999, 1.5.2 (21)), averaged: the share of light
-/// that a surface between media of index 1 and `ior` >= 1 mirrors.
+/// Fresnel's equations for the two polarisations (Born, Wolf 1999, 1.5.2 (21)), averaged: the fraction of
+/// light mirrored by a surface between media of index 1 and `ior` >= 1.
 inline double exact_fresnel(double cosine, double ior) {
     const double angle = std::acos(std::min(cosine, 1.0));
     if (angle < 1e-6) return std::pow((ior - 1) / (ior + 1), 2);

@@ -79,7 +79,7 @@ Polyhedron random_body(std::size_t triangles, Random& random) {
 struct WeightedSum {
     Double3 sum;
     double weights = 0;
-    /// Where the faces nearly cancel, rounding decides.
+    /// If the faces nearly cancel, rounding decides.
     bool is_clear() const { return length(sum) > 0.1 * weights; }
 };
 
@@ -97,8 +97,8 @@ std::vector<WeightedSum> weighted_sums(const Polyhedron& body, const CornerWeigh
     return sums;
 }
 
-/// Compares where the sum is clear; `turned` is applied to what is expected, `renumbered` says where a vertex
-/// went.
+/// Compares the normals where the sum is clear; `turned` is applied to the expected ones, `renumbered` maps
+/// the vertices.
 void check_against(const std::vector<Vec3>& normals, const std::vector<WeightedSum>& sums,
                    const std::function<Double3(Double3)>& turned,
                    const std::vector<std::uint32_t>& renumbered) {
@@ -112,7 +112,7 @@ void check_against(const std::vector<Vec3>& normals, const std::vector<WeightedS
 
 Double3 same(Double3 v) { return v; }
 
-/// A turn by a third about (1, 1, 1), and then by 0.7 radians about z.
+/// A rotation by a third of a turn about (1, 1, 1), then by 0.7 radians about z.
 Double3 turned(Double3 v) {
     const Double3 w{v.z, v.x, v.y};
     const double c = std::cos(0.7), s = std::sin(0.7);
@@ -124,8 +124,8 @@ Polyhedron mapped(Polyhedron body, const std::function<Double3(Double3)>& map) {
     return body;
 }
 
-/// The same surface with its vertices renumbered, its triangles in another order, and each begun at another
-/// corner.
+/// The same surface with its vertices renumbered, its triangles in another order, and each starting at
+/// another corner.
 Polyhedron reordered(const Polyhedron& body, const std::vector<std::uint32_t>& renumbered) {
     Polyhedron result;
     result.position.resize(body.position.size());
@@ -179,7 +179,7 @@ void check_weighted_normals(std::string_view name, const CornerWeight& weight) {
 void check_normals_of_odd_meshes(std::string_view name) {
     const auto model = instance<ShadingModel>(name);
     // One good triangle; a corner twice; three corners on a line; two corners at one place; all corners at
-    // one place; and two vertices that are in no triangle.
+    // one place; and two vertices without triangles.
     Polyhedron body;
     body.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {1, 0, 0},
                      {5, 5, 5}, {5, 5, 5}, {5, 5, 5}, {7, 7, 7}, {1e-20f, 1e-20f, 0}};

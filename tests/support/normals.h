@@ -1,4 +1,4 @@
-// Polyhedra whose vertex normals are wanted, and what must hold of every way to weigh their faces.
+// Polyhedra with known vertex normals, and properties that every weighting of faces must have.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "support/samples.h"
 
-/// Triangles; a vertex each is a smooth group of its own.
+/// Triangles; each vertex is its own smooth group.
 struct Polyhedron {
     std::vector<candela::Vec3> position;
     std::vector<std::uint32_t> indices;
@@ -17,10 +17,10 @@ struct Polyhedron {
     std::size_t triangles() const { return indices.size() / 3; }
 };
 
-/// The unit vector, or zero of a vector without length.
+/// The unit vector; zero if the vector has no length.
 Double3 unit_or_zero(Double3 v);
 
-/// What the host asks of a shading model: face normals by the cross product, in double precision.
+/// Calls a shading model like the host does: face normals by the cross product, in double precision.
 std::vector<candela::Vec3> vertex_normals(const candela::ShadingModel& model, const Polyhedron& body);
 
 /// The largest angle, in radians, between two lists of unit vectors.
@@ -30,13 +30,14 @@ double largest_angle(const std::vector<candela::Vec3>& normals, const std::vecto
 using CornerWeight = std::function<double(Double3 to_next, Double3 to_previous)>;
 
 /// Compares a model's vertex normals with the weighted sum in double precision, for meshes of k_batch_sizes
-/// triangles and every instruction set; and the same mesh moved and turned, of other sizes, and with its
-/// vertices, corners and triangles in another order.
+/// triangles and every instruction set; also for the mesh moved, rotated, rescaled, and with its vertices,
+/// corners and triangles in another order.
 void check_weighted_normals(std::string_view model, const CornerWeight& weight);
 
-/// Triangles without area, and vertices that have no others, must leave finite normals, unit where there is
-/// any face; authored normals go before all; and vertices of one smooth group share one normal.
+/// Checks that vertices of only degenerate triangles, or of none, get finite normals, of unit length if they
+/// have any proper face; that authored normals take precedence; and that vertices of one smooth group share
+/// one normal.
 void check_normals_of_odd_meshes(std::string_view model);
 
-/// Whether light is evaluated at fragments, with the interpolated vertex normal normalised (DD10).
+/// Checks that light is evaluated at fragments, with the interpolated vertex normal normalised (DD10).
 void check_interpolated_normals(std::string_view model);

@@ -17,7 +17,7 @@ std::vector<candela::InstructionSet> machine_instruction_sets();
 
 using Given = std::initializer_list<std::pair<std::string_view, candela::Value>>;
 
-/// An instance with the given parameters, colours not decoded unless `encoding` says so.
+/// Creates an instance with the given parameters; colours are decoded only if `encoding` says so.
 template <class Interface>
 std::unique_ptr<Interface> instance(std::string_view name, Given given = {},
                                     candela::ColorEncoding encoding = candela::ColorEncoding::none) {

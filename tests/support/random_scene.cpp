@@ -25,14 +25,14 @@ namespace {
 
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
-/// How far a shape reaches from its origin, in units of its largest length.
+/// The distance that a shape extends from its origin, in units of its largest length.
 float reach_of(const std::string& shape, const std::map<std::string, double>& lengths) {
     const auto length = [&](const char* name) { return static_cast<float>(lengths.at(name)); };
     if (shape == "sphere") return length("radius");
     if (shape == "torus") return length("major_radius") + length("minor_radius");
     if (shape == "cube") return length("size") * std::numbers::sqrt3_v<float> / 2;
     if (shape == "teapot") return length("size") * 1.4f;  // Newell: 3.15 high, spout 3.43 from the axis
-    throw std::out_of_range("no bounds are known of " + shape);
+    throw std::out_of_range("unknown bounds of " + shape);
 }
 
 class Generator {
@@ -65,7 +65,7 @@ class Generator {
     }
     std::string any_of(PluginKind kind) { return one_of(test_registry().names(kind)); }
 
-    /// A number as one of the ways in which people write it. All of them are exact.
+    /// A number in one of the notations that people use. All of them are exact.
     std::string real(double x) {
         if (x == std::floor(x) && std::abs(x) < 1e6 && chance(0.5)) return fmt::format("{:.0f}", x);
         if (chance(0.2)) return fmt::format("{:.17e}", x);
@@ -75,7 +75,7 @@ class Generator {
     std::string real(float x) { return real(static_cast<double>(x)); }
     std::string three(Vec3 v) { return fmt::format("[{}, {}, {}]", real(v.x), real(v.y), real(v.z)); }
 
-    /// A text as TOML: with short or long escapes, or as it is.
+    /// A string as TOML: with short or long escapes, or unescaped.
     std::string word(std::string_view text) {
         const int way = whole(0, 2);
         if (way == 0 &&
@@ -100,7 +100,7 @@ class Generator {
             "\x7f", "#",        "=",  "]", ".",  " ",  "é",  "日本", "🫖", "\xc2\x85", "\\u0041", "%s{}"};
         std::string name;
         for (int i = whole(0, 4); i > 0; --i) name += one_of(k_parts);
-        // Unique, and not only by what a terminal shows.
+        // Unique, even without the characters that a terminal does not show.
         return name + std::to_string(index);
     }
 
@@ -121,7 +121,7 @@ class Generator {
     float cell_radius() const {
         return 0.5f * std::min({scene_.width, scene_.height, scene_.depth}) / k_cells;
     }
-    /// The middle of a cell that nothing else gets.
+    /// The middle of a cell that is then taken.
     Vec3 take_cell() {
         const int cell = cells_.back();
         cells_.pop_back();
@@ -132,7 +132,7 @@ class Generator {
         return {along(cell % k_cells, size.x), along(cell / k_cells % k_cells, size.y),
                 along(cell / k_cells / k_cells, size.z)};
     }
-    /// Somewhere in a cell, not at its border.
+    /// A random point in a cell, not at its border.
     Vec3 place_in_a_cell() {
         const Vec3 center = take_cell(), size = cell_size();
         const auto near = [&](float x, float s) { return x + s * static_cast<float>(number(-0.45, 0.45)); };
@@ -169,7 +169,7 @@ class Generator {
         if (orthographic || chance(0.3)) {
             entries.emplace_back("projection", orthographic ? "\"orthographic\"" : "\"perspective\"");
         }
-        // Now and then the one without effect, which draws a warning.
+        // Sometimes the one without effect, which draws a warning.
         if (chance(orthographic ? 0.1 : 0.7)) entries.emplace_back("fov", real(number(1, 179)));
         if (chance(orthographic ? 0.7 : 0.1)) entries.emplace_back("height", real(number(0.1, 20)));
         add_table({"[observer]", std::move(entries)});
@@ -194,7 +194,7 @@ class Generator {
         add_table({"[image]", std::move(entries)});
     }
 
-    /// A value within its parameter's range; at the range's ends now and then.
+    /// A value within its parameter's range, sometimes at one of its ends.
     double real_of(const Parameter& p) {
         const bool has_low = p.minimum != candela::k_no_minimum,
                    has_high = p.maximum != candela::k_no_maximum;
@@ -214,7 +214,7 @@ class Generator {
             case ParamType::integer: {
                 if (!p.choices.empty()) return one_of(p.choices);
                 const int low = p.minimum == candela::k_no_minimum ? -5 : static_cast<int>(p.minimum);
-                // Segments stay few, so that tests stay quick.
+                // Few segments, so that tests stay quick.
                 const int high = p.maximum == candela::k_no_maximum ? low + 9 : static_cast<int>(p.maximum);
                 return std::to_string(whole(low, std::min(high, low + 9)));
             }
@@ -247,7 +247,7 @@ class Generator {
         throw std::out_of_range("no random " + p.name);
     }
 
-    /// Values for a plugin's parameters, some of those that have defaults left out.
+    /// Values for a plugin's parameters; some of those with defaults are omitted.
     Entries parameters_of(const candela::PluginFile& plugin) {
         Entries entries;
         for (const Parameter& p : plugin.manifest.parameters) {
@@ -259,12 +259,12 @@ class Generator {
         return entries;
     }
 
-    /// Makes two numbers keep their relation: both from one draw, the smaller one first.
+    /// Makes two numbers satisfy their relation: both from one draw, the smaller one first.
     void settle(const candela::Relation& relation, const std::vector<Parameter>& parameters,
                 Entries& entries) {
         std::erase_if(entries,
                       [&](const auto& e) { return e.first == relation.left || e.first == relation.right; });
-        if (chance(0.3)) return;  // the defaults keep it
+        if (chance(0.3)) return;  // the defaults satisfy it
         const auto larger = std::ranges::find(parameters, relation.right, &Parameter::name);
         const double right = real_of(*larger);
         entries.emplace_back(relation.left, real(right * number(0.1, 0.9)));
@@ -313,13 +313,13 @@ class Generator {
                    parameters_of(test_registry().require(PluginKind::reflection, reflection))});
     }
 
-    /// Scales an object so that it fits its cell, however it is turned.
+    /// Scales an object so that it fits its cell in any orientation.
     void fit(SceneTable& table, float reach) {
         const Vec3 center = take_cell();
         float radius = cell_radius() * static_cast<float>(number(0.2, 0.95));
         const float scale = radius / reach;
         if (scale > 1 && chance(0.5)) {
-            radius = reach;  // as it is, it fits
+            radius = reach;  // it fits without scaling
         } else if (chance(0.5)) {
             table.set("scale", real(scale));
         } else {
@@ -335,7 +335,7 @@ class Generator {
     std::mt19937 random_;
     RandomScene scene_;
     bool has_room_ = false;
-    std::vector<int> cells_;  // that are free
+    std::vector<int> cells_;  // free ones
     std::string default_reflection_;
 };
 
@@ -372,7 +372,7 @@ SceneTable& RandomScene::table(const std::string& header, std::size_t index) {
     for (SceneTable& table : tables) {
         if (table.header == header && index-- == 0) return table;
     }
-    throw std::out_of_range("there are not so many " + header);
+    throw std::out_of_range("there are too few " + header);
 }
 
 RandomScene random_scene(unsigned seed) { return Generator(seed).generate(); }

@@ -1,5 +1,5 @@
-// Valid scenes by chance, the same for the same seed: what they say as TOML, table by table, so that a test
-// can break one constraint of them.
+// Random valid scenes, equal for equal seeds, as TOML tables, so that a test can break one of their
+// constraints.
 #pragma once
 
 #include <cstddef>
@@ -16,21 +16,21 @@ struct SceneTable {
 
     /// The value of a key as TOML, or null.
     const std::string* find(const std::string& key) const;
-    /// Gives a key, there or new, a value.
+    /// Sets a key, whether or not it exists.
     void set(const std::string& key, const std::string& value);
     void erase(const std::string& key);
 };
 
-/// Everything lies in a cell of its own of a grid that fills the room: the observer, each light with a
-/// position, each object.
+/// Everything lies in its own cell of a grid that fills the room: the observer, each light with a position,
+/// each object.
 struct RandomScene {
-    /// A ball in which a whole object lies.
+    /// A sphere that contains a whole object.
     struct Bounds {
         candela::Vec3 center;
         float radius = 0;
     };
 
-    std::vector<SceneTable> tables;  // in an order in which they can be written
+    std::vector<SceneTable> tables;  // in a valid order for writing
     float width = 10, height = 10, depth = 10;
     candela::Vec3 observer;
     std::vector<candela::Vec3> light_positions;  // of the lights that have one
@@ -38,12 +38,12 @@ struct RandomScene {
 
     /// The whole file.
     std::string text() const;
-    /// How many tables have that header.
+    /// The number of tables with that header.
     std::size_t count(const std::string& header) const;
-    /// The `index`-th table of that header. Throws std::out_of_range where there is none.
+    /// The `index`-th table with that header. Throws std::out_of_range if there is none.
     SceneTable& table(const std::string& header, std::size_t index = 0);
 };
 
-/// A scene that is valid, though it may draw warnings. Plugins and the ranges of their parameters come from
-/// the manifests.
+/// A valid scene, which may draw warnings. Plugins and the ranges of their parameters come from the
+/// manifests.
 RandomScene random_scene(unsigned seed);

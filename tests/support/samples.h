@@ -1,4 +1,4 @@
-// Random points and directions, and references in double precision that are written from the equations alone.
+// Random points and directions, and references in double precision that are derived from the equations alone.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 import candela.core;
 
-/// Batch sizes at which everything is tried: one, an odd few, a full vector, many.
+/// The batch sizes of all tests: one, an odd few, a full vector, many.
 inline constexpr std::array<std::size_t, 4> k_batch_sizes = {1, 7, 64, 1000};
 
 /// Double-precision vectors for references.
@@ -45,13 +45,13 @@ class Random {
 /// Runs `check(batch size)` for each instruction set of the machine and each of k_batch_sizes.
 void each_way(const std::function<void(std::size_t)>& check);
 
-/// A surface point, a light's sample and the observer, as a reflection model is given them.
+/// The inputs of a reflection model: a surface point, a light's sample and the observer.
 struct ReflectionSample {
     candela::Vec3 normal, to_observer, to_light;
     candela::Vec3 diffuse, specular;  // light's intensities
 };
 
-/// The tangent that the samples below have at a point with that normal, a unit vector.
+/// The tangent of the samples below at a point with that unit normal.
 Double3 tangent_at(Double3 normal);
 
 struct ReflectedPair {
@@ -61,7 +61,7 @@ struct ReflectedPair {
 /// Runs `model` over the samples as one batch; the sums start at zero.
 std::vector<ReflectedPair> reflect(const candela::ReflectionModel& model,
                                    const std::vector<ReflectionSample>& samples, candela::Rgb color);
-/// Likewise, of ambient light of intensity `ambient`.
+/// Like reflect(), for ambient light of intensity `ambient`.
 std::vector<candela::Vec3> reflect_ambient(const candela::ReflectionModel& model,
                                            const std::vector<ReflectionSample>& samples, candela::Rgb color,
                                            candela::Vec3 ambient);
@@ -72,11 +72,11 @@ struct ExactPair {
 using ReflectionReference = std::function<ExactPair(Double3 n, Double3 v, Double3 l, Double3 color)>;
 
 /// Compares a reflection model with a reference at random samples, for every instruction set and batch size,
-/// and one sample at a time with the batch (1e-5).
+/// and each sample on its own with the batch (1e-5).
 void check_reflection(const candela::ReflectionModel& model, const ReflectionReference& reference,
                       double tolerance);
 
-/// What a light sends to a receiver.
+/// The light that a receiver gets.
 struct IncidentSample {
     candela::Vec3 to_light, diffuse, specular;
 };
@@ -91,7 +91,7 @@ struct ExactIncident {
 };
 using LightReference = std::function<ExactIncident(Double3 position)>;
 
-/// Compares a light with a reference at random points within 5 m, as check_reflection() does.
+/// Compares a light with a reference at random points within 5 m, like check_reflection().
 void check_light(const candela::Light& light, const LightReference& reference, double tolerance);
 
 /// Whether two numbers agree to `relative` of the larger, or to `absolute` near zero.

@@ -1,4 +1,4 @@
-// The command on a terminal, with a person who types.
+// Runs the command on a terminal, with simulated typing.
 #include <fcntl.h>
 #include <poll.h>
 #include <pty.h>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The person's side of a terminal.
+/// The user's side of a terminal.
 class Terminal {
   public:
     explicit Terminal(int descriptor) : descriptor_(descriptor) {}
@@ -30,11 +30,11 @@ class Terminal {
         }
     }
 
-    /// Reads on until `part` shows, after all that was waited for before.
+    /// Reads until `part` appears, after everything that was waited for before.
     void wait_for(const std::string& part) {
         std::size_t found = std::string::npos;
         while ((found = shown_.find(part, seen_)) == std::string::npos) {
-            if (!read_more()) throw std::runtime_error("'" + part + "' does not show; there is: " + shown_);
+            if (!read_more()) throw std::runtime_error("'" + part + "' does not appear; there is: " + shown_);
         }
         seen_ = found + part.size();
     }
@@ -46,12 +46,11 @@ class Terminal {
     }
 
   private:
-    /// False at the end, when the program has closed its side.
+    /// Returns false at the end, when the program has closed its side.
     bool read_more() {
         constexpr int k_patience = 120'000;  // ms; long enough for a sanitizer on a busy machine
         pollfd waiting = {descriptor_, POLLIN, 0};
-        if (::poll(&waiting, 1, k_patience) == 0)
-            throw std::runtime_error("nothing comes; there is: " + shown_);
+        if (::poll(&waiting, 1, k_patience) == 0) throw std::runtime_error("no output; there is: " + shown_);
         char buffer[4096];
         const ssize_t count = ::read(descriptor_, buffer, sizeof buffer);
         if (count <= 0) return false;
@@ -64,7 +63,7 @@ class Terminal {
     std::size_t seen_ = 0;
 };
 
-/// In the child: a file instead of the terminal.
+/// In the child: replaces the terminal by a file.
 void redirect(const std::string& file, int flags, int as) {
     const int descriptor = ::open(file.c_str(), flags | O_CLOEXEC, 0644);
     if (descriptor < 0 || ::dup2(descriptor, as) < 0) ::_exit(126);

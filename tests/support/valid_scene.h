@@ -1,4 +1,4 @@
-// A valid scene that uses every table and every kind of value, for tests that spoil one thing in it.
+// A valid scene that uses every table and every kind of value, for tests that break one thing in it.
 #pragma once
 
 inline constexpr const char* k_valid_scene = R"(version = 1
@@ -101,6 +101,6 @@ file = "wedge.obj"
 position = [0.0, 1.0, -3.0]
 )";
 
-/// The mesh that it names: a tetrahedron of edge about 1, closed.
+/// The mesh that the scene names: a closed tetrahedron with edges of about 1.
 inline constexpr const char* k_valid_mesh =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

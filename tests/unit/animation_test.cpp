@@ -1,4 +1,4 @@
-// Animated scenes: tracks against splines worked out by hand, and what is found in frames.
+// Animated scenes: tracks against splines computed by hand, and problems found in frames.
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>
@@ -63,7 +63,7 @@ candela::SceneRequest request_of(const std::string& animation) {
     return request;
 }
 
-/// What checking all frames says.
+/// The diagnostics of checking all frames.
 std::string found_in(const candela::SceneRequest& request) {
     candela::Diagnostics diagnostics;
     auto frames = candela::SceneFrames::read(request, test_registry(), diagnostics);
@@ -114,7 +114,7 @@ TEST_CASE("a track keeps its first value before its first key, and its last afte
     }
 }
 
-TEST_CASE("between keys a track stays, or goes straight") {
+TEST_CASE("between keys a track stays constant, or is linear") {
     CHECK(number_at(track(Interpolation::step, {{0.0, 2.0}, {2.0, 6.0}}), 1.99) == 2);
     CHECK(number_at(track(Interpolation::linear, {{0.0, 2.0}, {2.0, 6.0}}), 0.5) == 3);
 }
@@ -131,7 +131,7 @@ TEST_CASE("a smooth track through keys on a line is that line, at whatever times
     for (const double t : {0.1, 0.5, 0.7, 2.5, 4.2, 4.9}) CHECK(number_at(smooth, t) == Approx(1 + 2 * t));
 }
 
-TEST_CASE("colours and integers are rounded on their way") {
+TEST_CASE("interpolated colours and integers are rounded") {
     const Track color = track(Interpolation::linear, {{0.0, Vec3{0, 10, 255}}, {1.0, Vec3{255, 11, 0}}},
                               candela::ParamType::color);
     CHECK(std::get<Vec3>(candela::value_at(color, 0.25)) == Vec3{64, 10, 191});
@@ -140,12 +140,12 @@ TEST_CASE("colours and integers are rounded on their way") {
     CHECK(std::get<std::int64_t>(candela::value_at(integer, 0.5)) == 6);
 }
 
-TEST_CASE("rotations turn as they are written, the long way round too") {
+TEST_CASE("rotations turn as written, even the long way round") {
     auto frames = frames_of(with_track("object.box.rotation", "[[0, [0, 0, 0]], [3, [0, 540, 0]]]"));
     CHECK(scene_in(frames, 2).objects[1].transform.rotation == Vec3{0, 360, 0});
 }
 
-TEST_CASE("an orbit turns the observer counter-clockwise about what it looks at, and ends where it began") {
+TEST_CASE("an orbit turns the observer counter-clockwise about its look-at point, and ends where it began") {
     auto frames = frames_of(std::string(k_four_frames) + "[animation.orbit]\n");
     CHECK(scene_in(frames, 0).observer.position == Vec3{0, 1, 4});
     const Vec3 quarter = scene_in(frames, 1).observer.position;
@@ -159,7 +159,7 @@ TEST_CASE("an orbit turns the observer counter-clockwise about what it looks at,
     CHECK(scene_in(back, 1).observer.position.x == Approx(-4));
 }
 
-TEST_CASE("a mistake in the animation is explained where it stands") {
+TEST_CASE("a mistake in the animation is reported at its place") {
     const std::vector<std::pair<std::string, std::string>> mistakes = {
         {"[animation]\n", "has no 'frames'"},
         {"[animation]\nframes = 0\n", "'frames'"},
@@ -205,7 +205,7 @@ TEST_CASE("a mistake in the animation is explained where it stands") {
     }
 }
 
-TEST_CASE("what no key has, but some frame, is found with its frame, its track and its line") {
+TEST_CASE("a problem that no key has, but some frame, is reported with its frame, its track and its line") {
     // The spline goes below zero between its keys.
     const std::string text = found_in(
         with_track("light.lamp.intensity", "[[0, 9], [2, 0], [4, 0], [5, 9]]", "interpolation = \"smooth\""));
@@ -215,7 +215,7 @@ TEST_CASE("what no key has, but some frame, is found with its frame, its track a
     CHECK(holds(text, "'intensity'"));
 }
 
-TEST_CASE("objects that meet, leave the room or swallow a light on their way are found") {
+TEST_CASE("objects that collide, leave the room or swallow a light on their way are reported") {
     const std::string meet =
         found_in(with_track("object.box.position", "[[0, [2, 0, 0]], [4, [-1.6, 0, 0]]]"));
     INFO(meet);
@@ -238,7 +238,7 @@ TEST_CASE("objects that meet, leave the room or swallow a light on their way are
     CHECK(holds(orbit, "in frame 1"));
 }
 
-TEST_CASE("what is wrong in all frames alike is said once, without a frame") {
+TEST_CASE("a problem of all frames is reported once, without a frame") {
     const std::string text =
         found_in(with_track("light.lamp.intensity", "[[0, 1]]") + "[[object]]\ntype = \"cube\"\n");
     INFO(text);
@@ -257,7 +257,7 @@ TEST_CASE("a setting overrides a track, with a warning that says so") {
     CHECK(std::get<double>(scene.lights[0].model.parameters.get("intensity")) == 7);
 }
 
-TEST_CASE("a frame that there is not is refused") {
+TEST_CASE("a nonexistent frame is refused") {
     auto frames = frames_of(std::string(k_four_frames));
     candela::Diagnostics diagnostics;
     CHECK_THROWS_AS(frames.draft(4, diagnostics), candela::Error);
@@ -280,7 +280,7 @@ TEST_CASE("an animated scene that is written reads back as the same scene in eve
     for (int i = 0; i < 4; ++i) CHECK(scene_in(*again, i) == scene_in(frames, i));
 }
 
-TEST_CASE("frames compiled in a row are the pictures of each compiled alone, and keep what does not move") {
+TEST_CASE("frames compiled in sequence equal frames compiled alone, and reuse what does not move") {
     auto frames =
         frames_of(with_track("light.lamp.intensity", "[[0, 9], [3, 30]]") +
                   "[[animation.track]]\npath = \"object.box.rotation\"\nkeys = [[1, [0, 0, 0]], [2, "

@@ -26,7 +26,7 @@ struct GatherLoop {
 
 }  // namespace
 
-TEST_CASE("an aligned vector begins at a cache line and with zeros, and keeps what it holds when it grows") {
+TEST_CASE("an aligned vector begins at a cache line and with zeros, and keeps its contents when it grows") {
     for (const std::size_t size : {1u, 3u, 16u, 1000u, 100'000u, 3'000'000u}) {
         candela::AlignedVector<float> vector(size);
         CHECK(reinterpret_cast<std::uintptr_t>(vector.data()) % 64 == 0);
@@ -39,7 +39,7 @@ TEST_CASE("an aligned vector begins at a cache line and with zeros, and keeps wh
     }
 }
 
-TEST_CASE("sixteen records fetched from anywhere become columns in their order, with every instruction set") {
+TEST_CASE("sixteen records fetched from anywhere become columns in order, with every instruction set") {
     std::vector<Record> records;
     for (int i = 0; i < 40; ++i) {
         const auto x = static_cast<float>(i);

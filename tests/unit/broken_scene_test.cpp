@@ -1,4 +1,4 @@
-// One thing wrong, one message.
+// One mistake, one message.
 #include "support/broken_scene.h"
 #include "diagnostics_text.h"
 
@@ -11,7 +11,7 @@
 #include "support/command.h"
 #include "support/plugins.h"
 
-TEST_CASE("one constraint broken at random is found where it is, and only that one") {
+TEST_CASE("one randomly broken constraint is reported at its place, and nothing else is") {
     const std::filesystem::path file = scratch_directory() / "scene.toml";
     std::map<std::string, int> found;
     for (unsigned seed = 0; seed < 1000; ++seed) {

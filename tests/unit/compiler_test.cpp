@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that is all of PATH, for programs that are nothing but a name.
+/// A folder that is the whole PATH, for dummy programs.
 class Programs {
   public:
     Programs() : folder_(scratch_directory()) {
@@ -31,7 +31,8 @@ fs::path found() { return candela::cxx_compiler().value_or("none").filename(); }
 }  // namespace
 
 TEST_CASE(
-    "of several C++ compilers, the newest clang++ is found, else the newest g++, with or without a version") {
+    "of several C++ compilers, the newest clang++ is found, otherwise the newest g++, with or without a "
+    "version") {
     const Programs programs;
     CHECK(found() == "none");
     programs.add("c++");

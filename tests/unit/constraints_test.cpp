@@ -1,4 +1,4 @@
-// What the constraints on a whole scene let pass, and what they do not (CA Table 1).
+// Scenes that the constraints on a whole scene accept or reject (CA Table 1).
 #include <fmt/format.h>
 
 #include <catch2/catch_test_macros.hpp>
@@ -65,7 +65,7 @@ TEST_CASE(
     const Result crossing = checked(k_lamp + room + ball + "[4.4, 0, 0]\n");
     CHECK_FALSE(crossing.is_valid);
     CHECK(says(crossing, "object 'ball' overlaps object 'box'"));
-    // What is inside is as solid as ever.
+    // An object inside is as solid as any other.
     CHECK(says(checked(k_lamp + room + ball + "[0, 0, 0]\n"), "light 'lamp' is inside object 'ball'"));
     CHECK_FALSE(checked(std::string(k_lamp) + k_box + "scale = 4.5\n").is_valid);
 }
@@ -84,8 +84,8 @@ TEST_CASE("objects that overlap are a warning if the scene says so, and an error
     CHECK(allowed.text.find("overlaps") == std::string::npos);
 }
 
-TEST_CASE("long bodies side by side, of which all bounding boxes overlap, do not overlap") {
-    // Rods along the diagonal of a cube, side by side in a plane: their boxes say nothing about any pair.
+TEST_CASE("long bodies next to each other, whose bounding boxes all overlap, do not overlap") {
+    // Rods along the diagonal of a cube, next to each other in a plane: their boxes separate no pair.
     std::string scene = "[room]\nwidth = 100\nheight = 100\ndepth = 100\n[[light]]\ntype = \"ambient\"\n";
     constexpr int k_rods = 1500;
     for (int i = 0; i < k_rods; ++i) {

@@ -9,7 +9,7 @@ import candela.core;
 using candela::Diagnostics;
 using candela::ErrorCategory;
 
-TEST_CASE("a diagnostic shows its line with a mark below the place") {
+TEST_CASE("a diagnostic shows its line with a mark below the position") {
     candela::Diagnostics diagnostics;
     diagnostics.remember_source("a.toml", "one\n\tkey = 3\n");
     diagnostics.error({"a.toml", 2, 2, 3}, "wrong", "try this");
@@ -21,9 +21,7 @@ TEST_CASE("a diagnostic shows its line with a mark below the place") {
     CHECK(diagnostics_text(whole, false) == "b.toml: warning: odd\n");
 }
 
-TEST_CASE(
-    "the mark stands under its character, whatever came before, and commands to a terminal are not passed "
-    "on") {
+TEST_CASE("the mark stands under its character, whatever precedes it, and terminal commands are escaped") {
     Diagnostics diagnostics;
     diagnostics.remember_source("a.toml", "\xc3\xa9\x1b[31m = 3\n");
     diagnostics.error({"a.toml", 1, 9, 1}, "wrong");
@@ -31,7 +29,7 @@ TEST_CASE(
           "a.toml:1:9: error: wrong\n    1 | \xc3\xa9\\u{1b}[31m = 3\n      |              ^\n");
 }
 
-TEST_CASE("of a very long line, the part around the place is shown") {
+TEST_CASE("of a very long line, only the part around the position is shown") {
     Diagnostics diagnostics;
     diagnostics.remember_source("a.toml", std::string(1000, 'x') + "HERE" + std::string(1000, 'y'));
     diagnostics.error({"a.toml", 1, 1001, 4}, "wrong");
@@ -42,7 +40,7 @@ TEST_CASE("of a very long line, the part around the place is shown") {
     CHECK(text.find("HERE") - line == text.find("^^^^") - marks);
 }
 
-TEST_CASE("at most 50 diagnostics are shown, the first by place, and the rest is counted") {
+TEST_CASE("at most 50 diagnostics are shown, in order of position, and the rest are counted") {
     Diagnostics diagnostics;
     diagnostics.remember_source("a.toml", std::string(80, '\n'));
     for (int line = 80; line > 0; --line) {
@@ -56,7 +54,7 @@ TEST_CASE("at most 50 diagnostics are shown, the first by place, and the rest is
     CHECK(text.ends_with("and 30 more (22 of them errors)\n"));
 }
 
-TEST_CASE("a wrong scene goes before a failure; warnings do not count") {
+TEST_CASE("an invalid scene takes precedence over a failure; warnings do not count") {
     Diagnostics diagnostics;
     diagnostics.warning({"a.toml", 1, 1, 1}, "odd");
     CHECK_FALSE(diagnostics.has_errors());
@@ -67,7 +65,7 @@ TEST_CASE("a wrong scene goes before a failure; warnings do not count") {
     CHECK(diagnostics.worst() == ErrorCategory::invalid_scene);
 }
 
-TEST_CASE("diagnostics as JSON say all, and are JSON whatever bytes a file holds") {
+TEST_CASE("diagnostics as JSON are complete, and valid JSON whatever bytes a file contains") {
     Diagnostics diagnostics;
     diagnostics.error({"a\"\xff.toml", 3, 7, 2}, "'kd\n' is wrong", "try 0.5");
     const auto all = nlohmann::json::parse(diagnostics_json(diagnostics));

@@ -14,7 +14,7 @@ using candela::Vec3;
 
 namespace {
 
-/// A picture whose pixels are numbered in red, columns in green, rows in blue.
+/// A picture with pixel numbers in red, columns in green, rows in blue.
 Environment numbered(int width, int height) {
     std::vector<float> intensity;
     for (int row = 0; row < height; ++row) {
@@ -39,19 +39,19 @@ Vec3 middle(int column, int row, int width, int height) {
 
 }  // namespace
 
-TEST_CASE("an environment of one intensity shows it in every direction") {
+TEST_CASE("an environment of one intensity has it in every direction") {
     const Environment grey({0.25f, 0.5f, 0.75f});
     CHECK(grey.is_uniform());
     CHECK(grey.seen({0, 0, -1}) == Rgb{0.25f, 0.5f, 0.75f});
     CHECK(grey.seen({0.6f, -0.8f, 0}) == Rgb{0.25f, 0.5f, 0.75f});
 }
 
-TEST_CASE("an environment's largest intensity is that of all channels and directions") {
+TEST_CASE("an environment's largest intensity is that over all directions and channels") {
     CHECK(Environment({0.25f, 0.75f, 0.5f}).max_intensity() == 0.75f);
     CHECK(numbered(8, 4).max_intensity() == 31);
 }
 
-TEST_CASE("an environment picture shows a pixel exactly where its middle is") {
+TEST_CASE("an environment picture shows a pixel's exact value at the pixel's middle") {
     const Environment picture = numbered(8, 4);
     CHECK_FALSE(picture.is_uniform());
     for (int row = 0; row < 4; ++row) {
@@ -80,14 +80,14 @@ TEST_CASE("an environment of one pixel is that pixel in every direction") {
     for (int i = 0; i < 100; ++i) CHECK(is_near(picture.seen(random.direction()), 1, 2, 3));
 }
 
-TEST_CASE("a direction that is no number sees one of the environment's pixels") {
+TEST_CASE("a NaN direction sees one of the environment's pixels") {
     const Environment picture(2, 2, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
     const float none = std::numeric_limits<float>::quiet_NaN();
     CHECK(is_near(picture.seen({none, 0, 0}), 1, 1, 1));
     CHECK(is_near(picture.seen({0, none, 0}), 1, 1, 1));
 }
 
-TEST_CASE("an environment is read from 8-bit files decoded, and from float files as it is") {
+TEST_CASE("an environment is read decoded from 8-bit files, and unchanged from float files") {
     const auto directory = scratch_directory();
     // Portable pixmap, 2 x 1: white, and middle grey as sRGB encodes 0.2159 (IEC 61966-2-1).
     std::ofstream(directory / "two.ppm", std::ios::binary) << "P6\n2 1\n255\n\xff\xff\xff\x80\x80\x80";

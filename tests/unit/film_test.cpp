@@ -16,7 +16,7 @@ double srgb_255(double x) {
     return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
 }
 
-/// Intensities from black to white and, as the curve is steepest there, many near black.
+/// Intensities from black to white and, where the curve is steepest, many near black.
 std::vector<float> intensities() {
     std::vector<float> all;
     for (int i = 0; i <= 50000; ++i) {
@@ -62,7 +62,7 @@ TEST_CASE("a film is black until something is stored") {
     CHECK(sum == 0);
 }
 
-TEST_CASE("a byte is the nearest to sRGB's curve, but for a few thousandths") {
+TEST_CASE("a byte is the nearest to sRGB's curve, up to a few thousandths") {
     const double furthest = furthest_from(srgb_255, ColorEncoding::srgb);
     CHECK(furthest < 0.504);
     CHECK(furthest > 0.49);
@@ -72,7 +72,7 @@ TEST_CASE("a byte without a curve is the nearest to 255 times the intensity") {
     CHECK(furthest_from([](double x) { return 255 * x; }, ColorEncoding::none) < 0.50002);
 }
 
-TEST_CASE("a byte of what is beyond black or white is theirs, and black where it is no number") {
+TEST_CASE("intensities beyond black or white are clamped, and NaN becomes black") {
     constexpr float k_infinity = std::numeric_limits<float>::infinity();
     std::vector<float> odd;
     for (int i = 0; i < 200; ++i) {

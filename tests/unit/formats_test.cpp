@@ -8,7 +8,7 @@ import candela.formats;
 
 using namespace std::string_view_literals;
 
-TEST_CASE("a picture's first bytes tell its format, and those of other files none") {
+TEST_CASE("a picture's first bytes identify its format, and those of other files identify none") {
     struct Case {
         std::string_view head, format;
     };
@@ -25,7 +25,7 @@ TEST_CASE("a picture's first bytes tell its format, and those of other files non
     }
 }
 
-TEST_CASE("a file's format is its content's; what is not a regular file has none") {
+TEST_CASE("a file's format depends on its content; anything but a regular file has none") {
     const auto folder = scratch_directory();
     CHECK(candela::format_of_content(write_file(folder / "a.png", "\xff\xd8\xff\xe0")) == "jpg");
     CHECK(candela::format_of_content(write_file(folder / "b.png", "")).empty());
@@ -33,7 +33,7 @@ TEST_CASE("a file's format is its content's; what is not a regular file has none
     CHECK(candela::format_of_content(folder / "none").empty());
 }
 
-TEST_CASE("extensions of one format are known as such") {
+TEST_CASE("extensions of one format are recognised as such") {
     CHECK(candela::are_one_format("jpg", "jpeg"));
     CHECK(candela::are_one_format("tiff", "tif"));
     CHECK(candela::are_one_format("png", "png"));

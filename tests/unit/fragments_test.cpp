@@ -14,7 +14,7 @@ using Catch::Approx;
 
 namespace {
 
-/// A square of two triangles; no two corners have the same place or normal.
+/// A square of two triangles, whose corners all have different positions and normals.
 candela::Mesh square() {
     candela::Mesh mesh;
     mesh.position.resize(4);
@@ -43,7 +43,7 @@ struct SquareSeen {
     candela::ProjectedMesh projected{scene, mesh, 0};
 };
 
-/// All that is known of a point.
+/// All attributes of a point.
 using Point = std::array<Vec3, 7>;
 Point point(const candela::SurfacePoints& points, std::size_t i) {
     return {points.position.span()[i],          points.vertex_normal.span()[i],
@@ -52,7 +52,7 @@ Point point(const candela::SurfacePoints& points, std::size_t i) {
             {points.dudy[i], points.dvdy[i], 0}};
 }
 
-/// Stretches of `lengths` pixels, of the two triangles in turns, each a run of its own.
+/// Runs of `lengths` pixels, alternating between the two triangles.
 struct Stretches {
     std::vector<FragmentRun> runs;
     std::vector<std::uint32_t> triangles;
@@ -81,10 +81,10 @@ void require_filled(const candela::SurfacePoints& points, std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("a batch of fragments is filled up to whole vectors with its last one, whatever its runs") {
+TEST_CASE("a batch of fragments is padded to whole vectors with its last one, whatever its runs") {
     const SquareSeen seen;
     candela::SurfacePoints points;
-    // Short runs and long ones, alone and after each other: each way of interpolating, begun anywhere.
+    // Short runs and long ones, alone and in sequence: each kind of interpolation, beginning anywhere.
     const std::vector<std::vector<std::uint32_t>> all = {
         {1},      {5},          {16},         {17},        {1, 16},    {16, 1},
         {3, 40},  {40, 3},      {7, 7, 7},    {20, 1, 20}, {1, 20, 1}, {15, 15, 15, 15},
@@ -107,7 +107,7 @@ TEST_CASE("a batch of fragments is filled up to whole vectors with its last one,
     }
 }
 
-TEST_CASE("derivatives of texture coordinates are what these change by from pixel to pixel") {
+TEST_CASE("derivatives of texture coordinates are their changes from pixel to pixel") {
     const SquareSeen seen;
     candela::SurfacePoints points;
     const std::uint32_t triangle = 0;
@@ -116,7 +116,7 @@ TEST_CASE("derivatives of texture coordinates are what these change by from pixe
         candela::gather_fragments(seen.projected, {{&run, 1}, {&triangle, 1}}, {.uv = true}, points);
         return Vec3{points.u[0], points.v[0], 0};
     };
-    // Central differences; perspective bends the coordinates a little in between.
+    // Central differences; perspective bends the coordinates slightly in between.
     constexpr float k_step = 0.5f;
     const float x = 140, y = 150;
     const Vec3 by_x = uv_at(x + k_step, y) - uv_at(x - k_step, y);
@@ -131,7 +131,7 @@ TEST_CASE("derivatives of texture coordinates are what these change by from pixe
     CHECK(points.dvdy[0] == Approx(by_y.y).epsilon(0.001));
 }
 
-TEST_CASE("batches of faces and of vertices are filled up likewise") {
+TEST_CASE("batches of faces and of vertices are padded in the same way") {
     const SquareSeen seen;
     candela::SurfacePoints points;
     const std::array<std::uint32_t, 2> faces = {1, 0};
@@ -145,8 +145,7 @@ TEST_CASE("batches of faces and of vertices are filled up likewise") {
     CHECK(points.facing[15] == -1);
 }
 
-TEST_CASE(
-    "each point of a batch has the vertices of its own triangle, and their normals, where they are needed") {
+TEST_CASE("each point of a batch has its own triangle's vertices and their normals, if they are needed") {
     const SquareSeen seen;
     candela::SurfacePoints points;
     const auto require_corners = [&](std::size_t i, std::uint32_t triangle) {

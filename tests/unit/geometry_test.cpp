@@ -1,4 +1,4 @@
-// Inside and overlap, against bodies whose answer is known, and against dense sampling with winding numbers.
+// Inside and overlap, against bodies with known answers, and against dense sampling with winding numbers.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -80,7 +80,7 @@ double winding_number(const Mesh& mesh, Double3 p) {
     return sum / (2 * std::numbers::pi);
 }
 
-/// A random point of a mesh's surface, a hair below it.
+/// A random point just below a mesh's surface.
 Double3 point_below_surface(const Mesh& mesh, std::mt19937& random) {
     std::uniform_int_distribution<std::size_t> pick(0, mesh.triangle_count() - 1);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -94,7 +94,7 @@ Double3 point_below_surface(const Mesh& mesh, std::mt19937& random) {
     return a + u * (b - a) + v * (c - a) - (1e-6 / std::max(length(n), 1e-12)) * n;
 }
 
-/// Whether sampling finds a point that both bodies hold: just below one's surface and inside the other.
+/// Whether sampling finds a point in both bodies: just below one's surface and inside the other.
 bool sampling_finds_overlap(const Mesh& a, const Mesh& b, int samples, std::mt19937& random) {
     const auto finds = [&](const Mesh& from, const Mesh& in) {
         const candela::Box box = candela::box_around(in.position.span(), in.vertex_count());
@@ -139,7 +139,7 @@ RandomBody random_body(std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("the hole of a torus is outside, its tube is inside, whatever its box holds") {
+TEST_CASE("the hole of a torus is outside, its tube is inside, whatever its bounding box contains") {
     const Mesh ring = torus({}, {30, 40, 50});
     const Body body = body_of(ring);
     CHECK_FALSE(body.contains({0, 0, 0}));
@@ -155,7 +155,7 @@ TEST_CASE("the hole of a torus is outside, its tube is inside, whatever its box 
     CHECK(in_tube > 50);
 }
 
-TEST_CASE("rays along edges and through vertices do not confuse who is inside") {
+TEST_CASE("rays along edges and through vertices do not confuse the inside test") {
     // Lattice points of a lattice of cubes: every ray along an axis or a diagonal meets edges.
     const Body body = body_of(cube({}, 2));
     for (const float x : {-1.5f, -0.5f, 0.0f, 0.5f, 1.5f}) {
@@ -203,11 +203,11 @@ TEST_CASE("bodies that touch do not overlap: faces, edges, corners, at any angle
     CHECK_FALSE(overlap_of(sphere({}, 0.5), sphere({1, 0, 0}, 0.5)));
     for (int degrees = 0; degrees < 360; degrees += 7) {
         const float angle = static_cast<float>(degrees) * std::numbers::pi_v<float> / 180;
-        const Vec3 beside{std::cos(angle), 0, -std::sin(angle)};
+        const Vec3 next{std::cos(angle), 0, -std::sin(angle)};
         INFO(degrees);
         CHECK_FALSE(overlap_of(cube({}, 1, {0, static_cast<float>(degrees), 0}),
-                               cube(beside, 1, {0, static_cast<float>(degrees), 0})));
-        const Vec3 nearer = 0.999f * beside;
+                               cube(next, 1, {0, static_cast<float>(degrees), 0})));
+        const Vec3 nearer = 0.999f * next;
         CHECK(overlap_of(cube({}, 1, {0, static_cast<float>(degrees), 0}),
                          cube(nearer, 1, {0, static_cast<float>(degrees), 0})));
     }
@@ -233,7 +233,7 @@ TEST_CASE("equal bodies at one place, and shifted along their own planes, overla
     }
 }
 
-TEST_CASE("one body wholly inside another overlaps it, also where only a part of it is") {
+TEST_CASE("one body wholly inside another overlaps it, as does a body of which only a part is inside") {
     CHECK(overlap_of(cube({}, 2), cube({0.1f, 0.2f, 0.3f}, 0.1f)));
     CHECK(overlap_of(sphere({}, 1), sphere({}, 0.3)));
     CHECK(overlap_of(joined({cube({5, 0, 0}), cube({}, 0.1f)}), cube({}, 2)));
@@ -250,7 +250,7 @@ TEST_CASE(
     CHECK(overlap(room, body_of(cube({}, 3))));
 }
 
-TEST_CASE("rings that are linked, and what lies in a ring's hole, do not overlap") {
+TEST_CASE("linked rings, and a body in a ring's hole, do not overlap") {
     CHECK_FALSE(overlap_of(torus({}), torus({1, 0, 0}, {90, 0, 0})));
     CHECK(overlap_of(torus({}), torus({0.5f, 0, 0}, {90, 0, 0})));
     CHECK_FALSE(overlap_of(torus({}), sphere({}, 0.65)));
@@ -269,7 +269,7 @@ TEST_CASE("overlap agrees with sampling by winding numbers on 600 random pairs")
         const RandomBody a = random_body(random), b = random_body(random);
         const bool found = overlap(body_of(a.mesh), body_of(b.mesh));
         bool sampled = sampling_finds_overlap(a.mesh, b.mesh, 4000, random);
-        // Where they only graze each other, few samples hit.
+        // If they only graze each other, few samples hit.
         if (found && !sampled) sampled = sampling_finds_overlap(a.mesh, b.mesh, 400'000, random);
         INFO(pair << ": " << a.what << " and " << b.what);
         CHECK(found == sampled);
@@ -286,7 +286,7 @@ TEST_CASE("overlap agrees with sampling by winding numbers on 600 random pairs")
     CHECK(boxes_meet > 50);
 }
 
-TEST_CASE("the box tree finds exactly the boxes that a look at each finds") {
+TEST_CASE("the box tree finds exactly the boxes that a linear search finds") {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<candela::Box> boxes;

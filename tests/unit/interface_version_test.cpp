@@ -1,5 +1,4 @@
-// docs/versioning.md: a plugin works with the interface version, and the layout, that it was built for, and
-// with no other.
+// docs/versioning.md: a plugin works only with the interface version, and the layout, that it was built for.
 #include "candela/abi.h"
 
 #include <catch2/catch_test_macros.hpp>
@@ -25,7 +24,7 @@ std::string fingerprint(int version) {
     return abi.replace(0, here.size(), "candela interface " + std::to_string(version) + ";");
 }
 
-/// A folder with the plugin `built`, and a manifest that says `abi`.
+/// A folder with the plugin `built`, and a manifest that claims `abi`.
 fs::path installed(const std::string& built, const std::string& abi, const std::string& folder) {
     const fs::path directory = scratch_directory() / folder;
     fs::create_directory(directory);
@@ -40,13 +39,13 @@ fs::path installed(const std::string& built, const std::string& abi, const std::
     return directory;
 }
 
-/// The same with the plugin that was built for `version`.
+/// Like the above, with the plugin built for `version`.
 fs::path installed(int version, const std::string& abi, const std::string& folder) {
     const std::string number = std::to_string(version);
     return installed("interface_" + number + ".so", abi, folder + "-" + number);
 }
 
-/// What is said when an instance of the model is wanted; empty where it is made.
+/// The message when an instance of the model is requested; empty if it is created.
 std::string refusal(const fs::path& directory) {
     ::unsetenv(k_progress);
     candela::Registry registry({directory});
@@ -60,7 +59,7 @@ std::string refusal(const fs::path& directory) {
     return "";
 }
 
-/// How far the host went: "" not loaded, "loaded", "made" an instance.
+/// How far the host got: "" not loaded, "loaded", "made" an instance.
 std::string progress() {
     const char* const value = std::getenv(k_progress);
     return value != nullptr ? value : "";
@@ -76,7 +75,7 @@ std::string expected(const fs::path& directory, int version) {
     return expected(directory, fingerprint(version));
 }
 
-/// This host's fingerprint with `part` instead of `here`, which it must have.
+/// This host's fingerprint with `part` instead of `here`, which it must contain.
 std::string fingerprint_with(const std::string& here, const std::string& part) {
     std::string abi(candela::host_abi());
     const auto at = abi.find(here);
@@ -94,14 +93,14 @@ TEST_CASE("a plugin of the interface before or after this one is refused by its 
 }
 
 TEST_CASE(
-    "a plugin of another interface whose manifest lies is refused by the handshake, and makes nothing") {
+    "a plugin of another interface whose manifest lies is refused by the handshake, and creates nothing") {
     const int version = GENERATE(CANDELA_INTERFACE_VERSION - 1, CANDELA_INTERFACE_VERSION + 1);
     const fs::path directory = installed(version, std::string(candela::host_abi()), "lying");
     CHECK(refusal(directory) == expected(directory, version));
     CHECK(progress() == "loaded");
 }
 
-TEST_CASE("the same plugin built for this interface makes its model") {
+TEST_CASE("the same plugin built for this interface creates its model") {
     const fs::path directory =
         installed(CANDELA_INTERFACE_VERSION, std::string(candela::host_abi()), "equal");
     CHECK(refusal(directory).empty());
@@ -123,13 +122,13 @@ TEST_CASE("the command refuses a plugin of the interface before this one, and wr
 }
 
 TEST_CASE(
-    "a plugin built with a switch that changes what crosses the boundary is refused, and makes nothing") {
+    "a plugin built with a switch that changes what crosses the boundary is refused, and creates nothing") {
     const std::string size = std::to_string(sizeof(candela::PluginDescriptor));
     const auto [built, here, part] = GENERATE_COPY(table<std::string, std::string, std::string>(
         {{"no-rtti", "; rtti", "; no rtti"},
          {"no-exceptions", "; exceptions", "; no exceptions"},
          {"short-enums", "; enum 4", "; enum 1"},
-         // The kind is then followed by the name without a gap.
+         // Without the gap between the kind and the name.
          {"pack-struct", "; descriptor " + size,
           "; descriptor " + std::to_string(sizeof(candela::PluginDescriptor) - 4)},
          {"debug-containers", "libstdc++ cxx11", "libstdc++ cxx11 debug"}}));

@@ -3,7 +3,7 @@
 
 #include "json/json.h"
 
-TEST_CASE("JSON is written for any reader and any terminal, whatever bytes a string has") {
+TEST_CASE("JSON is safe for any reader and any terminal, whatever bytes a string has") {
     CHECK(json_text({{"name", "a\xffz"}}) == "{\"name\":\"a\xef\xbf\xbdz\"}");  // U+FFFD
     const std::string text = json_text({{"title", "\xe2\x80\xae\x1b[2J caf\xc3\xa9"}});
     CHECK(text == "{\"title\":\"\\u202e\\u001b[2J caf\xc3\xa9\"}");
@@ -16,7 +16,7 @@ TEST_CASE("members of JSON stay in the order in which they were added or read") 
     CHECK(json_text(parse_json(json_text(json))) == json_text(json));
 }
 
-TEST_CASE("what is no JSON is refused, or discarded for who asks for that") {
+TEST_CASE("invalid JSON is refused, or discarded on request") {
     for (const char* const text : {"", "{", "{\"a\":}", "[1] 2", "\"\xff\""}) {
         INFO(text);
         CHECK_THROWS_AS(parse_json(text), Json::parse_error);

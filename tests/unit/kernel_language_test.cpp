@@ -1,4 +1,4 @@
-// The kernel language: what it takes, what it refuses and where, and what is compiled of it.
+// The kernel language: what it accepts, what it refuses and where, and what is compiled of it.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
@@ -20,7 +20,7 @@ constexpr const char* k_kernel =
     "KERNEL Reflected x_reflect(XMaterial m, Surface s, vec3 to_light) { return Reflected(vec3(0.0f), "
     "vec3(0.0f)); }\n";
 
-/// "", or "line:column: what is wrong".
+/// "", or "line:column: problem".
 std::string problem_in(const std::string& body) {
     try {
         const kl::Kernel kernel =
@@ -67,7 +67,7 @@ void check_refused(const std::vector<Refused>& all) {
     }
 }
 
-/// Without what an author may write in several ways: blanks, comments, parentheses, the f of a literal.
+/// Removes what an author may write in several ways: blanks, comments, parentheses, the f of a literal.
 std::string essence(const std::string& text) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -77,7 +77,7 @@ std::string essence(const std::string& text) {
     return result;
 }
 
-/// All kernels of the project that stand for themselves.
+/// All self-contained kernels of the project.
 std::vector<fs::path> kernels() {
     std::vector<fs::path> files;
     for (const char* const folder :
@@ -100,7 +100,7 @@ std::string kernel_text(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("kernel language: every shipped kernel and every template is in it, and comes out as it went in") {
+TEST_CASE("kernel language: every shipped kernel and every template is valid, and is emitted unchanged") {
     const std::vector<fs::path> files = kernels();
     CHECK(files.size() > 40);
     for (const fs::path& file : files) {
@@ -115,7 +115,8 @@ TEST_CASE("kernel language: every shipped kernel and every template is in it, an
     }
 }
 
-TEST_CASE("kernel language: the kernel of textures is in it, with what programs put before it") {
+TEST_CASE(
+    "kernel language: the kernel of textures is valid, with the declarations that programs put before it") {
     const std::string before =
         "struct ColorTexture { bool repeats; };\n"
         "KERNEL int color_texture_width(ColorTexture t, int level) { return level; }\n"
@@ -126,7 +127,7 @@ TEST_CASE("kernel language: the kernel of textures is in it, with what programs 
                                                "sdk/target/templates/texture.kernel")) == "");
 }
 
-TEST_CASE("kernel language: pointers, references and casts are refused where they stand") {
+TEST_CASE("kernel language: pointers, references and casts are refused at their place") {
     check_refused({
         {"vec3 *p = (vec3 * const) 16; vec3 x = *p;", "answer:1:6: the kernel language has neither pointers"},
         {"uint64_t a = (uint64_t) &s;", "answer:1:25: the kernel language has neither pointers"},
@@ -152,7 +153,7 @@ TEST_CASE("kernel language: pointers, references and casts are refused where the
     });
 }
 
-TEST_CASE("kernel language: what else C++ has is refused") {
+TEST_CASE("kernel language: other features of C++ are refused") {
     check_refused({
         {"#include \"/etc/passwd\"", "no preprocessor"},
         {"%:include </etc/passwd>", "no preprocessor"},
@@ -246,7 +247,7 @@ TEST_CASE("kernel language: what else C++ has is refused") {
 }
 
 TEST_CASE(
-    "kernel language: types, names and arguments are those that there are, and the nearest is suggested") {
+    "kernel language: only existing types, names and arguments are accepted, and the nearest is suggested") {
     check_refused({
         {"float x = s.normal;", "answer:1:13: 'x' is float, but this is vec3"},
         {"vec3 x = 1.0;", "vec3(x) has it in all components"},
@@ -295,7 +296,7 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("kernel language: what an integer can be a number is converted, as GLSL has it") {
+TEST_CASE("kernel language: an integer is converted to a real number where GLSL does so") {
     CHECK(problem_in("float x = 1; vec3 v = 2 * s.color; v *= 2; x = max(x, 0); x += 1;\n"
                      "return Reflected(v * x, vec3(0));") == "");
     const std::string text = guarded_body("float x = m.n + 1; return Reflected(vec3(m.n), vec3(0));");
@@ -304,7 +305,7 @@ TEST_CASE("kernel language: what an integer can be a number is converted, as GLS
     CHECK(holds(text, "vec3(0.0f)"));
 }
 
-TEST_CASE("kernel language: no variable is read before it has a value, and every way returns one") {
+TEST_CASE("kernel language: no variable is read before it has a value, and every path returns one") {
     check_refused({
         {"float x; float y = x;", "answer:1:20: 'x' may be read here before it has a value"},
         {"float x; if (m.k > 0.0) x = 1.0; float y = x;", "may be read here before it has a value"},
@@ -317,7 +318,7 @@ TEST_CASE("kernel language: no variable is read before it has a value, and every
     CHECK(problem_in("float x; if (m.k > 0.0) return Reflected(s.color, s.color); else x = 2.0;\n"
                      "return Reflected(vec3(x), vec3(0.0));") == "");
     CHECK(problem_in("Reflected r; r.diffuse = s.color; return r;") == "");
-    // What is not assigned is zero, not what was on the stack.
+    // An unassigned member is zero, not what was on the stack.
     CHECK(holds(guarded_body("Reflected r; r.diffuse = s.color; return r;"), "Reflected r = {};"));
     for (const char* const body : {"", "float x = 1.0;", "if (m.k > 0.0) return Reflected(s.color, s.color);",
                                    "for (int i = 0; i < 3; ++i) return Reflected(s.color, s.color);"}) {
@@ -326,7 +327,7 @@ TEST_CASE("kernel language: no variable is read before it has a value, and every
     }
 }
 
-TEST_CASE("kernel language: every loop ends after a number of steps that is known") {
+TEST_CASE("kernel language: every loop ends after a known number of steps") {
     const std::string after = k_return;
     for (const char* const loop :
          {"for (int i = 0; i < 8; ++i) { }", "for (int i = 8; i > 0; i--) { }",
@@ -361,7 +362,7 @@ TEST_CASE("kernel language: every loop ends after a number of steps that is know
     });
 }
 
-TEST_CASE("kernel language: functions that call one another again and again are bounded, too") {
+TEST_CASE("kernel language: functions that call one another repeatedly are bounded as well") {
     std::string text = "KERNEL float f0(float x) { return x * x; }\n";
     for (int i = 1; i < 40; ++i) {
         const std::string before = "f" + std::to_string(i - 1);
@@ -369,7 +370,7 @@ TEST_CASE("kernel language: functions that call one another again and again are 
                 "(x); }\n";
     }
     CHECK(holds(problem_in_kernel(text), "is too large"));
-    // Nor do values grow that have to lie somewhere.
+    // The size of stored values is bounded as well.
     std::string structs = "struct S0 { mat3 a, b; };\n";
     for (int i = 1; i < 40; ++i)
         structs += "struct S" + std::to_string(i) + " { S" + std::to_string(i - 1) + " a, b; };\n";
@@ -419,7 +420,7 @@ TEST_CASE("kernel language: a kernel declares structs, constants and functions, 
     }
 }
 
-TEST_CASE("kernel language: texts that are too long, too deep or of too many words are refused at once") {
+TEST_CASE("kernel language: texts that are too long, too deep or have too many words are refused at once") {
     const std::string many(400'000, '(');
     CHECK(holds(problem_in(many), "20000 are allowed"));
     CHECK(holds(problem_in_kernel(many), "200000 are allowed"));
@@ -455,8 +456,7 @@ TEST_CASE("kernel language: texts that are too long, too deep or of too many wor
     }
 }
 
-TEST_CASE(
-    "kernel language: what is compiled has no text of the author's but names and numbers, each in its line") {
+TEST_CASE("kernel language: only names and numbers of the author's text are compiled, each in its line") {
     const std::string text = guarded_body(
         "// a comment\n\n  float x = .5 + 1. + 2.e1; /* another */ float y = x\n    * 2.0;\n"
         "return Reflected(vec3(y), vec3(s.uv.yx, 1.0));");
@@ -470,7 +470,7 @@ TEST_CASE(
     CHECK(holds(text, "#ifdef to_light\n#error"));
 }
 
-TEST_CASE("kernel language: what C++ leaves open of integers is defined") {
+TEST_CASE("kernel language: integer operations that C++ leaves undefined are defined") {
     const std::string text = guarded_body(
         "int a = m.n / m.n; int b = m.n % m.n; int c = m.n / 2; int d = int(m.k); a /= m.n; a %= 3;\n"
         "return Reflected(vec3(a), vec3(b + c + d));");
@@ -481,6 +481,6 @@ TEST_CASE("kernel language: what C++ leaves open of integers is defined") {
     CHECK(holds(text, "int d = candela_whole(m.k);"));
     CHECK(holds(text, "a = candela_quotient(a, m.n);"));
     CHECK(holds(text, "a %= 3;"));
-    // Programs are made of the kernel language itself.
+    // Programs are generated from the kernel language itself.
     CHECK(!holds(plain("KERNEL int f(int a) { return a / a; }"), "candela_"));
 }

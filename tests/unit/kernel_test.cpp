@@ -151,7 +151,7 @@ TEST_CASE("kernel functions of vectors are those of numbers, component by compon
     CHECK(std::abs(k::length(k::normalize(k::vec2(3.0f, -4.0f))) - 1.0f) < 1e-6f);
 }
 
-TEST_CASE("kernel swizzles read the components that they name, and take no room") {
+TEST_CASE("kernel swizzles read the components that they name, and take no space") {
     const k::vec4 v(1.0f, 2.0f, 3.0f, 4.0f);
     const k::vec3 three = v.wyx;
     check_equal(v.wzyx, k::vec4(4.0f, 3.0f, 2.0f, 1.0f));
@@ -187,7 +187,7 @@ k::Table table_of(const float (&numbers)[count]) {
 
 }  // namespace
 
-TEST_CASE("a kernel reads no memory but the table's, whatever the index, and 0 where there is nothing") {
+TEST_CASE("a kernel reads only a table's own memory, whatever the index, and 0 if it is empty") {
     constexpr float k_numbers[] = {3, 5, 4};
     const k::Table table = table_of(k_numbers);
     CHECK(k::table_size(table) == 3);
@@ -199,7 +199,7 @@ TEST_CASE("a kernel reads no memory but the table's, whatever the index, and 0 w
     CHECK(k::table_lookup(k::Table(), 0.5f) == 0);
 }
 
-TEST_CASE("a table is interpolated from its first number at 0 to its last at 1, and constant beyond") {
+TEST_CASE("a table is interpolated from its first number at 0 to its last at 1, and constant outside") {
     constexpr float k_numbers[] = {3, 5, 4};
     const k::Table table = table_of(k_numbers);
     CHECK(k::table_lookup(table, 0.0f) == 3);
@@ -211,7 +211,7 @@ TEST_CASE("a table is interpolated from its first number at 0 to its last at 1, 
     CHECK(k::table_lookup(table, 7.0f) == 4);
 }
 
-TEST_CASE("a grid in a table is interpolated between its columns and rows, and constant beyond its edge") {
+TEST_CASE("a grid in a table is interpolated between its columns and rows, and constant outside its edge") {
     constexpr float k_numbers[] = {-1, 0, 1, 2, 10, 20, 30};  // two rows of three, after one number
     const k::Table table = table_of(k_numbers);
     const auto at = [&](float x, float y) { return k::table_lookup_grid(table, 1, 3, 2, x, y); };
@@ -223,7 +223,7 @@ TEST_CASE("a grid in a table is interpolated between its columns and rows, and c
     CHECK(at(9, -3) == 2);
 }
 
-TEST_CASE("nothing lies between the members of a struct with tables, so that each can be found") {
+TEST_CASE("the members of a struct with tables have no padding between them, so that each can be found") {
     struct Params {
         float a;
         k::Table b;

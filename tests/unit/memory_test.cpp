@@ -1,4 +1,4 @@
-// How much memory there is, as control groups see it.
+// The available memory according to control groups.
 #include <catch2/catch_test_macros.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -28,7 +28,7 @@ struct Groups {
 
 }  // namespace
 
-TEST_CASE("version 2: what is left is the limit without what is used, but for cached files") {
+TEST_CASE("version 2: the limit minus the used memory is left, except that cached files count as free") {
     const Groups groups;
     groups.set("", "memory.max", "1000000");
     groups.set("", "memory.current", "700000");
@@ -41,7 +41,7 @@ TEST_CASE("version 2: what is left is the limit without what is used, but for ca
     CHECK(groups.left("0::/\n") == k_unlimited);
 }
 
-TEST_CASE("version 2: the limits of all groups above hold as well") {
+TEST_CASE("version 2: the limits of all groups above apply as well") {
     const Groups groups;
     for (const char* const group : {"user.slice", "user.slice/session", "other"}) {
         groups.set(group, "memory.max", "max");
@@ -71,7 +71,7 @@ TEST_CASE("version 1: its own files, and in a container the mount's own folder")
     CHECK(groups.left("3:memory:/elsewhere\n") == 900);
 }
 
-TEST_CASE("where nothing is known of control groups, they are no limit") {
+TEST_CASE("unknown control groups impose no limit") {
     const Groups groups;
     CHECK(groups.left("") == k_unlimited);
     CHECK(groups.left("nonsense\n::\n0:") == k_unlimited);

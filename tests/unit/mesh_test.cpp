@@ -26,7 +26,7 @@ Mesh build(const Shape& shape, const Transform& transform = {}) {
     return candela::build_mesh(shape, {.uv = true, .derivatives = true}, transform, *shading);
 }
 
-/// By the divergence theorem: positive where the triangles face outwards.
+/// By the divergence theorem: positive if the triangles face outwards.
 double volume(const Mesh& mesh) {
     double six = 0;
     const auto p = mesh.position.span();
@@ -38,8 +38,8 @@ double volume(const Mesh& mesh) {
     return six / 6;
 }
 
-/// Vertices, edges, faces with vertices at one place counted once, and how many edges are not between two
-/// faces.
+/// Vertices, edges and faces, counting vertices at one position once, and the number of edges that are not
+/// between two faces.
 struct Topology {
     int euler = 0;
     int open_edges = 0;
@@ -131,7 +131,7 @@ TEST_CASE("the smallest densities are still closed surfaces") {
     }
 }
 
-TEST_CASE("parametric shapes give exact derivatives: dp/du x dp/dv is the surface's normal") {
+TEST_CASE("parametric shapes have exact derivatives: dp/du x dp/dv is the surface's normal") {
     const Mesh sphere = build(*instance<Shape>("sphere", {{"radius", 2.0}}));
     for (std::size_t i = 0; i < sphere.vertex_count(); ++i) {
         const Double3 p = exact(sphere.position.span()[i]);
@@ -177,7 +177,7 @@ TEST_CASE("a large mesh has the same vertices and normals whatever the number of
     CHECK(wrong == 0);
 }
 
-TEST_CASE("of the vertex normals that are no numbers the first is named, whatever the number of threads") {
+TEST_CASE("of several non-finite vertex normals the first is named, whatever the number of threads") {
     struct Broken final : candela::ShadingModel {
         candela::ShadingRate shading_rate() const noexcept override { return {}; }
         void normals(const candela::ShadingPointBatch&, const candela::Vec3Span&) const override {}
@@ -216,10 +216,10 @@ TEST_CASE("objects are scaled, then rotated about x, y and z in turn, then moved
     CHECK(agree(other.position.span()[0], Double3{0, 0, -1}, 1e-6, 1e-6));
 }
 
-TEST_CASE("a mesh of unknown closedness is looked at: vertices at one place count as one") {
+TEST_CASE("a mesh of unknown closedness is examined: vertices at one position count as one") {
     GivenShape shape = tetrahedron();
     CHECK(build(shape).closed);
-    // The same with three vertices of its own for every triangle.
+    // Also with three separate vertices for every triangle.
     GivenShape soup;
     for (const std::uint32_t corner : shape.indices) {
         soup.indices.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
@@ -230,7 +230,7 @@ TEST_CASE("a mesh of unknown closedness is looked at: vertices at one place coun
     const Mesh open = build(soup);
     CHECK_FALSE(open.closed);
     CHECK(open.open_edges == 3);
-    // One triangle inside out: closed in number, not in sense.
+    // One triangle inside out: closed by count, but not consistently oriented.
     GivenShape inside_out = tetrahedron();
     std::swap(inside_out.indices[0], inside_out.indices[1]);
     CHECK_FALSE(build(inside_out).closed);
@@ -239,7 +239,7 @@ TEST_CASE("a mesh of unknown closedness is looked at: vertices at one place coun
 TEST_CASE("open edges are as many as a map of all edges finds, whatever the triangles") {
     Random random(17);
     for (int mesh = 0; mesh < 50; ++mesh) {
-        // Few places, so that many edges lie between two triangles or more; some vertices share one.
+        // Few positions, so that many edges lie between two or more triangles; some vertices share one.
         GivenShape shape;
         const double places = random.number(4, 9);
         for (int i = 0; i < 12; ++i) {
@@ -258,7 +258,7 @@ TEST_CASE("open edges are as many as a map of all edges finds, whatever the tria
     }
 }
 
-TEST_CASE("shapes make coordinates and derivatives only where they are asked for, and the same triangles") {
+TEST_CASE("shapes make coordinates and derivatives only on request, and the same triangles in any case") {
     const auto shading = instance<candela::ShadingModel>("phong");
     for (const char* name : {"sphere", "torus", "cube", "teapot"}) {
         INFO(name);
@@ -281,7 +281,7 @@ TEST_CASE("shapes make coordinates and derivatives only where they are asked for
     }
 }
 
-TEST_CASE("what is no mesh is refused with a reason") {
+TEST_CASE("an invalid mesh is refused with a reason") {
     GivenShape empty;
     CHECK(complaint_about(empty).find("no triangles") != std::string::npos);
     GivenShape wild = tetrahedron();
@@ -309,7 +309,7 @@ TEST_CASE("a shape too far away to compute with is refused with a reason, howeve
     }
 }
 
-TEST_CASE("a triangle without area has no normal, and does no harm to its neighbours'") {
+TEST_CASE("a triangle without area has no normal, and does not affect its neighbours'") {
     GivenShape shape;
     shape.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
     shape.indices = {0, 1, 2, 0, 1, 3};

@@ -1,5 +1,5 @@
-// Thousands of damaged scenes, the same in every run: each is read or refused, every error says where it is,
-// and what is said is safe to print.
+// Thousands of damaged scenes, the same in every run: each is read or refused, every error has a position,
+// and the messages are safe to print.
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
@@ -111,7 +111,7 @@ std::string mutated(std::mt19937& random) {
                 text.erase(at, 1 + below(20));
                 break;
             default: {
-                // In place of a number, where most of the constraints are.
+                // Replaces a number, because numbers have most of the constraints.
                 const std::size_t begin = std::min(text.find_first_of("0123456789", at), text.size());
                 const std::size_t end = std::min(text.find_first_not_of("0123456789.", begin), text.size());
                 text.replace(begin, end - begin, k_pieces[below(k_pieces.size())]);
@@ -121,12 +121,12 @@ std::string mutated(std::mt19937& random) {
     return text;
 }
 
-/// What the scene lacks has no place in it; all that is there has one.
+/// Only errors about something missing have no position.
 bool is_about_the_whole(const std::string& message) { return message.starts_with("the scene "); }
 
 }  // namespace
 
-TEST_CASE("of thousands of damaged scenes, every error has a place, and every message is printable text") {
+TEST_CASE("of thousands of damaged scenes, every error has a position, and every message is printable text") {
     std::mt19937 random(15);
     std::size_t valid = 0, invalid = 0;
     for (int i = 0; i < 4000; ++i) {

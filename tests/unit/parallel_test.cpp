@@ -11,7 +11,7 @@ import candela.parallel;
 
 namespace {
 
-/// The threads that a hundred pieces of work were done by, and how many pieces there were.
+/// The threads that did a hundred pieces of work, and the number of pieces.
 struct Done {
     std::set<std::thread::id> threads;
     std::size_t pieces = 0;
@@ -33,7 +33,7 @@ Done work_through() {
 
 }  // namespace
 
-TEST_CASE("with one thread, work is done in one piece by the thread that asks") {
+TEST_CASE("with one thread, work is done in one piece by the calling thread") {
     candela::with_threads(1, [] {
         const Done done = work_through();
         CHECK(done.pieces == 1);
@@ -41,7 +41,7 @@ TEST_CASE("with one thread, work is done in one piece by the thread that asks") 
     });
 }
 
-TEST_CASE("with several threads, work is cut; and so it is within work of one thread") {
+TEST_CASE("with several threads, work is split, even within work of one thread") {
     candela::with_threads(4, [] { CHECK(work_through().pieces == 100); });
     candela::with_threads(1, [] {
         candela::with_threads(4, [] { CHECK(work_through().pieces == 100); });
@@ -49,12 +49,12 @@ TEST_CASE("with several threads, work is cut; and so it is within work of one th
     });
 }
 
-TEST_CASE("an exception out of one thread's work does not keep what follows from other threads") {
+TEST_CASE("an exception from one thread's work does not keep later work from other threads") {
     CHECK_THROWS_AS(candela::with_threads(1, [] { throw std::runtime_error("no"); }), std::runtime_error);
     candela::with_threads(4, [] { CHECK(work_through().pieces == 100); });
 }
 
-TEST_CASE("once threads have been started, little work is given to all of them too") {
+TEST_CASE("once threads have been started, little work is distributed to all of them as well") {
     candela::with_threads(2, [] { work_through(); });
     const bool has_several = candela::available_threads() > 1;
     candela::with_threads(0, [&] { CHECK((work_through().pieces == 100) == has_several); }, 0.001);

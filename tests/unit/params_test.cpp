@@ -92,7 +92,7 @@ TEST_CASE("a manifest written as JSON and read again is the same manifest") {
     CHECK((candela::manifest_from_json(candela::to_json(manifest)) == manifest));
 }
 
-TEST_CASE("what is no manifest is refused with a reason") {
+TEST_CASE("an invalid manifest is refused with a reason") {
     for (const char* const text : {"", "{", "[]", "3", "{}", R"({"candela_manifest": 7})",
                                    R"({"candela_manifest": 1, "abi": "x", "kind": "toaster"})",
                                    R"({"candela_manifest": 1, "abi": 4})"}) {
@@ -101,7 +101,7 @@ TEST_CASE("what is no manifest is refused with a reason") {
     }
 }
 
-TEST_CASE("a plugin's author and licence are short, and of characters that can be seen") {
+TEST_CASE("a plugin's author and licence are short, and consist of visible characters") {
     candela::Manifest manifest = sample_manifest();
     const auto is_refused = [&] {
         try {
@@ -148,7 +148,7 @@ TEST_CASE("parameters are delivered as plugins expect them") {
     CHECK_THROWS_AS(required.delivered(ColorEncoding::none), std::invalid_argument);
 }
 
-TEST_CASE("matrices are delivered row by row, lists whole, and written as a scene file has them") {
+TEST_CASE("matrices are delivered row by row, lists complete, and both are written as in a scene file") {
     const candela::Matrix rows{1, 2, 3, 4, 5, 6, 7, 8, 9};
     ParamSet set(
         {{.name = "m", .type = ParamType::matrix, .default_value = rows},
@@ -178,7 +178,7 @@ TEST_CASE("the range of a matrix or a list is that of each of its numbers") {
     CHECK(candela::constraint_text(set.schema()[0]) == "a list of at least one number, each 0 to 1");
 }
 
-TEST_CASE("a parameter set takes what fits and nothing else") {
+TEST_CASE("a parameter set accepts valid values and nothing else") {
     ParamSet set = set_of({.name = "kd",
                            .type = ParamType::rgb,
                            .meaning = "",
@@ -195,7 +195,7 @@ TEST_CASE("a parameter set takes what fits and nothing else") {
     CHECK_THROWS_AS(set.get("ks"), std::invalid_argument);
 }
 
-TEST_CASE("the sRGB transfer functions are those of IEC 61966-2-1, and inverse to one another") {
+TEST_CASE("the sRGB transfer functions are those of IEC 61966-2-1, and inverse to each other") {
     CHECK(candela::srgb_to_linear(0) == 0);
     CHECK(agree(candela::srgb_to_linear(1), 1, 1e-6));
     CHECK(agree(candela::srgb_to_linear(0.5f), 0.21404, 1e-4));
@@ -222,7 +222,7 @@ TEST_CASE("every 8-bit colour survives decoding and the film's encoding") {
     }
 }
 
-TEST_CASE("the film clamps what is too bright, too dark or no number") {
+TEST_CASE("the film clamps values that are too bright, too dark or NaN") {
     candela::Film film(5, 1, candela::PixelType::byte, candela::ColorEncoding::srgb);
     candela::Vec3Arrays row;
     row.resize(5);
@@ -233,7 +233,7 @@ TEST_CASE("the film clamps what is too bright, too dark or no number") {
     for (std::size_t i = 0; i < 5; ++i) CHECK(film.view().bytes[3 * i] == expected[i]);
 }
 
-TEST_CASE("suggestions are near, and absent where nothing is") {
+TEST_CASE("suggestions are close, and absent if nothing is") {
     const std::vector<std::string> words = {"shininess", "kd", "ks", "position"};
     CHECK(candela::closest("shinyness", words) == "shininess");
     CHECK(candela::closest("KD", words) == "kd");
@@ -243,7 +243,7 @@ TEST_CASE("suggestions are near, and absent where nothing is") {
     CHECK_FALSE(candela::closest("x", std::vector<std::string>{}));
 }
 
-TEST_CASE("a value that cannot be copied for want of memory stays as it is, and so does the process") {
+TEST_CASE("a value that cannot be copied for lack of memory is unchanged, and the process survives") {
 #if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
     SKIP("sanitizers need address space");
 #else
@@ -251,7 +251,7 @@ TEST_CASE("a value that cannot be copied for want of memory stays as it is, and 
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
-        // Room for little more than there is.
+        // Room for little more than what exists.
         std::ifstream pages("/proc/self/statm");
         rlim_t used = 0;
         pages >> used;

@@ -1,4 +1,4 @@
-// candela/plugin_test.h: what tests of plugins are written with.
+// candela/plugin_test.h, with which tests of plugins are written.
 #include "candela/plugin_test.h"
 
 #include <catch2/catch_test_macros.hpp>
@@ -9,7 +9,7 @@
 
 using Catch::Matchers::ContainsSubstring;
 
-TEST_CASE("a plugin's test gets an instance as a host makes it: with defaults, and values as in a scene") {
+TEST_CASE("a plugin's test gets an instance as from a host: with defaults, and values as in a scene") {
     const auto light = candela::sdk::make<candela::Light>(
         CANDELA_TEST_PLUGINS, "point", {{"position", candela::Vec3{0, 2, 0}}, {"intensity", 3.0}});
     const float zero = 0, one = 1;
@@ -22,7 +22,7 @@ TEST_CASE("a plugin's test gets an instance as a host makes it: with defaults, a
     CHECK(out[3] == 0.75f);  // a default colour, white, and the inverse square
 }
 
-TEST_CASE("a plugin's test is told what is wrong with its settings, as a user would be") {
+TEST_CASE("a plugin's test gets the same message about invalid settings as a user") {
     const auto message = [](auto make) -> std::string {
         try {
             make();
@@ -41,15 +41,15 @@ TEST_CASE("a plugin's test is told what is wrong with its settings, as a user wo
                ContainsSubstring("no shape plugin is called 'point'"));
 }
 
-TEST_CASE("a plugin's test gets what a reflection model reflects in a line") {
-    // Half the light falls in at 60 degrees.
+TEST_CASE("a plugin's test gets a model's reflection in one line") {
+    // At 60 degrees, half of the light arrives.
     const candela::sdk::Reflection parts =
         candela::sdk::reflected(CANDELA_TEST_PLUGINS, "lambert", {{"ka", 0.25}, {"kd", 0.5}}, 0, 60);
     CHECK_THAT(parts.diffuse.x, Catch::Matchers::WithinAbs(0.25, 1e-6));
     CHECK(parts.specular == candela::Vec3{});
 }
 
-TEST_CASE("a plugin's test sees the triangles of a shape") {
+TEST_CASE("a plugin's test gets the triangles of a shape") {
     const auto cube = candela::sdk::make<candela::Shape>(CANDELA_TEST_PLUGINS, "cube");
     const candela::sdk::Triangles triangles(*cube);
     REQUIRE(triangles.size() == 12);

@@ -22,7 +22,7 @@ const fs::path k_libraries = CANDELA_TEST_LIBRARIES;
 const fs::path k_shipped = CANDELA_TEST_PLUGINS;
 const fs::path k_plugins = fs::path(CANDELA_TEST_SOURCE) / "plugins";
 
-/// What an action's Error says.
+/// The message of the Error that an action throws.
 std::string message_of(const std::function<void()>& action) {
     try {
         action();
@@ -42,7 +42,7 @@ fs::path directory_with(const fs::path& library, const std::string& name) {
     return directory;
 }
 
-/// The sentence with which the model is refused, when an instance is wanted; the rest must work all the same.
+/// The message with which an instance of the model is refused; everything else must still work.
 std::string refusal(const fs::path& directory, const std::string& name) {
     Registry registry({directory, k_shipped});
     const std::string sentence = message_of([&] {
@@ -54,7 +54,7 @@ std::string refusal(const fs::path& directory, const std::string& name) {
     return sentence;
 }
 
-/// The plugins that the source tree has, by kind and name: a plugin is a folder.
+/// The plugins of the source tree, by kind and name: a plugin is a folder.
 std::vector<std::string> folders() {
     std::vector<std::string> ids;
     for (const char* const kind : {"light", "reflection", "shading", "shape", "image", "target"}) {
@@ -99,7 +99,7 @@ TEST_CASE("every shipped plugin agrees with its manifest, and every default fits
     }
 }
 
-TEST_CASE("a plugin made of kernel functions carries their text, and says how they are called") {
+TEST_CASE("a plugin made of kernel functions includes their text, and declares how to call them") {
     Registry registry({k_shipped});
     for (const candela::PluginFile* file : registry.list()) {
         const candela::Manifest& m = file->manifest;
@@ -114,7 +114,7 @@ TEST_CASE("a plugin made of kernel functions carries their text, and says how th
         CHECK(holds(text, "KERNEL"));
         CHECK(holds(text, " " + m.kernel_prefix + "_"));
         CHECK(m.kernel_parameters.empty() == m.parameters.empty());
-        // The members of the struct are called as the parameters.
+        // The struct's members have the parameters' names.
         if (!m.kernel_parameters.empty()) CHECK(holds(text, "struct " + m.kernel_parameters + " {"));
         for (const candela::Parameter& p : m.parameters) CHECK(holds(text, " " + p.name + ";"));
     }
@@ -142,7 +142,7 @@ TEST_CASE("the search path is --plugin-dir, CANDELA_PLUGIN_PATH, the user's data
     CHECK(fs::weakly_canonical(path[4]) == fs::weakly_canonical(k_shipped));
 }
 
-TEST_CASE("an unknown name says what is installed and suggests the nearest") {
+TEST_CASE("the message on an unknown name lists what is installed and suggests the nearest") {
     Registry registry({k_shipped});
     const std::string sentence = message_of([&] { registry.require(PluginKind::reflection, "blin-phong"); });
     CHECK(holds(sentence, "no reflection plugin is called 'blin-phong'"));
@@ -151,7 +151,7 @@ TEST_CASE("an unknown name says what is installed and suggests the nearest") {
     CHECK(registry.find(PluginKind::reflection, "../shape/cube") == nullptr);
 }
 
-TEST_CASE("a library with a wrong fingerprint is refused before anything of it is called") {
+TEST_CASE("a library with a wrong fingerprint is refused before any of it is called") {
     CHECK(holds(refusal(directory_with(k_libraries / "old_abi.so", "old"), "old"),
                 "it was built for 'candela interface 0;"));
 }
@@ -173,17 +173,17 @@ TEST_CASE("a library without an entry point is refused") {
                 "does not export candela_plugin_abi"));
 }
 
-TEST_CASE("a library that needs a symbol that nobody has is refused by the symbol's name") {
+TEST_CASE("a library with an unresolved symbol is refused, naming the symbol") {
     CHECK(holds(refusal(directory_with(k_libraries / "missing_symbol.so", "needy"), "needy"),
                 "candela_test_nobody_has_this"));
 }
 
-TEST_CASE("a text file called .so is refused") {
+TEST_CASE("a text file named .so is refused") {
     const fs::path text = write_file(scratch_directory().parent_path() / "text.so", "I am a text.\n");
     CHECK(holds(refusal(directory_with(text, "text"), "text"), "cannot be loaded"));
 }
 
-TEST_CASE("a manifest that disagrees with its library is refused, with the parts that differ") {
+TEST_CASE("a manifest that disagrees with its library is refused, naming the parts that differ") {
     const fs::path directory = directory_with(k_shipped / "reflection-phong.so", "phong");
     candela::Manifest manifest = test_registry().require(PluginKind::reflection, "phong").manifest;
     manifest.parameters[3].default_value = 33.0;
@@ -192,7 +192,7 @@ TEST_CASE("a manifest that disagrees with its library is refused, with the parts
     CHECK(holds(refusal(directory, "phong"), "its manifest disagrees with it about its title, parameters"));
 }
 
-TEST_CASE("a plugin's manifest must be beside it, must be one, and must be its own") {
+TEST_CASE("a plugin's manifest must be next to it, valid, and its own") {
     const fs::path directory = scratch_directory();
     fs::copy_file(k_shipped / "reflection-phong.so", directory / "reflection-alone.so");
     fs::copy_file(k_shipped / "reflection-phong.so", directory / "reflection-junk.so");
@@ -209,7 +209,7 @@ TEST_CASE("a plugin's manifest must be beside it, must be one, and must be its o
     CHECK(registry.refusals().size() == 4);
 }
 
-TEST_CASE("only the manifests of the kind that is asked for are read") {
+TEST_CASE("only the manifests of the requested kind are read") {
     const fs::path directory = scratch_directory();
     fs::copy_file(k_shipped / "light-point.so", directory / "light-junk.so");
     write_file(directory / "light-junk.json", "{]");
@@ -242,7 +242,7 @@ TEST_CASE("a manifest of more than a mebibyte is refused") {
     CHECK(refused_with_size((std::size_t{1} << 20) + 1));
 }
 
-TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
+TEST_CASE("a plugin's exception becomes an error that names the plugin") {
     Registry registry({k_libraries, k_shipped});
     candela::ParamSet values = registry.parameters(PluginKind::reflection, "throwing");
     values.set("kd", 0.0);
@@ -280,7 +280,7 @@ TEST_CASE("what a plugin throws comes out as an error that names the plugin") {
     }
 }
 
-TEST_CASE("nothing but what a scene names is loaded") {
+TEST_CASE("only what a scene names is loaded") {
     const CommandResult traced =
         run_candela({"render", "-o", (scratch_directory() / "a.png").string()},
                     {.input = "", .environment = {{"LD_DEBUG", "files"}}, .directory = {}});
@@ -292,7 +292,7 @@ TEST_CASE("nothing but what a scene names is loaded") {
     CHECK(holds(traced.err, "reflection-phong.so"));
 }
 
-TEST_CASE("a format goes to the plugin made for it, before one for everything") {
+TEST_CASE("a format's own plugin is preferred to one for all formats") {
     Registry registry({k_shipped});
     CHECK(registry.find_format("png")->manifest.name == "png");
     CHECK(registry.find_format("ppm")->manifest.name == "pnm");

@@ -1,4 +1,4 @@
-// What is printed, and what of it a terminal, a reader or a JSON parser would take for something else.
+// Escaping of text that a terminal, a reader or a JSON parser would take for something else.
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <nlohmann/json.hpp>
@@ -10,13 +10,13 @@ import candela.core;
 using candela::LineBreaks;
 using candela::printable;
 
-TEST_CASE("text that shows what it is stays as it is") {
+TEST_CASE("text of visible characters is unchanged") {
     for (const std::string_view text :
          {"", "plain", "caf\xc3\xa9 \xe2\x82\xac \xe6\xbc\xa2 \xf0\x9f\x92\xa1", "a\tb"})
         CHECK(printable(text) == text);
 }
 
-TEST_CASE("what controls a terminal is shown as its code point: C0, DEL, C1") {
+TEST_CASE("terminal controls are shown as their code points: C0, DEL, C1") {
     CHECK(printable("\x1b]0;title\x07") == "\\u{1b}]0;title\\u{7}");
     CHECK(printable(std::string_view("a\0b", 3)) == "a\\u{0}b");
     CHECK(printable("\x7f\xc2\x9b\xc2\x85") == "\\u{7f}\\u{9b}\\u{85}");
@@ -24,12 +24,12 @@ TEST_CASE("what controls a terminal is shown as its code point: C0, DEL, C1") {
     CHECK(printable("a\r\nb", LineBreaks::kept) == "a\\u{d}\nb");
 }
 
-TEST_CASE("what turns the direction of writing, or is not seen at all, is shown as its code point") {
+TEST_CASE("characters that turn the direction of writing, or are invisible, are shown as their code points") {
     // RLO, PDI, zero-width space, soft hyphen, byte-order mark, variation selector, tag.
     CHECK(printable("\xe2\x80\xae\xe2\x81\xa9\xe2\x80\x8b\xc2\xad\xef\xbb\xbf") ==
           "\\u{202e}\\u{2069}\\u{200b}\\u{ad}\\u{feff}");
     CHECK(printable("\xef\xb8\x8f\xf3\xa0\x80\x81\xe2\x80\xa8") == "\\u{fe0f}\\u{e0001}\\u{2028}");
-    // Their neighbours are seen.
+    // Their neighbours are visible.
     for (const std::string_view text : {"\xe2\x80\x90", "\xe2\x80\xaf", "\xc2\xa0", "\xc2\xac", "\xc2\xae"})
         CHECK(printable(text) == text);
 }
@@ -40,8 +40,7 @@ TEST_CASE("bytes that are not UTF-8 are shown as bytes") {
     CHECK(printable("\xc0\xaf") == "\\x{c0}\\x{af}");             // a slash in two bytes
 }
 
-TEST_CASE(
-    "printable text is valid UTF-8, and stays as it is when it is printed again, whatever it came from") {
+TEST_CASE("printable text is valid UTF-8, and unchanged when made printable again, whatever it came from") {
     std::string all;
     for (int i = 0; i < 256; ++i) {
         for (const char* const between : {"", "\xe2\x80", "\xc2"})
@@ -61,7 +60,7 @@ TEST_CASE("printable JSON means the same") {
     CHECK(nlohmann::json::parse(text) == value);
 }
 
-TEST_CASE("a TOML string with hidden characters is printable, and reads back as the same") {
+TEST_CASE("a TOML string with hidden characters is printable, and reads back unchanged") {
     const std::string text = "\xe2\x80\xae\x01\xf3\xa0\x80\x81\xc2\x9b \xc3\xa9 \"\\";
     const std::string toml = candela::toml_text(text);
     CHECK(printable(toml) == toml);

@@ -1,4 +1,4 @@
-// Programs that this one starts: what they inherit, how they answer line by line, and how they end.
+// Child processes: what they inherit, how they answer line by line, and how they end.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -23,12 +23,12 @@ constexpr milliseconds k_patience{60000};
 
 }  // namespace
 
-TEST_CASE("a program has its three streams, and no file or socket that is open here, however it is started") {
-    // Everybody may forget O_CLOEXEC.
+TEST_CASE("a program inherits its three streams, and no open file or socket, however it is started") {
+    // Any code may have forgotten O_CLOEXEC.
     const int file = ::open("/dev/null", O_RDONLY);
     const int another = ::fcntl(file, F_DUPFD, 700);
     REQUIRE(another >= 700);
-    // Of `ls` itself, the last one is the folder that it reads.
+    // The last one is the folder that `ls` itself reads.
     const std::string list = "echo $(ls /proc/self/fd)";
     CHECK(candela::run_program({"/bin/sh", "-c", list}).out == "0 1 2 3\n");
     AnsweringProgram answering({"/bin/sh", "-c", "read line; " + list});
@@ -42,7 +42,7 @@ TEST_CASE("a program has its three streams, and no file or socket that is open h
     ::close(another);
 }
 
-TEST_CASE("a program that takes too long, or that nobody wants any more, is ended") {
+TEST_CASE("a program that takes too long, or is no longer wanted, is ended") {
     const std::vector<std::string> long_work{"/bin/sleep", "100000"};
     const candela::ProgramOutput late = candela::run_program(long_work, {.longest = milliseconds(20)});
     CHECK(late.end == candela::ProgramEnd::late);
@@ -85,24 +85,24 @@ TEST_CASE("a program answers line by line, however long the lines are") {
     CHECK(cat.errors().empty());
 }
 
-TEST_CASE("a program that ends, or is told something after its end, gives no answer and has said why") {
+TEST_CASE("a program that ends, or is sent a line after its end, gives no answer, and its errors are kept") {
     AnsweringProgram shell({"/bin/sh", "-c", "read line; echo \"not $line\" >&2; exit 3"});
     CHECK_FALSE(shell.answer("this", k_patience).has_value());
     CHECK(shell.errors() == "not this\n");
     CHECK_FALSE(shell.answer("that", k_patience).has_value());
 }
 
-TEST_CASE("a program that does not answer is waited for no longer than one wants, and is ended") {
+TEST_CASE("waiting for a program that does not answer ends in time, and ends the program") {
     AnsweringProgram deaf({"/bin/sh", "-c", "trap '' TERM; while :; do sleep 0.01; done"});
     CHECK_FALSE(deaf.answer("hello?", milliseconds(20)).has_value());
 }
 
-TEST_CASE("a program that is not there cannot answer") {
+TEST_CASE("a missing program cannot answer") {
     CHECK_THROWS_AS(AnsweringProgram({"/nowhere/at/all"}), candela::Error);
 }
 
-TEST_CASE("programs that are started at the same moment do not wait for one another's end") {
-    // What one of them inherits of another's pipes would stay open until its end.
+TEST_CASE("programs started at the same moment do not wait for one another's end") {
+    // Pipes inherited from one another would stay open until the heirs' end.
     constexpr int k_rounds = 60;
     std::vector<std::unique_ptr<AnsweringProgram>> patient;
     std::thread starting([&] {
@@ -114,7 +114,7 @@ TEST_CASE("programs that are started at the same moment do not wait for one anot
     for (const auto& cat : patient) CHECK(cat->answer("still there", k_patience) == "still there");
 }
 
-TEST_CASE("a program waits until it is told to go on, and then all that it prints is there") {
+TEST_CASE("a program waits until it is told to continue, and then everything that it prints is available") {
     candela::WaitingProgram shell(
         {"/bin/sh", "-c", "read line; head -c 1000000 /dev/zero | tr '\\0' x; echo so >&2; exit 3"});
     const auto result = shell.go_on();
@@ -124,7 +124,7 @@ TEST_CASE("a program waits until it is told to go on, and then all that it print
     CHECK(result->err == "so\n");
 }
 
-TEST_CASE("a program that has ended before it is told to go on says nothing, and one that waits is ended") {
+TEST_CASE("a program that ended before it was told to continue yields nothing, and one that waits is ended") {
     {
         candela::WaitingProgram impatient({"/bin/true"});
         // Its end of the connection is closed by then.

@@ -16,7 +16,7 @@
 using candela::Scene;
 using candela::Vec3;
 
-TEST_CASE("random scenes keep the constraints of space, and one seed always gives one scene") {
+TEST_CASE("random scenes satisfy the spatial constraints, and one seed always yields one scene") {
     for (unsigned seed = 0; seed < 200; ++seed) {
         const RandomScene scene = random_scene(seed);
         INFO("seed " << seed);
@@ -43,7 +43,7 @@ TEST_CASE("random scenes keep the constraints of space, and one seed always give
     }
 }
 
-TEST_CASE("the meshes of random scenes lie within the bounds that the generator gives") {
+TEST_CASE("the meshes of random scenes lie within the generator's bounds") {
     const std::filesystem::path directory = scratch_directory();
     int meshes = 0;
     for (unsigned seed = 0; seed < 60; ++seed) {
@@ -73,7 +73,7 @@ TEST_CASE("the meshes of random scenes lie within the bounds that the generator 
     CHECK(meshes > 100);
 }
 
-TEST_CASE("random scenes break no geometric constraint") {
+TEST_CASE("random scenes violate no geometric constraint") {
     const std::filesystem::path directory = scratch_directory();
     for (unsigned seed = 0; seed < 200; ++seed) {
         candela::Diagnostics diagnostics;

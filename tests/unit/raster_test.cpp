@@ -25,7 +25,7 @@ Mesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>
     return mesh;
 }
 
-/// What each sample of a picture sees, row by row, sample by sample.
+/// The triangles that the samples of a picture see, row by row, sample by sample.
 std::vector<std::uint32_t> visible(const std::vector<const Mesh*>& meshes, const Camera& camera,
                                    int samples = 1, int tile_size = 64) {
     const candela::ProjectedScene scene = candela::project(meshes, camera, tile_size, samples);
@@ -75,8 +75,7 @@ std::optional<Hit> cast(Double3 origin, Double3 direction, const std::array<Doub
 }  // namespace
 
 TEST_CASE("triangles that share edges leave no gap and hit no sample twice (top-left rule)") {
-    // A square cut into triangles by random points: its every sample must be seen through exactly one of
-    // them.
+    // A square cut into triangles by random points: each of its samples must see exactly one of them.
     Random random(11);
     for (int round = 0; round < 20; ++round) {
         const int cells = 9;
@@ -114,7 +113,7 @@ TEST_CASE("triangles that share edges leave no gap and hit no sample twice (top-
     }
 }
 
-TEST_CASE("what is seen is what a ray meets first, also for triangles that reach behind the eye") {
+TEST_CASE("each sample sees what a ray hits first, even of triangles that extend behind the eye") {
     Random random(12);
     const int width = 80, height = 60;
     std::size_t compared = 0, seen = 0;
@@ -155,7 +154,7 @@ TEST_CASE("what is seen is what a ray meets first, also for triangles that reach
                     // On an edge, fixed point and double may differ.
                     if (std::abs(hit->margin) < 0.02) is_clear = false;
                     if (hit->margin < 0) continue;
-                    // So near the eye, the near plane decides.
+                    // This close to the eye, the near plane decides.
                     if (hit->distance < 0.01) is_clear = false;
                     if (hit->distance < best) {
                         second = best;
@@ -193,7 +192,7 @@ TEST_CASE("a floor that passes under the observer is drawn to the picture's lowe
     }
 }
 
-TEST_CASE("closed meshes are culled from behind, open ones are seen from both sides") {
+TEST_CASE("closed meshes are culled from behind, open ones are visible from both sides") {
     const std::vector<Vec3> vertices = {{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}};
     const Camera camera = pixel_camera(16, 16);
     const auto sees = [&](const std::vector<std::uint32_t>& indices, bool closed) {
@@ -208,8 +207,9 @@ TEST_CASE("closed meshes are culled from behind, open ones are seen from both si
     CHECK(sees({0, 2, 1}, false));
 }
 
-TEST_CASE("of thousands of small meshes, each pixel sees the triangle that lies there, or none from behind") {
-    // Squares of two triangles and one without an area, so that ranges of the scene end within a mesh.
+TEST_CASE(
+    "of thousands of small meshes, each pixel sees the triangle that lies there, but none from behind") {
+    // Squares of two triangles, and one degenerate one, so that ranges of the scene end within a mesh.
     constexpr int k_columns = 60, k_rows = 40;
     std::vector<Mesh> meshes;
     for (int i = 0; i < k_columns * k_rows; ++i) {
@@ -251,7 +251,7 @@ TEST_CASE("of equally near triangles, the first is seen") {
           std::set<std::uint32_t>{0, candela::k_no_triangle});
 }
 
-TEST_CASE("the share of samples that see a half-plane is the share of the pixel that it covers") {
+TEST_CASE("the fraction of samples that see a half-plane is the fraction of the pixel that it covers") {
     // A vertical edge at x = 0.25 of the middle pixels.
     const Mesh half =
         mesh_of({{0.25f, -50, 0}, {50, -50, 0}, {50, 50, 0}, {0.25f, 50, 0}}, {0, 1, 2, 0, 2, 3});
@@ -284,7 +284,7 @@ TEST_CASE("sample patterns have distinct samples whose columns and rows are all 
     }
 }
 
-TEST_CASE("numbers that overflow on the way to the picture draw nothing, and harm nobody") {
+TEST_CASE("numbers that overflow during projection draw nothing, and do not affect others") {
     const float huge = 1e38f;
     const Mesh mesh = mesh_of({{-huge, -huge, -huge},
                                {huge, -huge, -huge},
@@ -299,8 +299,8 @@ TEST_CASE("numbers that overflow on the way to the picture draw nothing, and har
     CHECK(ids[16 * 32 + 16] == 1);
 }
 
-TEST_CASE("a large picture and a small tile see the same as a small picture would") {
-    // Beyond 8192 pixels, fixed point has fewer bits: an edge may move by a sixteenth of a pixel, no more.
+TEST_CASE("a large picture and a small tile see the same as a small picture") {
+    // Above 8192 pixels, fixed point has fewer bits: an edge may move by a sixteenth of a pixel, but no more.
     const Mesh mesh = mesh_of({{-30, -10, 0}, {30, -10, 0}, {0, 14, 0}}, {0, 1, 2});
     const candela::ProjectedScene scene =
         candela::project(std::vector<const Mesh*>{&mesh}, pixel_camera(9000, 32), 64, 1);

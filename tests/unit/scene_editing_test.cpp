@@ -1,4 +1,4 @@
-// Changes written into a scene's files: what the file says afterwards is what the change said beside it, and
+// Changes written into a scene's files: the file then has the effect that the change had as an override, and
 // nothing else is touched.
 #include <fmt/format.h>
 
@@ -85,7 +85,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
-TEST_CASE("a changed value stands where the old one stood, and comments stay") {
+TEST_CASE("a changed value replaces the old one in place, and comments stay") {
     CHECK(text_with(k_scene, {{"light.key.intensity", "2"}}) ==
           replaced(k_scene, "intensity = 0.5     # on", "intensity = 2     # on"));
     CHECK(text_with(k_scene, {{"observer.look_at", "[0,0.5,0]"}}) ==
@@ -101,7 +101,7 @@ TEST_CASE("a value on several lines is replaced as a whole") {
           replaced(k_scene, "[\n    2,  # to the right\n    3,\n    2,\n]", "[1, 2, 3]"));
 }
 
-TEST_CASE("what a table does not say yet comes after its last line") {
+TEST_CASE("a key that a table does not have yet is added after its last line") {
     CHECK(text_with(k_scene, {{"light.1.intensity", "0.25"}}) ==
           replaced(k_scene, "type = \"ambient\"\n", "type = \"ambient\"\nintensity = 0.25\n"));
     CHECK(text_with(k_scene, {{"object.0.material.shininess", "9"}}) ==
@@ -110,7 +110,7 @@ TEST_CASE("what a table does not say yet comes after its last line") {
           replaced(k_scene, "# the cube\n", "# the cube\nfov = 35\n"));
 }
 
-TEST_CASE("a table that is not there yet comes at the end") {
+TEST_CASE("a missing table is added at the end") {
     CHECK(text_with(k_scene, {{"image.width", "80"}, {"image.height", "60"}}) ==
           std::string(k_scene) + "\n[image]\nwidth = 80\nheight = 60\n");
 }
@@ -120,7 +120,7 @@ TEST_CASE("of several values for one path the last one is written, whatever the 
           replaced(k_scene, "intensity = 0.5", "intensity = 3"));
 }
 
-TEST_CASE("inline tables, texts that look like other things, CR LF and the lack of a last line break stay") {
+TEST_CASE("inline tables, misleading strings, CR LF and a missing last line break are preserved") {
     const std::string text =
         "version = 1\r\nobserver = {position = [0, 1, 4], look_at = [0, 0, 0]}\r\n"
         "shading = {model = 'phong'}\r\nreflection = {model = \"phong\"}\r\n"
@@ -157,7 +157,7 @@ TEST_CASE("a value in an included file is changed there") {
     CHECK(std::ifstream(included).peek() == '[');
 }
 
-TEST_CASE("a change that says what the file says already changes no file") {
+TEST_CASE("a change to the value that the file already has changes no file") {
     const fs::path file = write_file(scratch_directory() / "scene.toml", k_scene);
     candela::SceneRequest request;
     request.files = {file};
@@ -168,7 +168,7 @@ TEST_CASE("a change that says what the file says already changes no file") {
     CHECK_FALSE(diagnostics.has_errors());
 }
 
-TEST_CASE("changes that make the scene wrong are reported, and change nothing") {
+TEST_CASE("changes that make the scene invalid are reported, and change nothing") {
     const fs::path file = write_file(scratch_directory() / "scene.toml", k_scene);
     candela::SceneRequest request;
     request.files = {file};
@@ -181,7 +181,7 @@ TEST_CASE("changes that make the scene wrong are reported, and change nothing") 
     }
 }
 
-TEST_CASE("changes that something else overrides are refused: the file would not show what was asked for") {
+TEST_CASE("changes that something else overrides are refused: the file would not show the requested effect") {
     const fs::path file = write_file(scratch_directory() / "scene.toml", k_scene);
     candela::SceneRequest request;
     request.files = {file};
@@ -194,7 +194,7 @@ TEST_CASE("changes that something else overrides are refused: the file would not
           replaced(k_scene, "intensity = 0.5", "intensity = 2"));
 }
 
-TEST_CASE("whatever the scene, a change in its file does what it does beside it, and moves no other line") {
+TEST_CASE("in any scene, a change in its file has the same effect as an override, and moves no other line") {
     std::mt19937 random(20261123);
     const fs::path directory = scratch_directory();
     int changed = 0;
@@ -218,7 +218,7 @@ TEST_CASE("whatever the scene, a change in its file does what it does beside it,
         std::vector<std::string> old_lines, new_lines;
         for (std::string line; std::getline(before, line);) old_lines.push_back(line);
         for (std::string line; std::getline(after, line);) new_lines.push_back(line);
-        // Every old line but the changed ones is there, in the same order.
+        // Every unchanged line is still there, in the same order.
         std::size_t found = 0, kept = 0;
         for (const std::string& line : old_lines) {
             const auto at = std::ranges::find(new_lines.begin() + static_cast<std::ptrdiff_t>(found),

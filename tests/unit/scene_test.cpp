@@ -46,7 +46,7 @@ Result read(const std::string& text, candela::SceneRequest request = {}) {
     return read(request);
 }
 
-/// The line and column of the only error, and that its message holds `part`.
+/// Checks the line and column of the only error, and that its message contains `part`.
 void check_error(const std::string& text, int line, int column, const std::string& part) {
     const Result result = read(text);
     INFO(result.text);
@@ -76,7 +76,7 @@ TEST_CASE(
     CHECK(result.scene->room.height == 10);
 }
 
-TEST_CASE("all values of a scene arrive") {
+TEST_CASE("all values of a scene are read") {
     const Result result = read(R"(version = 1
 [room]
 height = 5
@@ -151,14 +151,14 @@ scale = [1, 2, 3]
     CHECK(scene.objects[1].label == "number 1");
 }
 
-TEST_CASE("an unknown key is an error at its place, with a suggestion") {
+TEST_CASE("an unknown key is an error at its position, with a suggestion") {
     check_error(whole() + "[object.material]\nshinyness = 20\n", 16, 1, "did you mean 'shininess'?");
     check_error(whole() + "siz = 2\n", 15, 1, "did you mean 'size'?");
     check_error("vesrion = 1\n" + whole(), 1, 1, "did you mean 'version'?");
     check_error(whole() + "[imag]\nwidth = 3\n", 15, 2, "did you mean 'image'?");
 }
 
-TEST_CASE("a wrong type is an error that says what was found and what is expected") {
+TEST_CASE("a wrong type is an error that names the found and the expected type") {
     check_error(whole() + "color = \"red\"\n", 15, 9,
                 "'color' is a string, \"red\"; expected three integers 0-255");
     check_error(whole() + "color = [1, 2.5, 3]\n", 15, 9, "a list whose second value is the number 2.5");
@@ -215,7 +215,7 @@ TEST_CASE("256 as a colour means 255 and draws a warning (CA Table 1)") {
     CHECK(result.found[0].severity == Severity::warning);
 }
 
-TEST_CASE("a surface that sends out more light than it receives draws a warning (RE)") {
+TEST_CASE("a surface that emits more light than it receives draws a warning (RE)") {
     const Result result = read(whole() + "[object.material]\nkd = 0.8\nks = 0.3\n");
     CHECK(result.scene);
     REQUIRE(result.found.size() == 1);
@@ -224,7 +224,7 @@ TEST_CASE("a surface that sends out more light than it receives draws a warning 
     CHECK(read(whole() + "[object.material]\nkd = 0.7\nks = 0.3\n").found.empty());
 }
 
-TEST_CASE("what must hold between two parameters is checked") {
+TEST_CASE("relations between two parameters are checked") {
     check_error(
         whole() +
             "[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\ndirection = [0, -1, 0]\ninner_angle = 30\n",
@@ -233,7 +233,7 @@ TEST_CASE("what must hold between two parameters is checked") {
                 "must be less than major_radius");
 }
 
-TEST_CASE("a missing key or table that is required is an error") {
+TEST_CASE("a missing required key or table is an error") {
     check_error(std::string(k_observer) + k_models + k_light + k_cube, 0, 0, "version = 1");
     check_error(std::string("version = 1\n") + k_models + k_light + k_cube, 0, 0, "no [observer]");
     check_error("version = 1\n[observer]\nposition = [0, 0, 1]\n", 2, 2, "[observer] has no 'look_at'");
@@ -253,7 +253,7 @@ TEST_CASE("an unknown plugin is an error with a suggestion") {
                 6, 9, "no shading plugin is called 'smooth'");
 }
 
-TEST_CASE("an empty name is no model, and no way to ask for the default") {
+TEST_CASE("an empty name is not a model, nor a request for the default") {
     check_error(whole() + "shading = \"\"\n", 15, 11, "no shading plugin is called ''");
     check_error(whole() + "reflection = \"\"\n", 15, 14, "no reflection plugin is called ''");
     candela::SceneRequest request;
@@ -262,13 +262,13 @@ TEST_CASE("an empty name is no model, and no way to ask for the default") {
           std::string::npos);
 }
 
-TEST_CASE("what should be a table is reported once, and not for what it lacks as well") {
+TEST_CASE("a value in place of a table is reported once, without its missing keys") {
     check_error("version = 1\nobserver = 3\n", 2, 1, "expected the table [observer]");
     check_error("version = 1\n[[observer]]\nposition = [0, 0, 1]\n", 2, 3, "there may be only one");
     check_error(std::string("version = 1\nshading = 3\n") + k_observer, 2, 1, "expected the table [shading]");
 }
 
-TEST_CASE("observers that see nothing definite are errors") {
+TEST_CASE("an ill-defined view is an error") {
     check_error("version = 1\n[observer]\nposition = [1, 1, 1]\nlook_at = [1, 1, 1]\n", 4, 11, "must differ");
     check_error("version = 1\n[observer]\nposition = [0, 3, 0]\nlook_at = [0, 0, 0]\n", 4, 11, "'up'");
     check_error("version = 1\n[observer]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\nup = [0, 0, 2]\n", 5, 6,
@@ -277,7 +277,7 @@ TEST_CASE("observers that see nothing definite are errors") {
                 "cannot be zero");
 }
 
-TEST_CASE("all problems are reported in one go, sorted by place") {
+TEST_CASE("all problems are reported in one go, sorted by position") {
     const Result result = read(whole() + "size = -1\ncolor = 3\nfoo = 1\n[[light]]\ntype = \"laser\"\n");
     INFO(result.text);
     REQUIRE(result.found.size() == 4);
@@ -285,12 +285,12 @@ TEST_CASE("all problems are reported in one go, sorted by place") {
         CHECK(result.found[i - 1].place.line <= result.found[i].place.line);
 }
 
-TEST_CASE("TOML's own errors have a place") {
+TEST_CASE("TOML's own errors have a position") {
     check_error("version = 1\n[observer\n", 2, 10, "");
     check_error("version = 1\nversion = 2\n", 2, 11, "'version' is given twice");
 }
 
-TEST_CASE("several files are one scene; what may stand once is reported with both places") {
+TEST_CASE("several files are one scene; duplicates of what may occur once are reported with both positions") {
     const auto directory = scratch_directory();
     const auto lights = write_file(directory / "lights.toml", k_light);
     const auto objects = write_file(directory / "objects.toml", std::string("version = 1\n") + k_cube);
@@ -312,7 +312,7 @@ TEST_CASE("several files are one scene; what may stand once is reported with bot
     CHECK(read(request).text.find("is read twice") != std::string::npos);
 }
 
-TEST_CASE("include takes in other files, relative to the one that names them, and finds cycles") {
+TEST_CASE("include adds other files, relative to the file that names them, and detects cycles") {
     const auto directory = scratch_directory();
     write_file(directory / "parts" / "lights.toml", k_light);
     write_file(directory / "loop.toml", "include = [\"loop.toml\"]\nversion = 1\n");
@@ -349,7 +349,7 @@ TEST_CASE("files that cannot be read each have their own message (R11)") {
           std::string::npos);
 }
 
-TEST_CASE("settings go before the files, by name and by number") {
+TEST_CASE("settings take precedence over files, by name and by number") {
     candela::SceneRequest request;
     request.settings = {{"--width", "image.width", "77"},
                         {"--set a", "object.box.size", "2.5"},
@@ -368,7 +368,7 @@ TEST_CASE("settings go before the files, by name and by number") {
     CHECK(result.scene->objects[0].color == Vec3{1, 2, 3});
 }
 
-TEST_CASE("settings that cannot be are errors that name their flag") {
+TEST_CASE("invalid settings are errors that name their flag") {
     const auto message = [&](const std::string& path, const std::string& value) {
         candela::SceneRequest request;
         request.settings = {{"--set " + path, path, value}};
@@ -390,7 +390,7 @@ TEST_CASE("settings that cannot be are errors that name their flag") {
     CHECK(message("object.box.size", "1\nkey = 2").find("not one value") != std::string::npos);
 }
 
-TEST_CASE("R13: where no model is named, somebody is asked, once for both") {
+TEST_CASE("R13: if no model is named, the user is asked, once for both") {
     const std::string scene = std::string("version = 1\n") + k_observer + k_light + k_cube;
     int asked = 0;
     candela::SceneRequest request;
@@ -411,7 +411,7 @@ TEST_CASE("R13: where no model is named, somebody is asked, once for both") {
     CHECK(read(scene, request).text.find("--defaults") != std::string::npos);
     request.use_defaults = true;
     CHECK(read(scene, request).scene);
-    // Who names a model, or has nothing to shade, is not asked.
+    // If a model is named, or nothing needs shading, nobody is asked.
     request = {};
     request.shading = {"flat"};
     request.reflection = {"lambert"};
@@ -432,7 +432,7 @@ TEST_CASE("a material for another model is an error, unless the model came from 
           Vec3{0.3f, 0.3f, 0.3f});
     check_error(whole() + "reflection = \"lambert\"\n[object.material]\nshininess = 20\n", 17, 1,
                 "reflection/phong");
-    // A key that no model knows is a mistake all the same.
+    // A key that no model knows is still a mistake.
     CHECK_FALSE(read(whole() + "[object.material]\nshinyness = 20\n", request).scene);
 }
 
@@ -445,7 +445,7 @@ TEST_CASE("a scene without lights or objects is a scene, with a warning") {
     CHECK(empty.text.find("no objects") != std::string::npos);
 }
 
-TEST_CASE("names of lights and objects are unique, each of their kind") {
+TEST_CASE("names of lights and objects are unique within their kind") {
     const Result result = read(
         whole() +
         "[[object]]\nname = \"box\"\ntype = \"sphere\"\n[[light]]\nname = \"box\"\ntype = \"ambient\"\n");
@@ -472,7 +472,7 @@ TEST_CASE("a picture narrower than its observer's frame shows as much at the sid
     CHECK(square.height == 4.5f);
     CHECK(half_width(square, 1) == Catch::Approx(half_width(observer, 1.5)));
     CHECK(tall.fov < 180);
-    INFO("what has been fitted is not fitted again");
+    INFO("fitting twice is the same as fitting once");
     CHECK(candela::fitted(square, 100, 200) == square);
     observer.frame_aspect = 0;
     CHECK(candela::fitted(observer, 100, 200) == observer);

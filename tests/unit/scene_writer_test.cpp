@@ -31,13 +31,13 @@ Scene read(const fs::path& file, candela::Registry& registry = test_registry()) 
     return *std::move(scene);
 }
 
-/// A file of that name, new: some file systems take milliseconds to write an old one anew.
+/// A new file of that name: some file systems take milliseconds to rewrite an old one.
 fs::path new_file(const fs::path& file, const std::string& text) {
     fs::remove(file);
     return write_file(file, text);
 }
 
-/// What a scene is after it has been written and read; that writing it once more gives the same bytes.
+/// The scene after it has been written and read; checks that writing it again yields the same bytes.
 Scene written_and_read(const Scene& scene, const fs::path& directory,
                        candela::Registry& registry = test_registry()) {
     const std::string text = candela::scene_text(scene);
@@ -58,7 +58,7 @@ std::string refusal(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("a scene is written as people write it, with all that was left out") {
+TEST_CASE("a scene is written as people write it, with all omitted defaults") {
     const fs::path file = write_file(scratch_directory() / "scene.toml", R"(version = 1
 [observer]
 look_at = [0, 0, 0]
@@ -125,7 +125,7 @@ kd = 0.7
 )");
 }
 
-TEST_CASE("the default scene and the examples are the same after they have been written and read") {
+TEST_CASE("the default scene and the examples are unchanged after they have been written and read") {
     const fs::path directory = scratch_directory();
     const Scene standard = read({});
     CHECK((written_and_read(standard, directory) == standard));
@@ -139,7 +139,7 @@ TEST_CASE("the default scene and the examples are the same after they have been 
     CHECK(examples > 0);
 }
 
-TEST_CASE("1000 random scenes are valid, and the same after they have been written and read") {
+TEST_CASE("1000 random scenes are valid, and unchanged after they have been written and read") {
     const fs::path directory = scratch_directory();
     std::size_t lights = 0, objects = 0;
     std::set<std::string> plugins;
@@ -241,8 +241,7 @@ file = "../a_mesh_file_is_written_as_an_absolute_path__however_strange/mé \"sh\
     CHECK(fs::exists(file));
 }
 
-TEST_CASE(
-    "parameters of a shading model are written in [shading], the only place where a file can say them") {
+TEST_CASE("parameters of a shading model are written in [shading], the only place for them in a file") {
     const fs::path directory = scratch_directory();
     candela::Manifest wavy = test_registry().require(candela::PluginKind::shading, "phong").manifest;
     wavy.name = "wavy";
@@ -281,7 +280,7 @@ type = "torus"
           std::string::npos);
 }
 
-TEST_CASE("what the format cannot say is refused, not changed") {
+TEST_CASE("what the format cannot express is refused, not changed") {
     const Scene scene = read({});
     CHECK(refusal(scene).empty());
     Scene other = scene;
@@ -303,7 +302,8 @@ TEST_CASE("what the format cannot say is refused, not changed") {
     CHECK(refusal(other).find("'lamp': 'position' has no value") != std::string::npos);
 }
 
-TEST_CASE("a matrix is written row by row, a list number by number, each in as few digits as name it") {
+TEST_CASE(
+    "a matrix is written row by row, a list number by number, each in the fewest digits that identify it") {
     Scene scene = read({});
     std::vector<candela::Parameter> schema{
         {.name = "mixing",

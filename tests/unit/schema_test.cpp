@@ -1,4 +1,4 @@
-// The JSON Schema and the reference of plugins that are not shipped.
+// The JSON Schema and the reference for plugins that are not shipped.
 #include <catch2/catch_test_macros.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -43,7 +43,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 
 }  // namespace
 
-TEST_CASE("without any plugin, no name of one is allowed, and the scene's own keys are") {
+TEST_CASE("without plugins, no plugin name is allowed, but the scene's own keys are") {
     const Json root = schema({});
     CHECK(root["properties"]["light"]["items"]["properties"]["type"]["enum"] == Json::array());
     CHECK(root["properties"]["room"]["properties"]["height"]["exclusiveMinimum"] == 0);
@@ -54,7 +54,7 @@ TEST_CASE("without any plugin, no name of one is allowed, and the scene's own ke
     CHECK(holds(candela::scene_reference({}), "none is installed"));
 }
 
-TEST_CASE("what plugins agree on is asked of all, what they differ in of each for itself") {
+TEST_CASE("constraints that plugins share apply to all, the others to each plugin") {
     const Json root =
         schema({manifest(PluginKind::light, "a", {number("same", 0, 1, 0.5), number("other", 0, 1, 0.5)}),
                 manifest(PluginKind::light, "b", {number("same", 0, 1, 0.5), number("other", 0, 2, 0.25)})});
@@ -70,7 +70,7 @@ TEST_CASE("what plugins agree on is asked of all, what they differ in of each fo
     CHECK(root["definitions"]["light-b"]["properties"]["other"]["maximum"] == 2);
 }
 
-TEST_CASE("a parameter called as one of the table's own keys is checked as both, as the reader does") {
+TEST_CASE("a parameter named like one of the table's own keys is checked as both, as in the reader") {
     const Json root = schema({manifest(PluginKind::shape, "blob", {number("scale", 0, 3, 1)})});
     const Json& own = root["properties"]["object"]["items"]["properties"]["scale"];
     CHECK(own["type"] == Json::array({"number", "array"}));
@@ -78,7 +78,7 @@ TEST_CASE("a parameter called as one of the table's own keys is checked as both,
     CHECK(root["definitions"]["shape-blob"]["properties"]["scale"]["maximum"] == 3);
 }
 
-TEST_CASE("bounds are the decimal numbers that were declared, not their binary neighbours") {
+TEST_CASE("bounds are the declared decimal numbers, not their binary neighbours") {
     Parameter p = number("p", 0.1f, 0.7f, 0.3);
     p.maximum_excluded = true;
     const Json root = schema({manifest(PluginKind::light, "a", {p})});
@@ -89,7 +89,7 @@ TEST_CASE("bounds are the decimal numbers that were declared, not their binary n
     CHECK(property["default"].dump() == "0.3");
 }
 
-TEST_CASE("the reference keeps a parameter's text within its cell, and shows how the plugin is named") {
+TEST_CASE("the reference keeps a parameter's text within its cell, and shows how to name the plugin") {
     Parameter p = number("p", 0, candela::k_no_maximum, 2);
     p.meaning = "|p|\nand more";
     p.unit = "deg";

@@ -1,4 +1,4 @@
-// Mip maps against closed forms: levels are means of what they cover, and a look-up weighs texels by area.
+// Mip maps against closed forms: levels are means of what they cover, and look-ups weight texels by area.
 #include <array>
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
@@ -19,7 +19,7 @@ namespace {
 
 using Shown = std::function<Vec3(int x, int y)>;
 
-/// What `shown` says of each texel, of 65535.
+/// A map whose texels are the values of `shown`, of 65535.
 MipMap mip_map(int width, int height, const Shown& shown) {
     MipMap::Texels texels;
     for (int y = 0; y < height; ++y) {
@@ -46,7 +46,7 @@ Vec3 texel(const MipMap& map, std::size_t level, int x, int y) {
             static_cast<float>(map.texels()[i + 2])};
 }
 
-/// What is seen at (u, v), of 65535, where a pixel is `texels` of the picture wide and high.
+/// The value at (u, v), of 65535, where a pixel is `texels` of the picture wide and high.
 Vec3 seen(const MipMap& map, float u, float v, TextureWrap wrap = TextureWrap::repeat, float texels = 0) {
     const float dudx = texels / static_cast<float>(map.width()),
                 dvdy = texels / static_cast<float>(map.height());
@@ -86,7 +86,7 @@ TEST_CASE("texture: levels of a checkerboard are grey") {
         CHECK(texel(map, level, 0, 0) == Vec3{30000, 30000, 30000});
 }
 
-TEST_CASE("texture: levels of odd sizes weigh texels by how much of them is covered") {
+TEST_CASE("texture: levels of odd sizes weight texels by their covered fraction") {
     // Three to one: each a third.
     const MipMap three = mip_map(3, 1, [](int x, int) { return Vec3{static_cast<float>(3000 * x), 0, 0}; });
     REQUIRE(three.levels().size() == 2);
@@ -110,7 +110,7 @@ TEST_CASE("texture: the mean of a picture is that of every level whose sizes are
     CHECK(texel(map, 5, 0, 0).x == Approx(mean).margin(3));
 }
 
-TEST_CASE("texture: at a texel's centre it is that texel, and between two it is their mean") {
+TEST_CASE("texture: a texel's centre has its value, and the point between two has their mean") {
     const MipMap map = ramp(8, 1000);
     CHECK(is_near(seen(map, u_of(map, 3), v_of(map, 5)), {3000, 5000, 0}));
     CHECK(is_near(seen(map, u_of(map, 3.5), v_of(map, 5)), {3500, 5000, 0}));
@@ -123,7 +123,7 @@ TEST_CASE("texture: v grows from the bottom of the picture to its top") {
     CHECK(is_near(seen(map, 0.5f / 8, 0.5f / 8), {0, 7000, 0}));
 }
 
-TEST_CASE("texture: beyond its edges it repeats, or keeps the colours there") {
+TEST_CASE("texture: outside its edges it repeats, or continues the edge colours") {
     const MipMap map = ramp(8, 1000);
     const float v = v_of(map, 0);
     for (const float turn : {-3.0f, -1.0f, 1.0f, 20.0f}) {
@@ -139,13 +139,14 @@ TEST_CASE("texture: beyond its edges it repeats, or keeps the colours there") {
     CHECK(is_near(seen(map, 1, v, TextureWrap::clamp), {7000, 0, 0}));
 }
 
-TEST_CASE("texture: a pixel that covers two texels sees the next level, and one that covers all their mean") {
+TEST_CASE(
+    "texture: a pixel that covers two texels sees the next level, and one that covers all sees their mean") {
     const MipMap map = ramp(8, 1000);
     // The centre of texel 1 of level 1 lies between texels 2 and 3.
     CHECK(is_near(seen(map, u_of(map, 2.5), v_of(map, 2.5), TextureWrap::repeat, 2), {2500, 2500, 0}));
     CHECK(is_near(seen(map, u_of(map, 0), v_of(map, 0), TextureWrap::repeat, 8), {3500, 3500, 0}));
     CHECK(is_near(seen(map, u_of(map, 0), v_of(map, 0), TextureWrap::repeat, 1e9f), {3500, 3500, 0}));
-    // Less than a texel: nothing is filtered.
+    // Less than a texel: no filtering.
     CHECK(is_near(seen(map, u_of(map, 2), v_of(map, 2), TextureWrap::repeat, 0.1f), {2000, 2000, 0}));
 }
 
@@ -162,7 +163,7 @@ TEST_CASE("texture: between two levels the logarithm of the footprint blends the
     }
 }
 
-TEST_CASE("texture: the longer side of a footprint decides, whichever way it lies") {
+TEST_CASE("texture: the longer side of a footprint decides, in any orientation") {
     const MipMap map = ramp(8, 1000);
     const float u = u_of(map, 2.5), v = v_of(map, 2.5), zero = 0;
     const float two = 2.0f / 8, diagonal = 2.0f / 8 / std::sqrt(2.0f);
@@ -177,7 +178,7 @@ TEST_CASE("texture: the longer side of a footprint decides, whichever way it lie
     CHECK(is_near(with({diagonal, -diagonal, zero, zero}), {2500, 2500, 0}, 0.5f));
 }
 
-TEST_CASE("texture: it multiplies what is there, point by point, for any number of points") {
+TEST_CASE("texture: it multiplies the existing values, point by point, for any number of points") {
     const MipMap map = ramp(8, 8000);
     constexpr std::size_t k_count = 1000;
     std::vector<float> u(k_count), v(k_count, v_of(map, 1)), zero(k_count), r(k_count), g(k_count, 0.5f),
@@ -197,7 +198,7 @@ TEST_CASE("texture: it multiplies what is there, point by point, for any number 
     }
 }
 
-TEST_CASE("texture: coordinates and footprints that are no numbers, or endless, show some texel") {
+TEST_CASE("texture: non-finite coordinates and footprints show some texel") {
     const MipMap map = mip_map(4, 4, [](int, int) { return Vec3{20000, 20000, 20000}; });
     for (const float odd : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                             -std::numeric_limits<float>::infinity(), 1e30f, -1e30f}) {
@@ -209,7 +210,7 @@ TEST_CASE("texture: coordinates and footprints that are no numbers, or endless, 
     }
 }
 
-TEST_CASE("texture: all instruction sets see the same within a thousandth of a byte's step") {
+TEST_CASE("texture: all instruction sets agree within a thousandth of a byte's step") {
     const MipMap map = mip_map(16, 16, [](int x, int y) {
         return Vec3{static_cast<float>((x * 7919 + y * 104729) % 65536), static_cast<float>(x * 4000), 0};
     });

@@ -33,7 +33,7 @@ std::string read_back_text(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("texts come back from TOML as they were, all characters of them") {
+TEST_CASE("strings come back from TOML unchanged, with every character") {
     for (int c = 0; c < 128; ++c) {
         INFO("character " << c);
         CHECK(read_back_text("a" + std::string(1, static_cast<char>(c)) + "b") ==
@@ -43,14 +43,15 @@ TEST_CASE("texts come back from TOML as they were, all characters of them") {
                                    "\xf4\x8f\xbf\xbf", R"(\u0041)", R"(""")", R"(''' \)", "a\r\nb"}) {
         CHECK(read_back_text(text) == text);
     }
-    // Unicode 15, section 3.9: cut short, overlong, a surrogate, beyond the last code point, no lead byte.
+    // Unicode 15, section 3.9: truncated, overlong, a surrogate, beyond the last code point, an invalid lead
+    // byte.
     for (const char* const text : {"\xc3", "\xe6\x97", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80",
                                    "\xf4\x90\x80\x80", "\x80", "\xff", "\xf0\x8f\xbf\xbf", "a\xe9z"}) {
         CHECK_THROWS_AS(candela::toml_text(std::string_view(text)), candela::Error);
     }
 }
 
-TEST_CASE("numbers come back from TOML as they were, to the last bit") {
+TEST_CASE("numbers come back from TOML unchanged, to the last bit") {
     std::mt19937_64 random(7);
     for (int i = 0; i < 200'000; ++i) {
         const std::uint64_t bits = random();

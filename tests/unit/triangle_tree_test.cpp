@@ -74,7 +74,7 @@ TEST_CASE("a ray within a ball leaves it where the quadratic equation says") {
         REQUIRE(exit.has_value());
         INFO(text(origin) << " along " << text(direction));
         CHECK(std::abs(static_cast<double>(exit->distance) - (-b + std::sqrt(b * b - c))) < 1e-3);
-        // Barycentric coordinates say the same place.
+        // The barycentric coordinates give the same position.
         const auto corner = [&](std::size_t k) {
             return exact(ball.position.span()[ball.indices[3 * std::size_t{exit->triangle} + k]]);
         };
@@ -105,7 +105,7 @@ TEST_CASE("a ray that enters through a point of the surface leaves elsewhere, an
     }
 }
 
-TEST_CASE("a ray that starts close to a cube's edge leaves through the face beside it, however close") {
+TEST_CASE("a ray that starts close to a cube's edge leaves through the adjacent face, however close") {
     const candela::Mesh cube = shape("cube", {{"size", 2.0}});
     const TriangleTree tree = tree_of(cube);
     for (const float gap : {1e-2f, 1e-4f, 4e-6f, 1e-6f, 1.2e-7f, 0.0f}) {
@@ -143,7 +143,7 @@ TEST_CASE("a ray along the edges and diagonals of a cube's faces does not slip b
     }
 }
 
-TEST_CASE("in a torus the way ends at the nearest wall, not at the far side of the hole") {
+TEST_CASE("in a torus the path ends at the nearest wall, not at the far side of the hole") {
     const candela::Mesh ring =
         shape("torus", {{"major_radius", 1.0}, {"minor_radius", 0.25}, {"segments", std::int64_t{128}}});
     const auto exit = exit_of(tree_of(ring), {1, 0, 0}, {-1, 0, 0});
@@ -151,17 +151,17 @@ TEST_CASE("in a torus the way ends at the nearest wall, not at the far side of t
     CHECK(agree(static_cast<double>(exit->distance), 0.25, 2e-3));
 }
 
-TEST_CASE("where a surface is open, or there is none, a ray does not leave") {
+TEST_CASE("where a surface is open, or absent, a ray does not leave") {
     const std::vector<float> x = {0, 1, 0}, y = {0, 0, 1}, z = {0, 0, 0};
     const std::vector<std::uint32_t> indices = {0, 1, 2};
     const TriangleTree one({x.data(), y.data(), z.data()}, 3, indices);
     CHECK(exit_of(one, {0.2f, 0.2f, -1}, {0, 0, 1}).has_value());
-    CHECK_FALSE(exit_of(one, {0.2f, 0.2f, 1}, {0, 0, -1}).has_value());  // it comes in there
+    CHECK_FALSE(exit_of(one, {0.2f, 0.2f, 1}, {0, 0, -1}).has_value());  // it enters there
     CHECK_FALSE(exit_of(one, {0.9f, 0.9f, -1}, {0, 0, 1}).has_value());
     CHECK_FALSE(exit_of(TriangleTree({}, 0, {}), {0, 0, 0}, {1, 0, 0}).has_value());
 }
 
-TEST_CASE("a ray leaves at the same place whatever other rays are asked for with it") {
+TEST_CASE("a ray leaves at the same place whatever other rays are traced with it") {
     // Towards corners and along diagonals, where several triangles are equally near, and anywhere.
     for (const char* const name : {"cube", "sphere", "torus"}) {
         const candela::Mesh mesh = shape(name, {});
@@ -200,7 +200,7 @@ TEST_CASE("a ray leaves at the same place whatever other rays are asked for with
     }
 }
 
-TEST_CASE("a ray of a faulty plugin has no exit, and the rays beside it keep theirs") {
+TEST_CASE("a ray of a faulty plugin has no exit, and its neighbours keep theirs") {
     const candela::Mesh cube = shape("cube", {{"size", 2.0}});
     const TriangleTree tree = tree_of(cube);
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -217,7 +217,7 @@ TEST_CASE("a ray of a faulty plugin has no exit, and the rays beside it keep the
     }
 }
 
-TEST_CASE("once rays have been followed, other work is still done by several threads") {
+TEST_CASE("after rays have been followed, other work still uses several threads") {
     const TriangleTree tree = tree_of(shape("cube", {}));
     std::atomic<int> present = 0;
     std::atomic<bool> have_met = true;
@@ -232,7 +232,7 @@ TEST_CASE("once rays have been followed, other work is still done by several thr
     CHECK(have_met);
 }
 
-TEST_CASE("a tree is built by the thread that asks for it, and is thus the same one however many there are") {
+TEST_CASE("a tree is built by the calling thread, and is thus the same however many there are") {
     const auto threads = [] {
         return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
     };
@@ -244,12 +244,12 @@ TEST_CASE("a tree is built by the thread that asks for it, and is thus the same 
     });
 }
 
-TEST_CASE("trees that are built at the same time give what those give that are built one after the other") {
+TEST_CASE("trees built at the same time give the same results as trees built one after the other") {
     std::vector<candela::Mesh> meshes;
     for (const std::int64_t segments : {16, 40, 100, 160})
         for (const char* const name : {"sphere", "torus"})
             meshes.push_back(shape(name, {{"segments", segments}}));
-    // Towards corners, where the form of the tree decides which of several triangles a ray meets.
+    // Towards corners, where the shape of the tree decides which of several triangles a ray hits.
     const auto exits = [&](const candela::Mesh& mesh, const TriangleTree& tree) {
         std::vector<std::pair<std::uint32_t, float>> result;
         const candela::ConstVec3Span vertices = mesh.position.span();

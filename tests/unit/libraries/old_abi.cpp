@@ -1,5 +1,4 @@
-// A plugin of another time: its fingerprint is not this Candela's, and its descriptor must never be looked
-// at.
+// An outdated plugin: its fingerprint is not this Candela's, and its descriptor must never be read.
 #include <cstdlib>
 
 extern "C" __attribute__((visibility("default"))) const char* candela_plugin_abi() {

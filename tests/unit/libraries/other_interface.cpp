@@ -1,5 +1,5 @@
-// A sound reflection model, built against the interface version that CANDELA_TEST_INTERFACE says. The
-// environment tells how far a host went with it.
+// A valid reflection model, built against the interface version CANDELA_TEST_INTERFACE. The environment
+// records how far a host got with it.
 #include <cstdlib>
 
 #include "candela/reflection_plugin.h"

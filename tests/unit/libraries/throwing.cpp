@@ -1,4 +1,4 @@
-// A reflection model that throws: when it is made with a kd of zero, else when it is asked for light.
+// A reflection model that throws: on creation with a kd of zero, otherwise when it reflects.
 #include <stdexcept>
 
 #include "candela/reflection_plugin.h"
