@@ -232,8 +232,7 @@ const GlslDepth k_reversed_depth{
     .uniform = "uniform float near;\n",
     .statement =
         "    // Depths grow towards the eye; in perspective they are near / distance, which a float buffer "
-        "holds with "
-        "the same relative precision at\n    // all distances.\n"
+        "holds with the same relative precision\n    // at all distances.\n"
         "    gl_FragDepth = is_orthographic ? 1.0 - gl_FragCoord.z : near * gl_FragCoord.w;\n"};
 
 GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {

@@ -97,7 +97,7 @@ class ChildProcess {
   public:
     /// `output`: the descriptor that it prints to; -1: the one that its input comes from.
     explicit ChildProcess(const std::vector<std::string>& words, int output = -1)
-        // In memory, so that a program that prints much does not wait for a reader.
+        // In memory, so that a program that prints a lot does not wait for a reader.
         : errors_(::memfd_create("errors", MFD_CLOEXEC)) {
         std::array<Descriptor, 2> ends = connected();
         const std::vector<std::string> arguments(words.begin() + 1, words.end());

@@ -35,7 +35,7 @@ constexpr std::array k_rules = {
     Rule{"string", "encountered end-of-file", "the file ends within a string: its closing quote is missing",
          ""},
     Rule{"string", "control characters", "{control}",
-         R"(a text ends with the quote that it begins with; one of several lines stands in """)"},
+         R"(a string ends with the quote it begins with; one of several lines is enclosed in """)"},
     Rule{"string", "unknown escape sequence", "\\{character} is not a valid escape",
          "write a backslash as \\\\, or put the string in 'single quotes'"},
     // Numbers and words
