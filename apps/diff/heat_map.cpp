@@ -27,8 +27,8 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// Without loss, which would show differences where there are none; and those whose writers need no file of
-/// their own.
+/// Lossless formats, because a lossy one would show differences that do not exist; and only those whose
+/// writers can write to memory.
 const std::vector<std::string>& lossless_extensions() {
     static const std::vector<std::string> k_extensions = {"png", "ppm", "bmp", "tga"};
     return k_extensions;
@@ -43,7 +43,7 @@ std::vector<std::uint8_t> heat_colors(const Picture& a, const Picture& b, double
     const OIIO::ImageBuf colored = OIIO::ImageBufAlgo::color_map(source, 0, "magma");
     std::vector<std::uint8_t> colors(3 * heat.size());
     if (colored.has_error() || !colored.get_pixels(colored.roi(), OIIO::TypeUInt8, colors.data()))
-        throw Error(ErrorCategory::failure, fmt::format("no heat-map can be made: {}", colored.geterror()));
+        throw Error(ErrorCategory::failure, fmt::format("cannot make a heat-map: {}", colored.geterror()));
     return colors;
 }
 
@@ -51,7 +51,7 @@ std::vector<unsigned char> encoded(const std::string& extension, int width, int 
                                    const std::vector<std::uint8_t>& colors) {
     const auto fail = [&](const std::string& reason) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("no heat-map can be written as {}: {}", extension, reason));
+                    fmt::format("cannot write a heat-map as {}: {}", extension, reason));
     };
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("heat-map." + extension);
     if (output == nullptr) fail(OIIO::geterror());
@@ -60,7 +60,8 @@ std::vector<unsigned char> encoded(const std::string& extension, int width, int 
     OIIO::ImageSpec spec(width, height, 3, OIIO::TypeUInt8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("Software", "Candela");
-    // Left out, some writers put the time of writing there, and no two files of one picture are the same.
+    // If this is left out, some writers add the time of writing, so that no two files of one picture are the
+    // same.
     spec.attribute("DateTime", "");
     if (!output->set_ioproxy(&memory) || !output->open("heat-map." + extension, spec) ||
         !output->write_image(OIIO::TypeUInt8, colors.data()) || !output->close()) {
@@ -78,14 +79,14 @@ void require_heat_map_format(const fs::path& file) {
         extension.empty() ? "" : candela::suggestion(extension, lossless_extensions(), ".");
     throw Error(ErrorCategory::bad_request,
                 fmt::format("'{}' {}{} (possible: {})", file.string(),
-                            extension.empty() ? "has no extension that names a picture format"
-                                              : "is of no format that a heat-map is written in",
+                            extension.empty() ? "has no file extension of a picture format"
+                                              : "has an unsupported heat-map format",
                             meant.empty() ? "" : "; " + meant, fmt::join(lossless_extensions(), ", ")));
 }
 
 void write_heat_map(const fs::path& file, const Picture& a, const Picture& b, double maximum,
                     candela::Existing existing) {
-    // Heat, its colours in floats and in bytes, and the file.
+    // The heat, its colours in floats and in bytes, and the file.
     candela::require_memory(a.pixels() * (4 + 12 + 3 + 3), "the heat-map");
     const auto bytes = encoded(candela::extension_of(file), a.width, a.height, heat_colors(a, b, maximum));
     candela::OutputFile output(file, existing);

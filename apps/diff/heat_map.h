@@ -1,4 +1,4 @@
-// A picture of where two pictures differ.
+// Writes a picture of where two pictures differ.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 import candela.diagnostics;
 import candela.files;
 
-/// Throws candela::Error (usage) where `file` does not end in a format that a heat-map can be written in.
+/// Throws candela::Error (usage) if the extension of `file` is not a format for heat-maps.
 void require_heat_map_format(const std::filesystem::path& file);
 
-/// Writes the largest channel difference of each pixel as a colour, from black, no difference, to
-/// white-hot, `maximum` levels; 8-bit RGB, whole or not there. `existing`: what becomes of a file of that
-/// name. Throws candela::Error.
+/// Writes the largest channel difference of each pixel as a colour, from black (no difference) to white-hot
+/// (`maximum` levels); 8-bit RGB, complete or not at all. `existing`: what to do with an existing file.
+/// Throws candela::Error.
 void write_heat_map(const std::filesystem::path& file, const Picture& a, const Picture& b, double maximum,
                     candela::Existing existing);

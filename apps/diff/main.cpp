@@ -1,4 +1,4 @@
-// candela-diff A B …: figures of how two pictures differ. Run by `candela diff`.
+// candela-diff A B …: measures how two pictures differ. Run by `candela diff`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,13 +57,13 @@ void print_text(const Picture& a, const Comparison& comparison) {
                       differences.edges ? ", edges among them" : ""));
 }
 
-/// Infinity where nothing was said.
+/// The tolerance; infinity if none was given.
 double tolerance_from(const CommandLine& line) {
     if (!line.has("tolerance")) return std::numeric_limits<double>::infinity();
     const auto tolerance = line.get<double>("tolerance");
     if (!(tolerance >= 0 && std::isfinite(tolerance)))
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--tolerance is {}; it can be 0 or more", tolerance));
+                    fmt::format("--tolerance is {}; expected 0 or more", tolerance));
     return tolerance;
 }
 
@@ -94,21 +94,23 @@ int verdict(double tolerance, const DifferenceStatistics& statistics) {
 int run(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela diff A B [options]",
-        "Reports how two pictures of the same size differ, in levels of 1/255 over all pixels and channels, "
-        "and how\n"
-        "many pixels differ visibly (Yee's metric). Any format that OpenImageIO or an image plugin reads;\n"
-        "alpha is ignored; grey is red, green and blue alike; floats are compared as they are, times 255.\n\n"
-        "Exit codes: 0 compared, 1 a picture cannot be read or written, or sizes differ, 2 wrong usage,\n"
+        "Report how two pictures of the same size differ, in levels (1/255) over all pixels and channels, "
+        "and how many pixels differ visibly (Yee's metric). Reads any format that OpenImageIO or an image "
+        "plugin "
+        "supports. Alpha is ignored; grey counts as equal red, green and blue; floats are compared "
+        "unchanged, times "
+        "255.\n\nExit codes: 0 compared, 1 a picture cannot be read or written, or sizes differ, 2 wrong "
+        "usage,\n"
         "4 beyond --tolerance.");
     line.positional("picture", 2);
     line.options()("output,o", po::value<std::string>()->value_name("FILE"),
-                   "write a heat-map: black where nothing differs, white-hot where most does")(
+                   "write a heat-map: black where nothing differs, white-hot at the largest difference")(
         "mask", po::value<std::string>()->value_name("FILE"),
-        "a picture of the same size whose white pixels mark edges, which are counted separately")(
+        "a picture of the same size whose white pixels mark edges, to be counted separately")(
         "tolerance", po::value<double>()->value_name("N"),
         "exit with code 4 if a channel of a pixel away from edges differs by more than N levels")(
         "json", "print the statistics as JSON")("decoded", po::value<std::string>()->value_name("FILE"),
-                                                "write what was read of B as a PPM of 8 bits");
+                                                "write picture B as an 8-bit PPM");
     add_no_clobber_option(line);
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;

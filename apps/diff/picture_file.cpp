@@ -31,7 +31,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-constexpr int k_longest = 65536;  // as of Candela's own pictures
+constexpr int k_longest = 65536;  // the same as for Candela's own pictures
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
     throw Error(ErrorCategory::failure, fmt::format("'{}' {}", file.string(), what));
@@ -43,28 +43,28 @@ void require_ordinary_file(const fs::path& file) {
     if (status.type() == fs::file_type::not_found) {
         const std::string hint = candela::file_suggestion(file);
         throw Error(ErrorCategory::failure,
-                    fmt::format("there is no file '{}'{}{}", file.string(), hint.empty() ? "" : "; ", hint));
+                    fmt::format("'{}' does not exist{}{}", file.string(), hint.empty() ? "" : "; ", hint));
     }
     if (status.type() == fs::file_type::none)
-        fail(file, fmt::format("cannot be looked at: {}", problem.message()));
-    if (status.type() == fs::file_type::directory) fail(file, "is a directory; a picture is a file");
+        fail(file, fmt::format("cannot be examined: {}", problem.message()));
+    if (status.type() == fs::file_type::directory) fail(file, "is a directory; expected a picture file");
     if (status.type() != fs::file_type::regular) fail(file, "is not a regular file (a pipe or a device?)");
     if (::access(file.c_str(), R_OK) != 0)
         fail(file, fmt::format("cannot be opened: {}", std::strerror(errno)));
 }
 
-/// What OpenImageIO says, on one line.
+/// OpenImageIO's message, on one line.
 std::string reason(std::string text) {
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
     std::ranges::replace(text, '\n', ' ');
-    return text.empty() ? "it may be cut short" : text;
+    return text.empty() ? "it may be truncated" : text;
 }
 
 struct Window {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// What the file shows: an EXR may store less of it, or more.
+/// The visible part of the picture: an EXR file may store less of it, or more.
 Window shown_window(const OIIO::ImageSpec& spec) {
     if (spec.full_width < 1 || spec.full_height < 1) return {spec.x, spec.y, spec.width, spec.height};
     return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
@@ -107,22 +107,22 @@ void require_finite(const Picture& picture, const fs::path& file) {
     constexpr std::array<std::string_view, 3> k_colors = {"red", "green", "blue"};
     const auto index = static_cast<std::size_t>(wrong - picture.values.begin());
     const auto width = static_cast<std::size_t>(picture.width);
-    fail(file, fmt::format("holds {} at x {}, y {} ({}), counted from 0 at the upper left; only finite "
+    fail(file, fmt::format("contains {} at x {}, y {} ({}), counted from 0 at the upper left; only finite "
                            "numbers can be compared",
                            std::isnan(*wrong) ? "NaN" : "infinity", index / 3 % width, index / 3 / width,
                            k_colors[index % 3]));
 }
 
-/// Whether OpenImageIO has one for files of that extension.
+/// Whether OpenImageIO has a reader for that extension.
 bool has_reader(const std::string& extension) {
     return std::ranges::any_of(OIIO::get_extension_map(), [&](const auto& format) {
         return std::ranges::find(format.second, extension) != format.second.end();
     });
 }
 
-/// Nothing where OpenImageIO cannot make sense of it, with the reason.
+/// Nothing if OpenImageIO cannot read it; `problem` is the reason.
 std::optional<Picture> read_by_openimageio(const fs::path& file, std::string& problem) {
-    // Else colours would be multiplied with alpha, which is not compared.
+    // Otherwise colours would be multiplied with alpha, which is not compared.
     OIIO::ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string(), &wishes);
@@ -133,11 +133,11 @@ std::optional<Picture> read_by_openimageio(const fs::path& file, std::string& pr
     const OIIO::ImageSpec& spec = input->spec();
     const Window shown = shown_window(spec);
     if (spec.deep || spec.depth > 1 || spec.nchannels < 1)
-        fail(file, "is not a picture of flat pixels (but deep, a volume, or without channels)");
+        fail(file, "is not a flat picture (it is deep, a volume, or without channels)");
     for (const int length : {spec.width, spec.height, shown.width, shown.height}) {
         if (length < 1 || length > k_longest) {
-            fail(file, fmt::format("has {} x {} pixels; 1 to {} are possible each way", shown.width,
-                                   shown.height, k_longest));
+            fail(file, fmt::format("has {} x {} pixels; expected 1 to {} each way", shown.width, shown.height,
+                                   k_longest));
         }
     }
 
@@ -145,7 +145,7 @@ std::optional<Picture> read_by_openimageio(const fs::path& file, std::string& pr
                     .height = shown.height,
                     .is_float = spec.format.is_floating_point(),
                     .values = {}};
-    const int channels = spec.nchannels < 3 ? 1 : 3;  // two are grey and alpha
+    const int channels = spec.nchannels < 3 ? 1 : 3;  // two channels are grey and alpha
     const std::uint64_t bytes = sizeof(float) * 3 * (picture.pixels() + spec.image_pixels());
     candela::require_memory(bytes, fmt::format("the picture '{}'", file.string()));
     picture.values.resize(3 * picture.pixels());
@@ -158,7 +158,7 @@ std::optional<Picture> read_by_openimageio(const fs::path& file, std::string& pr
     return picture;
 }
 
-/// The plugin's numbers as those of a file: encoded ones as integers, intensities as floats. Nothing where no
+/// Converts the plugin's values to a file's: encoded ones to integers, intensities to floats. Nothing if no
 /// image plugin reads files of that extension.
 std::optional<Picture> read_by_plugin(const fs::path& file, candela::Registry& registry) {
     auto decoded = candela::read_by_plugin(file, registry, candela::ColorEncoding::srgb);

@@ -1,4 +1,4 @@
-// Pictures from files.
+// Reads pictures from files.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 import candela.diagnostics;
 import candela.registry;
 
-/// Reads a picture of any format that OpenImageIO knows, or else an image plugin; alpha is left out, and grey
-/// becomes red, green and blue alike. Throws candela::Error (failure) for what is no picture, or holds what
-/// is no finite number.
+/// Reads a picture of any format that OpenImageIO or, failing that, an image plugin supports. Drops alpha,
+/// and converts grey to equal red, green and blue. Throws candela::Error (failure) if the file is not a
+/// picture or contains a non-finite number.
 Picture read_picture(const std::filesystem::path& file, candela::Registry& registry);

@@ -1,4 +1,4 @@
-// The page of an exercise: a kernel with a blank, and the numbers that the model gives.
+// The page of an exercise: a kernel with a blank, and the model's results.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace exercise {
 
-/// A value of the kernel's struct, as a shader takes it.
+/// A value of the kernel's struct, for a shader.
 struct Uniform {
     std::string name;  // "material.kd"
     std::string kind;  // "int", "float", "vec3", "mat3"
     std::vector<float> value;
 };
 
-/// One light and one set of material values, and what the model gives for them at each point: three numbers
-/// per point and term.
+/// One light and one set of material values, and the model's result at each point: three numbers per point
+/// and term.
 struct Case {
     std::string label;
     std::array<float, 3> to_light{};  // L
@@ -25,18 +25,18 @@ struct Case {
     std::vector<float> ambient, diffuse, specular;
 };
 
-/// Everything that a page holds. It is in the page's text, so that the formula must not be in it.
+/// Everything that a page contains. It is in the page's text, so it must not include the formula.
 struct Content {
     std::string model;                    // "reflection/phong"
     std::string function;                 // "phong_reflect"
     std::string title;                    // of the model
     std::string reference;                // its paper; may be empty
-    std::string before, after;            // the kernel around the blank, to be read
+    std::string before, after;            // the kernel around the blank, for the reader
     std::string glsl_before, glsl_after;  // the shader around the blank
     std::size_t size = 0;                 // the picture's, in pixels
-    std::span<const std::size_t> pixels;  // which of them are points of the ball, row by row from the top
+    std::span<const std::size_t> pixels;  // the pixels on the ball, row by row from the top
     std::span<const float> normals;       // N, three per point; V is (0, 0, 1), and the position is N
-    std::span<const float> tangents;      // likewise
+    std::span<const float> tangents;      // three per point
     std::array<float, 3> color{};         // C_o
     std::vector<Case> cases;
 };

@@ -22,7 +22,7 @@ using candela::Vec3;
 
 namespace {
 
-/// In the order of the members of the kernel's structs.
+/// Numbers in the order of the members of the kernel's structs.
 class Numbers {
   public:
     Numbers& add(std::initializer_list<Vec3> vectors) {
@@ -56,7 +56,7 @@ Numbers shading_point_and_triangle(const PointTrace& point) {
         .add({point.dpdu, point.dpdv, p[0], p[1], p[2], n[0], n[1], n[2]});
 }
 
-/// The values that an instance has been made with, and the tables that it has made of them.
+/// The values that an instance was made with, and the tables it computed from them.
 std::vector<ParamValue> values_of(const PluginDescriptor& plugin, const candela::ParamSet& parameters,
                                   candela::ColorEncoding encoding, const candela::Instance& instance) {
     std::vector<ParamValue> values = parameters.delivered(encoding);

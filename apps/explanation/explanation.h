@@ -1,4 +1,4 @@
-// A pixel explained: what the renderer knows about it, and what the models' kernels compute for it.
+// Explains a pixel: what the renderer knows about it, and what the models' kernels compute for it.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@ import candela.render;
 import candela.scene;
 import candela.shade;
 
-/// The models of a scene: what may be called to explain any of its pixels.
+/// The models of a scene that explaining any of its pixels may call.
 std::vector<const candela::PluginDescriptor*> plugins_explained_in(const candela::Scene& scene,
                                                                    candela::Registry& registry);
 
 class Explanation {
   public:
-    /// Probes pixel (x, y) of a compiled scene, and runs the kernels of what is seen there, of
-    /// plugins_explained_in(scene). All must live as long as this.
+    /// Probes pixel (x, y) of a compiled scene, and runs the kernels of the visible objects' models, which
+    /// are among plugins_explained_in(scene). All arguments must outlive this.
     Explanation(const candela::Scene& scene, const candela::CompiledScene& compiled,
                 candela::Registry& registry, int x, int y, KernelRunner& kernels);
 
@@ -30,16 +30,16 @@ class Explanation {
     const candela::CompiledScene& compiled;
     candela::PixelProbe pixel;
 
-    /// The kernel's values for the normal of a point, for what a light sends there, and for what is reflected
-    /// of it; empty where the model has no kernel, or kernels cannot be run.
+    /// The kernel's values for the normal of a point, for the light arriving there, and for its reflection;
+    /// empty if the model has no kernel, or kernels cannot be run.
     const std::vector<KernelValue>& normal_steps(const candela::PointTrace& point) const;
     const std::vector<KernelValue>& light_steps(const candela::LightTrace& light) const;
     const std::vector<KernelValue>& reflection_steps(const candela::LightTrace& light) const;
 
-    /// Why there are no kernel values; empty where there are.
+    /// Why there are no kernel values; empty if there are some.
     const std::string& why_no_steps() const { return why_no_steps_; }
-    /// The largest difference between a reflected intensity by the kernel's text, compiled here, and by the
-    /// plugin, as a fraction of the point's intensity; none where no kernel was run.
+    /// The largest difference between the intensities reflected by the kernel's text, compiled here, and by
+    /// the plugin, as a fraction of the point's intensity; nothing if no kernel was run.
     std::optional<double> kernel_difference() const;
 
   private:
@@ -63,6 +63,6 @@ class Explanation {
 
 enum class JsonLayout { indented, one_line };
 
-/// For a person, and for a program.
+/// As text, and as JSON.
 std::string explanation_text(const Explanation& explanation);
 std::string explanation_json(const Explanation& explanation, JsonLayout layout);

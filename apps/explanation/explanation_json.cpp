@@ -1,4 +1,4 @@
-// An explanation for a program.
+// Explanations as JSON.
 
 #include <algorithm>
 #include <string>

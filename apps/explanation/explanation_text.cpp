@@ -1,4 +1,4 @@
-// An explanation for a person.
+// Explanations as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::string_view place_of(candela::ShadingRate rate) {
         case candela::ShadingRate::face:
             return "once per face: at its centroid";
         case candela::ShadingRate::vertex:
-            return "once per vertex: at the triangle's three, and interpolated";
+            return "once per vertex, and interpolated";
         default:
             return "once per pixel: here";
     }
@@ -56,14 +56,14 @@ class Writer {
             value(0, "background", e_.pixel.background,
                   e_.pixel.background_weight < 1
                       ? fmt::format("{:.4g} of the pixel", e_.pixel.background_weight)
-                      : "no object is seen");
+                      : "no object is visible");
         if (e_.pixel.fragments.size() + (e_.pixel.background_weight > 0 ? 1 : 0) > 1)
-            value(0, "I", e_.pixel.intensity, "the sum, by share of the pixel");
+            value(0, "I", e_.pixel.intensity, "the sum, weighted by share of the pixel");
         write_encoding();
         if (!e_.why_no_steps().empty()) line(0, "note: " + e_.why_no_steps());
         if (const auto difference = e_.kernel_difference())
             line(0, fmt::format(
-                        "the steps are those of the kernels' text, compiled here; plugin and text differ by "
+                        "the steps come from the kernels' text, compiled here; plugin and text differ by "
                         "{:.1g} of the intensity",
                         *difference));
         return candela::printable(text_, candela::LineBreaks::kept);
@@ -95,7 +95,7 @@ class Writer {
 
     void write(const PointTrace& point, const candela::Object& object) {
         value(2, "p", point.position);
-        value(2, "N", point.normal, point.from_behind ? "seen from behind: turned round" : "");
+        value(2, "N", point.normal, point.from_behind ? "seen from behind: reversed" : "");
         steps(3, e_.normal_steps(point));
         value(2, "V", point.to_observer);
         if (length(point.tangent) > 0) value(2, "T", point.tangent);
@@ -136,7 +136,7 @@ class Writer {
         value(3, "I_s", light.reflected_specular);
     }
 
-    /// Of the outermost function's arguments, those that have not been shown: its parameters.
+    /// Of the outermost function's arguments, shows only those not shown yet: its parameters.
     void steps(int indent, const std::vector<KernelValue>& values) {
         for (const KernelValue& value : values) {
             const KernelStep& step = *value.step;

@@ -7,7 +7,7 @@ import candela.registry;
 namespace fs = std::filesystem;
 
 fs::path kernel_headers() {
-    // The last on the search path is <prefix>/lib/candela/plugins.
+    // The last folder on the search path is <prefix>/lib/candela/plugins.
     const fs::path plugins = candela::plugin_search_path({}).back();
     return plugins.parent_path().parent_path().parent_path() / "include";
 }
@@ -15,7 +15,7 @@ fs::path kernel_headers() {
 candela::ProgramOutput run_kernel_compiler(const fs::path& compiler,
                                            const std::vector<std::string>& arguments,
                                            const fs::path& temporary) {
-    // The environment of this process belongs to all of its threads.
+    // Set for the compiler only: this process's environment is shared by all of its threads.
     std::vector<std::string> words{"env", "TMPDIR=" + temporary.string(), compiler.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return candela::run_program(words);

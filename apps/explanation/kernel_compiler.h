@@ -1,4 +1,4 @@
-// Kernels that are compiled on the spot, by cxx_compiler().
+// Compiles kernels at run time with cxx_compiler().
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,13 @@
 
 import candela.process;
 
-/// The folder of the headers that kernels are compiled with, beside the core's library. They may not be
-/// installed.
+/// The folder of the headers for compiling kernels, next to the core's library. They may not be installed.
 std::filesystem::path kernel_headers();
 
-/// Runs the compiler. What it leaves if it is killed is in `temporary`, whose owner removes it.
+/// Runs the compiler. If it is killed, its leftovers are in `temporary`, whose owner removes it.
 candela::ProgramOutput run_kernel_compiler(const std::filesystem::path& compiler,
                                            const std::vector<std::string>& arguments,
                                            const std::filesystem::path& temporary);
 
-/// The first line of a compiler's messages that says what is wrong.
+/// The first error in a compiler's messages.
 std::string first_error(const std::string& messages);

@@ -19,7 +19,7 @@ using candela::PluginDescriptor;
 
 namespace {
 
-/// A function that is called, and how its arguments a and b are read.
+/// A function to call, and how to read its arguments a and b.
 struct Callable {
     std::string_view name, reading;
 };
@@ -32,10 +32,11 @@ constexpr std::array<Callable, 5> k_callables{{
     {"reflect_ambient", "const auto a = read_surface(); const int b = sample;"},
 }};
 
-// Which of them, and of the model's parameters m, it may take: what fits first is called.
+// The function's possible arguments, with m as the model's parameters; the first combination that fits is
+// used.
 constexpr std::array<std::string_view, 4> k_fitting{"m, a, b", "m, a", "a, b", "a"};
 
-// Braces, since what is in them is evaluated in order.
+// Braces, because their contents are evaluated in order.
 constexpr std::string_view k_reading = R"(
 using namespace candela::kernel;
 static const float* at;
@@ -72,7 +73,7 @@ bool is_integer(ParamType type) {
     return type == ParamType::integer || type == ParamType::boolean || type == ParamType::choice;
 }
 
-/// A function that reads the kernel's struct, whose members are called as the parameters (see KernelText).
+/// A function that reads the kernel's struct; its members have the names of the parameters (see KernelText).
 std::string maker(std::size_t number, const PluginDescriptor& plugin) {
     const candela::KernelText& kernel = plugin.kernel;
     if (!has_parameters(plugin)) return fmt::format("static int make_{}() {{ return 0; }}\n", number);
@@ -97,8 +98,8 @@ std::string maker(std::size_t number, const PluginDescriptor& plugin) {
                        has(plugin, "prepare") ? fmt::format("{}_prepare(m)", kernel.prefix) : "m");
 }
 
-/// A function that reads a call's numbers and calls. It does so in a template, where a call that does not fit
-/// is no error.
+/// A function that reads a call's numbers and makes the call. It does so in a template, where a call that
+/// does not fit is not an error.
 std::string caller(std::size_t number, std::size_t plugin_number, const PluginDescriptor& plugin,
                    const Callable& callable) {
     const std::string name = fmt::format("{}_{}", plugin.kernel.prefix, callable.name);

@@ -1,4 +1,4 @@
-// A program that calls kernels: its text, and what it reads.
+// A program that calls kernels: its source and its input.
 #pragma once
 
 #include <string>
@@ -13,27 +13,26 @@ import candela.params;
 /// One call of a kernel function.
 struct KernelCall {
     const candela::PluginDescriptor* plugin = nullptr;
-    std::vector<candela::ParamValue> values{};  // as the plugin gets them
+    std::vector<candela::ParamValue> values{};  // as passed to the plugin
     std::string function;                       // "reflect": without the prefix
     std::vector<float> arguments{};             // after the parameters, number by number
-    int sample = -1;                            // a light's; given to those that take it
+    int sample = -1;                            // a light's sample; passed to functions that take one
 };
 
-/// The kernels of some plugins, as a program that calls their functions as often as its input says. The
-/// numbers are all in the input, so the program is the same for all values of the parameters, all points and
-/// all lights.
+/// The kernels of some plugins, as a program that makes the calls listed in its input. All numbers are in the
+/// input, so the program is the same for all parameter values, points and lights.
 class KernelProgram {
   public:
-    /// Of each plugin once; those without a kernel are left out. Their kernels' notes are numbered as `steps`
-    /// are.
+    /// Takes each plugin once, and skips those without a kernel. The notes in their kernels are numbered like
+    /// `steps`.
     explicit KernelProgram(std::vector<const candela::PluginDescriptor*> plugins);
 
-    /// Notes of prelude.kernel come first: `prelude` is its text as it is installed.
+    /// Call this first: its notes precede the others. `prelude` is the installed text of prelude.kernel.
     std::string traced_prelude(const std::string& prelude);
-    /// C++ that includes "candela/kernel.h"; after traced_prelude().
+    /// C++ that includes "candela/kernel.h"; call it after traced_prelude().
     std::string source();
-    /// What the program reads for these calls, in their order; those of functions that no kernel has are left
-    /// out. It prints "call INDEX" before the notes of each.
+    /// The program's input for these calls, in order, without calls to functions that no kernel has. The
+    /// program prints "call INDEX" before the notes of each.
     std::vector<float> input(const std::vector<KernelCall>& calls) const;
 
     const std::vector<KernelStep>& steps() const { return kernels_.steps; }

@@ -39,8 +39,8 @@ void write_text(const fs::path& file, const std::string& text) {
     if (!stream) throw Error(ErrorCategory::failure, fmt::format("cannot write '{}'", file.string()));
 }
 
-/// Of all headers, which the programs are compiled with. The modules, a folder beside them once installed,
-/// are not.
+/// Hashes all headers that the programs are compiled with, but not the modules, which are installed in a
+/// folder next to them.
 std::size_t hash_of_headers(const fs::path& include) {
     std::vector<std::string> names =
         candela::names_in(include / "candela").value_or(std::vector<std::string>());
@@ -54,7 +54,7 @@ std::size_t hash_of_headers(const fs::path& include) {
     return std::hash<std::string>()(all);
 }
 
-/// Whether a folder is one that nobody else could have filled: what is in it is run.
+/// Whether only this user can have written to a folder, whose contents will be run.
 bool is_own_folder(const fs::path& folder) {
     struct stat status{};
     return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid() &&
@@ -74,7 +74,7 @@ void KernelRunner::prepare() {
     std::error_code problem;
     if (!fs::exists(include / "candela/kernel.h", problem)) {
         why_not_ =
-            "the steps of the models' kernels are left out: Candela's headers are not installed (package "
+            "the kernels' steps are left out: Candela's headers are not installed (package "
             "candela-dev)";
         return;
     }
@@ -93,7 +93,7 @@ void KernelRunner::prepare() {
         write_text(made / "candela/prelude.kernel", prelude);
         write_text(made / "kernels.cpp", text);
         if (!compile(made)) return;
-        // Whole or not there; somebody else may have been faster.
+        // Appears complete or not at all; another process may have been faster.
         if (!kept_.empty()) fs::rename(made, kept_program, problem);
     }
     executable_ = (fs::exists(made / "kernels", problem) ? made : kept_program) / "kernels";
@@ -102,17 +102,17 @@ void KernelRunner::prepare() {
 bool KernelRunner::compile(const fs::path& folder) {
     const auto program = candela::cxx_compiler();
     if (!program) {
-        why_not_ = "the steps of the models' kernels are left out: there is no C++ compiler here";
+        why_not_ = "the kernels' steps are left out: no C++ compiler is installed";
         return false;
     }
-    // The folder is found before the one beside kernel.h, which is included as "candela/prelude.kernel".
+    // The compiler searches this folder before that of kernel.h, for "candela/prelude.kernel".
     const candela::ProgramOutput compiled = run_kernel_compiler(
         *program,
         {"-std=c++20", "-O0", "-w", "-fno-math-errno", "-ffp-contract=off", "-I", folder.string(), "-I",
          kernel_headers().string(), (folder / "kernels.cpp").string(), "-o", (folder / "kernels").string()},
         folder_.path());
     if (compiled.exit_code == 0) return true;
-    why_not_ = fmt::format("the steps of the models' kernels are left out: {} does not compile them: {}",
+    why_not_ = fmt::format("the kernels' steps are left out: {} could not compile them: {}",
                            program->filename().string(), first_error(compiled.err));
     return false;
 }
@@ -127,7 +127,7 @@ KernelValues KernelRunner::run(const std::vector<KernelCall>& calls) {
     write_text(file, std::string(reinterpret_cast<const char*>(input.data()), sizeof(float) * input.size()));
     const candela::ProgramOutput run = candela::run_program({executable_.string(), file.string()});
     if (run.exit_code != 0) {
-        why_not_ = "the steps of the models' kernels are left out: they cannot be run here";
+        why_not_ = "the kernels' steps are left out: the compiled kernels cannot be run";
         return values;
     }
     read(run.out, values);
@@ -140,7 +140,7 @@ void KernelRunner::read(const std::string& printed, KernelValues& values) const 
     std::size_t call = 0;
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
-        words.exceptions(std::ios::badbit);  // likewise
+        words.exceptions(std::ios::badbit);  // as above
         std::string kind;
         std::size_t number = 0;
         words >> kind >> number;

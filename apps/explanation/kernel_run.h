@@ -1,4 +1,4 @@
-// Kernels, compiled here and called, with all the values that they compute.
+// Compiles and calls kernels, and records all values that they compute.
 #pragma once
 
 #include <cstddef>
@@ -12,33 +12,33 @@
 
 import candela.descriptor;
 
-/// A value that a kernel computes on its way.
+/// An intermediate value of a kernel.
 struct KernelValue {
     const KernelStep* step = nullptr;
-    int depth = 0;         // 0: the function that was called; 1: one that it calls; and so on
-    std::string member{};  // ".diffuse" of what is a struct; empty otherwise
+    int depth = 0;         // 0: the called function; 1: a function that it calls; and so on
+    std::string member{};  // ".diffuse" if the value is in a struct; otherwise empty
     std::vector<double> numbers{};
 };
 
-/// For each call what its function computes, in order; nothing where there is no such text.
+/// The values computed by each call's function, in order; empty if there is no such text.
 using KernelValues = std::vector<std::vector<KernelValue>>;
 
-/// Kernels that can be called as often as one likes. One thread.
+/// Compiled kernels that can be called any number of times. One thread.
 class KernelRunner {
   public:
-    /// Of these plugins. The program is kept in the folder `kept`, unless that is empty; one that is there is
-    /// not compiled again.
+    /// The kernels of these plugins. Keeps the program in the folder `kept`, unless that is empty; a program
+    /// kept there earlier is not compiled again.
     KernelRunner(std::vector<const candela::PluginDescriptor*> plugins, std::filesystem::path kept);
 
-    /// Compiles the kernels with a compiler of this machine, which is otherwise done at the first call.
+    /// Compiles the kernels with the compiler on this machine; otherwise the first call does so.
     void prepare();
-    /// Why they cannot be called; empty if they can be, or if nobody has tried.
+    /// Why they cannot be called; empty if they can, or if this has not been tried.
     const std::string& why_not() const { return why_not_; }
-    /// The steps that values point to live as long as this.
+    /// The steps that the values point to live as long as this.
     KernelValues run(const std::vector<KernelCall>& calls);
 
   private:
-    /// False, and why_not() says why, where it cannot be compiled.
+    /// False, with the reason in why_not(), if compiling fails.
     bool compile(const std::filesystem::path& folder);
     void read(const std::string& printed, KernelValues& values) const;
 

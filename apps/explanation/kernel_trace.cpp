@@ -14,7 +14,8 @@ bool begins_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) !=
 bool continues_word(char c) { return begins_word(c) || std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-/// The text with blanks for comments and preprocessor lines: places and lines stay what they are.
+/// The text with blanks for comments and preprocessor lines, so that positions and line numbers stay the
+/// same.
 std::string without_comments(std::string_view text) {
     std::string result(text);
     bool at_line_begin = true;
@@ -78,7 +79,7 @@ std::string_view last_word(std::string_view text) {
     return text.substr(begin);
 }
 
-/// The parts of `text` between commas that are in no parentheses.
+/// The parts of `text` between commas outside parentheses.
 std::vector<std::string_view> parts_of(std::string_view text) {
     std::vector<std::string_view> parts;
     int depth = 0;
@@ -95,7 +96,7 @@ std::vector<std::string_view> parts_of(std::string_view text) {
     return parts;
 }
 
-/// Where a statement's assignment operator begins, if it has one.
+/// The position of a statement's assignment operator, if it has one.
 std::optional<std::size_t> assignment_in(std::string_view statement) {
     int depth = 0;
     for (std::size_t i = 0; i < statement.size(); ++i) {
@@ -134,7 +135,7 @@ class Tracer {
         while (at_ < text_.size() && is_space(text_[at_])) take(1);
     }
 
-    /// Where the bracket at `open` is closed; the text's end if it is not.
+    /// The position of the bracket that closes the one at `open`; the text's end if there is none.
     std::size_t closing(std::size_t open) const {
         int depth = 0;
         for (std::size_t i = open; i < text_.size(); ++i) {
@@ -172,7 +173,7 @@ class Tracer {
         take(semicolon == std::string::npos ? text_.size() : semicolon + 1 - at_);
     }
 
-    /// A function is added that notes a struct's members one by one.
+    /// Adds a function that notes a struct's members one by one.
     void structure(std::string_view head, std::size_t open) {
         const std::string name(last_word(head));
         const std::size_t close = closing(open);
@@ -211,7 +212,7 @@ class Tracer {
         while (at_ < end) statement(end);
     }
 
-    /// Up to the next statement of a function that ends at `end`.
+    /// Advances to the next statement of a function that ends at `end`.
     void statement(std::size_t end) {
         take_space();
         if (at_ >= end) return;
@@ -244,7 +245,7 @@ class Tracer {
         }
         const auto assignment = assignment_in(written);
         if (!assignment) return take(semicolon + 1 - at_);
-        // In braces, it is still a single statement after an `if`.
+        // Braces keep it a single statement after an `if`.
         const std::string name(trimmed(std::string_view(written).substr(0, *assignment)));
         out_ += "{ ";
         take(semicolon + 1 - at_);
@@ -259,8 +260,8 @@ class Tracer {
         return !first_word(trimmed(written.substr(first.size()))).empty();
     }
 
-    std::string raw_;   // as it is written
-    std::string text_;  // the same without comments and preprocessor lines: what is looked at
+    std::string raw_;   // as written
+    std::string text_;  // without comments and preprocessor lines, for parsing
     std::string file_;
     std::vector<KernelStep>& steps_;
     std::size_t at_ = 0;
@@ -273,8 +274,8 @@ std::string TracedKernels::traced(std::string_view text, const std::string& file
     return Tracer(text, file, steps).traced();
 }
 
-// Values are told apart by the members that they have, since the kernel language's types are declared later.
-// A note is "note NUMBER DEPTH PATH VALUES…"; the path is "." for what is no member.
+// Distinguishes values by their members, because the kernel language's types are declared later. A note is
+// "note NUMBER DEPTH PATH VALUES…"; the path is "." for a value outside a struct.
 std::string_view kernel_trace_prelude() noexcept {
     return R"(#include <cstdio>
 #include <string>

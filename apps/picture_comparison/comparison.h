@@ -1,4 +1,4 @@
-// The result of a comparison, and its JSON, which is what `candela diff --json` prints.
+// The result of a comparison, and its JSON, as printed by `candela diff --json`.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ import candela.diagnostics;
 struct Comparison {
     int width = 0, height = 0;
     Differences differences{};
-    std::size_t perceptible = 0;  // pixels whose difference a person would see (Yee 2004), of all
+    std::size_t perceptible = 0;  // of all pixels, those that differ visibly (Yee 2004)
 
     /// 0 to 1
     double perceptible_share() const;
@@ -19,6 +19,6 @@ struct Comparison {
 
 std::string to_json(const Comparison& comparison);
 
-/// Reads what to_json() writes; the numbers of pixels beyond a tolerance are not part of it. Throws
+/// Reads the output of to_json(), which does not include the numbers of pixels beyond a tolerance. Throws
 /// candela::Error (failure) for anything else.
 Comparison comparison_from_json(const std::string& text);

@@ -24,7 +24,7 @@ bool is_white(const Picture& mask, std::size_t pixel) {
     return true;
 }
 
-/// Until the end, `mean` and `rmse` are sums, of the differences and of their squares.
+/// Until the end, `mean` and `rmse` are sums of the differences and of their squares.
 void add(DifferenceStatistics& statistics, const Picture& a, const Picture& b, std::size_t pixel,
          double tolerance) {
     double largest = 0;

@@ -1,5 +1,5 @@
-// ImageBufAlgo::compare_Yee of OpenImageIO is not used: it reads its luminances from a channel that is not
-// there (2.4.7), and so finds black and white alike.
+// Does not use ImageBufAlgo::compare_Yee of OpenImageIO: it reads its luminances from a nonexistent channel
+// (2.4.7), and so takes black and white for equal.
 #include "picture_comparison/perception.h"
 
 #include <fmt/format.h>
@@ -17,12 +17,12 @@ import candela.memory;
 namespace {
 
 constexpr double k_white = 100;     // cd/m²
-constexpr double k_degrees = 45;    // from the left of the picture to its right
-constexpr double k_darkest = 1e-5;  // cd/m²; nothing is seen there
+constexpr double k_degrees = 45;    // from the left edge of the picture to the right
+constexpr double k_darkest = 1e-5;  // cd/m²; invisible below
 constexpr std::size_t k_bands = 6;
 constexpr std::size_t k_levels = k_bands + 2;
 
-/// The smallest difference of luminance that is seen, in cd/m², by the luminance around. Ward Larson,
+/// The smallest visible difference of luminance, in cd/m², for a luminance of the surroundings. Ward Larson,
 /// Rushmeier and Piatko (1997), A visibility matching tone reproduction operator, table 1.
 double threshold(double luminance) {
     const double l = std::log10(luminance);
@@ -36,14 +36,14 @@ double threshold(double luminance) {
     return std::pow(10.0, log_threshold());
 }
 
-/// How well a grating of so many cycles a degree is seen. Barten (1989), The square root integral.
+/// How visible a grating is with that many cycles per degree. Barten (1989), The square root integral.
 double sensitivity(double cycles, double luminance) {
     const double a = 440 * std::pow(1 + 0.7 / luminance, -0.2);
     const double b = 0.3 * std::pow(1 + 100 / luminance, 0.15);
     return a * cycles * std::exp(-b * cycles) * std::sqrt(1 + 0.06 * std::exp(b * cycles));
 }
 
-/// By how much a texture hides what is added to it. Daly (1993), The visible differences predictor.
+/// How strongly a texture masks additions to it. Daly (1993), The visible differences predictor.
 double masking(double contrast) {
     const double a = std::pow(392.498 * contrast, 0.7);
     return std::pow(1 + std::pow(0.0153 * a, 4.0), 0.25);
@@ -74,8 +74,8 @@ Color color_at(const Picture& picture, std::size_t pixel) {
     return {.luminance = k_white * y, .a = 500 * (f(x) - f(y)), .b = 200 * (f(y) - f(z))};
 }
 
-/// Luminances, each level of which is the one before with half the frequencies: Burt and Adelson (1983), The
-/// Laplacian pyramid, but all levels as large as the picture.
+/// Luminances in levels, each with half the frequencies of the one before: Burt and Adelson (1983), The
+/// Laplacian pyramid, but with all levels as large as the picture.
 class Pyramid {
   public:
     explicit Pyramid(const Picture& picture)
@@ -92,7 +92,7 @@ class Pyramid {
   private:
     using Plane = std::vector<float>;
 
-    /// With five weights that are `step` apart; beyond the border it goes on as at the border.
+    /// Five weights, `step` apart; the border pixels are repeated beyond the border.
     Plane blurred(const Plane& plane, std::size_t step) const {
         constexpr std::array<float, 5> k_weights = {0.05f, 0.25f, 0.4f, 0.25f, 0.05f};
         Plane across(plane.size()), result(plane.size());
@@ -135,7 +135,7 @@ class Metric {
     }
 
     bool is_seen(std::size_t pixel) const {
-        constexpr double k_photopic = 10;  // cd/m²; below, colours fade
+        constexpr double k_photopic = 10;  // cd/m²; below it, colours fade
         const Color a = color_at(a_, pixel), b = color_at(b_, pixel);
         const double around =
             std::max((of_a_.at(adaptation_, pixel) + of_b_.at(adaptation_, pixel)) / 2, k_darkest);
@@ -143,12 +143,12 @@ class Metric {
         const double fading = std::min(around / k_photopic, 1.0);
         const double color = ((a.a - b.a) * (a.a - b.a) + (a.b - b.b) * (a.b - b.b)) * fading * fading;
         const double difference = std::max(luminance, color);
-        // Nothing lowers the threshold, and nothing raises it more than tenfold.
+        // Masking never lowers the threshold, and raises it at most tenfold.
         return difference > 1 && (difference > 10 || difference > elevation(pixel, around));
     }
 
   private:
-    /// By how much what is around raises the threshold: 1 to 10.
+    /// The factor by which the surroundings raise the threshold: 1 to 10.
     double elevation(std::size_t pixel, double around) const {
         double sum = 0, contrasts = 0;
         for (std::size_t i = 0; i < k_bands; ++i) {

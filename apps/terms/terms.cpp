@@ -25,13 +25,13 @@ using candela::Term;
 
 namespace {
 
-/// What is known by one name, and the names of its channels in a file of layers, which are those that
-/// OpenEXR's users know: N, P and Z.
+/// A term, its name, and the names of its channels in a file of layers, which are those known to users of
+/// OpenEXR: N, P and Z.
 struct KnownTerm {
     std::string_view name;
     Term term;
     bool is_of_light;
-    std::array<std::string_view, 3> channels;  // after the layer's name and a dot, unless that is empty
+    std::array<std::string_view, 3> channels;  // after the layer's name and a dot, unless the name is empty
     std::string_view layer;
 };
 
@@ -82,10 +82,10 @@ std::vector<NamedTerm> possible_terms(const candela::Scene& scene) {
     return all;
 }
 
-/// What one word of a list means: a term by its name, a light's by its number, or several.
+/// The meaning of one word of a list: a term by its name, a light's by its number, or several.
 std::vector<NamedTerm> meant_by(const std::string& word, const std::vector<NamedTerm>& possible,
                                 const std::string& origin) {
-    // All lights': none, where the scene has none.
+    // For all lights; empty if the scene has none.
     const bool is_of_lights = word == "light" || word == "n_dot_l";
     std::vector<NamedTerm> meant;
     std::ranges::copy_if(possible, std::back_inserter(meant), [&](const NamedTerm& term) {
@@ -101,22 +101,23 @@ std::vector<NamedTerm> meant_by(const std::string& word, const std::vector<Named
     for (const NamedTerm& term : possible) words.push_back(term.name);
     const std::string suggestion = candela::suggestion(word, words);
     throw Error(ErrorCategory::bad_request,
-                fmt::format("{}: '{}' is no term{}; possible: {}", origin, candela::printable(word),
+                fmt::format("{}: unknown term '{}'{}; possible: {}", origin, candela::printable(word),
                             suggestion.empty() ? "" : "; " + suggestion,
                             candela::printable(fmt::format("{}", fmt::join(words, ", ")))));
 }
 
-/// Adds a term that is not there yet.
+/// Adds a term that is not in the list yet.
 void add(std::vector<NamedTerm>& terms, NamedTerm term, const std::string& origin) {
     const auto same = std::ranges::find(terms, term.name, &NamedTerm::name);
     if (same == terms.end()) return terms.push_back(std::move(term));
     if (same->light != term.light)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("{}: two lights of the scene are '{}'; name them differently", origin,
-                                candela::printable(term.name.substr(term.name.find('.') + 1))));
+                    fmt::format("{}: two lights of the scene are named '{}'; give them different names",
+                                origin, candela::printable(term.name.substr(term.name.find('.') + 1))));
 }
 
-/// A light's name as part of a file's: what could be a folder, or is special to a shell, becomes a line.
+/// A light's name as part of a file name: characters that separate folders or are special to a shell become
+/// underscores.
 std::string in_file_name(std::string name) {
     for (char& c : name) {
         const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -126,7 +127,7 @@ std::string in_file_name(std::string name) {
     return name;
 }
 
-/// The three channels of a film as planes, which are what Film::store() takes.
+/// The three channels of a film as planes, as needed by Film::store().
 struct Planes {
     explicit Planes(const Film& film) : width(film.width()), height(film.height()) {
         const std::span<const float> reals = film.view().reals;
@@ -146,7 +147,7 @@ struct Planes {
     std::array<std::vector<float>, 3> channel;
 };
 
-/// Colours that tell neighbouring numbers apart: hues a golden angle from one another.
+/// Colours that distinguish adjacent indices: hues a golden angle apart.
 std::array<float, 3> color_of_index(float index) {
     if (index < 0) return {0, 0, 0};
     constexpr double k_golden = 0.6180339887498949;
@@ -160,7 +161,7 @@ std::array<float, 3> color_of_index(float index) {
     return {channel(0), channel(2), channel(4)};
 }
 
-/// From the smallest to the largest value where there is an object, to [from, to].
+/// Maps the range of the values, where there is an object, to [from, to].
 void stretch(std::vector<float>& values, const std::vector<float>& facing, float from, float to) {
     float least = std::numeric_limits<float>::max(), most = std::numeric_limits<float>::lowest();
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -173,7 +174,7 @@ void stretch(std::vector<float>& values, const std::vector<float>& facing, float
         values[i] = facing[i] == 0 ? 0 : from + (to - from) * (values[i] - least) / range;
 }
 
-/// Values that are no intensities as colours from 0 to 1. `facing`: 0 where there is no object.
+/// Maps values that are not intensities to colours from 0 to 1. `facing`: 0 where there is no object.
 void map_to_colors(Term term, Planes& planes, const std::vector<float>& facing) {
     auto& [r, g, b] = planes.channel;
     for (std::size_t i = 0; i < r.size(); ++i) {
@@ -252,7 +253,7 @@ std::vector<fs::path> files_of(const std::vector<NamedTerm>& terms, const fs::pa
         if (!is_new)
             throw Error(
                 ErrorCategory::bad_request,
-                fmt::format("--terms: '{}' and '{}' would both be the file '{}'; name one of them, or "
+                fmt::format("--terms: '{}' and '{}' would both be written to '{}'; choose one of them, or "
                             "write layers to an .exr",
                             candela::printable(other->second), candela::printable(term.name),
                             candela::printable(files.back().string())));

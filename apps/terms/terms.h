@@ -1,4 +1,5 @@
-// The terms of a picture's intensity, and what it was computed from, as layers of the picture or as files.
+// The terms of a picture's intensity, and the values it was computed from, as layers of the picture or as
+// files.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +15,26 @@ import candela.render;
 import candela.scene;
 import candela.shade;
 
-/// One term that is asked for.
+/// One requested term.
 struct NamedTerm {
     std::string name;  // "diffuse", "light.lamp"
     candela::Term term;
-    std::optional<std::size_t> light{};  // index among the scene's
+    std::optional<std::size_t> light{};  // index of the scene's light
 };
 
-/// What words mean: "diffuse", "light.lamp", "light.0", "light" (each light), "all". Each once, in their
-/// order. Throws candela::Error (bad_request) for what is none, with a suggestion; `origin` is who says so.
+/// The terms for words: "diffuse", "light.lamp", "light.0", "light" (each light), "all". Each term once, in
+/// the order of the words. Throws candela::Error (bad_request), with a suggestion, for an unknown word;
+/// `origin` names its source.
 std::vector<NamedTerm> terms_from(const std::vector<std::string>& words, const candela::Scene& scene,
                                   const std::string& origin);
 
-/// How many of the three channels of TermRenderer::values() the term has; the others are the same, or empty.
+/// How many of the three channels of TermRenderer::values() the term uses; the others are equal or empty.
 int channel_count(const NamedTerm& term);
 
-/// The file that a term of that name is written to, beside the picture: "scene.diffuse.png" for "scene.png".
+/// The file for a term of that name, next to the picture: "scene.diffuse.png" for "scene.png".
 std::filesystem::path file_of_term(const std::string& name, const std::filesystem::path& picture);
 
-/// The files of all terms. Throws candela::Error (bad_request) if two are one.
+/// The files of all terms. Throws candela::Error (bad_request) if two have the same name.
 std::vector<std::filesystem::path> files_of(const std::vector<NamedTerm>& terms,
                                             const std::filesystem::path& picture);
 
@@ -42,20 +44,20 @@ class TermRenderer {
     explicit TermRenderer(const candela::CompiledScene& scene, int threads)
         : scene_(scene), threads_(threads) {}
 
-    /// The term's values, as they are.
+    /// The term's values, unchanged.
     candela::Film values(const NamedTerm& term);
 
-    /// The same to be looked at: what is no intensity is mapped to colours (docs/terms.md), unless the
-    /// format's pixels are floats.
+    /// The values for display: those that are not intensities are mapped to colours (docs/terms.md), unless
+    /// the format's pixels are floats.
     candela::Film picture(const NamedTerm& term, candela::PixelType pixels);
 
   private:
     const candela::CompiledScene& scene_;
     int threads_;
-    // Each remembers what is visible: with the picture's samples, and in the middle of each pixel.
+    // Each keeps the visibility: with the picture's samples, and at the centre of each pixel.
     candela::Renderer lit_{candela::Renderer::Keep::visibility};
     candela::Renderer geometric_{candela::Renderer::Keep::visibility};
-    std::vector<float> facing_;  // a pixel each, once a term has needed them
+    std::vector<float> facing_;  // one per pixel, computed once a term needs them
 };
 
 /// Writes the picture, whose pixels are floats, and the terms as layers of one file.

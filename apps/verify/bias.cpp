@@ -19,17 +19,17 @@ namespace verify {
 
 namespace {
 
-constexpr double k_undecided = 0.01;  // levels from being rounded the other way
+constexpr double k_undecided = 0.01;  // levels from the rounding threshold
 constexpr double k_white = 255;
 constexpr std::size_t k_region = 16;           // pixels each way
 constexpr std::size_t k_least_of_region = 64;  // values; the mean of fewer is mostly noise
 
-constexpr int k_causes = 5;  // as Bias has them: gain, right, down, zoom, roll
+constexpr int k_causes = 5;  // as in Bias: gain, right, down, zoom, roll
 using Causes = Eigen::Matrix<double, k_causes, 1>;
 
-/// Finds the causes c that leave the least of differences d = effects . c, and their standard errors, which
-/// hold also where differences are not alike: White (1980), A heteroskedasticity-consistent covariance matrix
-/// estimator.
+/// Finds the causes c that minimise the differences d = effects . c, and their standard errors, which hold
+/// even if the variances of the differences vary: White (1980), A heteroskedasticity-consistent covariance
+/// matrix estimator.
 class Fit {
   public:
     void add(const Causes& effects, double difference) {
@@ -40,7 +40,7 @@ class Fit {
     }
 
     void solve() {
-        // What has no effect on the picture, such as a displacement of one colour, is 0.
+        // A cause without an effect on the picture, such as a displacement of one colour, is 0.
         const Causes scale =
             normal_.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
         const Matrix scaled = scale.asDiagonal() * normal_ * scale.asDiagonal();
@@ -61,7 +61,7 @@ class Fit {
     Causes right_side_ = Causes::Zero(), values_ = Causes::Zero(), errors_ = Causes::Zero();
 };
 
-/// By how many levels a value grows where intensity does, in relation to it: dL / d ln I.
+/// The growth of a value in levels relative to that of the intensity: dL / d ln I.
 double effect_of_gain(double level, candela::ColorEncoding encoding) {
     if (level >= k_white) return 0;
     constexpr double k_linear = 12.92 * 0.0031308 * k_white, k_offset = 0.055 * k_white, k_exponent = 1 / 2.4;
@@ -69,13 +69,13 @@ double effect_of_gain(double level, candela::ColorEncoding encoding) {
     return k_exponent * (level + k_offset);
 }
 
-/// What each cause, of size 1, does to the i-th value.
+/// The effect of each cause, of size 1, on the i-th value.
 Causes effects_on(const Expectation& expected, std::size_t i) {
     const auto width = static_cast<std::size_t>(expected.width);
     const std::size_t column = i / 3 % width, row = i / 3 / width;
     const double x = static_cast<double>(column) + 0.5 - 0.5 * expected.width;
     const double y = static_cast<double>(row) + 0.5 - 0.5 * expected.height;
-    // What is displaced to the right shows what lies to the left.
+    // A picture displaced to the right shows what was further left.
     const double right = -static_cast<double>(expected.sensitivity.right[i]);
     const double down = -static_cast<double>(expected.sensitivity.down[i]);
     Causes effects;
@@ -84,7 +84,7 @@ Causes effects_on(const Expectation& expected, std::size_t i) {
     return effects;
 }
 
-/// A mean of differences, and how sure it is.
+/// A mean of differences, and its certainty.
 class Mean {
   public:
     void add(double difference) {
@@ -104,7 +104,7 @@ class Mean {
     std::size_t count_ = 0;
 };
 
-/// Whether a program that is right has no choice but to round as Candela does.
+/// Whether any correct program must round as Candela does.
 bool is_decided(float level) {
     const double fraction = static_cast<double>(level) - std::floor(static_cast<double>(level));
     return std::abs(fraction - 0.5) > k_undecided;
@@ -167,7 +167,7 @@ RgbPicture read_ppm(const std::filesystem::path& file) {
     const auto begin = static_cast<std::size_t>(std::max<std::streamoff>(header.tellg(), 0)) + 1;
     if (!header || magic != "P6" || largest != 255 || !content || content->size() != begin + size)
         throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' is not the picture that was written there", file.string()));
+                    fmt::format("'{}' is not the picture that the program wrote", file.string()));
     picture.bytes.assign(content->begin() + static_cast<std::ptrdiff_t>(begin), content->end());
     return picture;
 }

@@ -21,7 +21,7 @@ Comparison compare(const fs::path& program, const fs::path& a, const fs::path& b
         return comparison_from_json(result.out);
     } catch (const Error& problem) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' gives no figures: {}", program.string(), problem.what()));
+                    fmt::format("'{}' printed no valid figures: {}", program.string(), problem.what()));
     }
 }
 

@@ -1,4 +1,4 @@
-// How two pictures differ, by the program that knows their files.
+// Compares two pictures with candela-diff.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,10 @@
 
 namespace verify {
 
-/// What `candela diff` says of two pictures, pixels apart that are white in `edges`; writes the picture of
-/// the differences to `heat_map`, and what was read of `b`, as PPM, to `decoded`, also where the pictures
-/// differ in size, which is an error. `program`: the program behind that verb. Throws candela::Error.
+/// Runs `candela diff` on two pictures and returns its result, with the pixels that are white in `edges`
+/// counted apart. Writes the picture of the differences to `heat_map`. Writes picture `b`, as PPM, to
+/// `decoded`, even if the pictures differ in size, which is an error. `program`: the program that runs the
+/// verb. Throws candela::Error.
 Comparison compare(const std::filesystem::path& program, const std::filesystem::path& a,
                    const std::filesystem::path& b, const std::filesystem::path& edges,
                    const std::filesystem::path& heat_map, const std::filesystem::path& decoded);

@@ -28,7 +28,7 @@ namespace {
 
 constexpr float k_shift = 1.0f / 8;  // pixels; OpenGL may round vertices to a sixteenth
 
-/// The observer (fitted to the picture), turned or moved so little that the picture moves by (x, y) pixels.
+/// The observer (fitted to the picture), rotated or moved just enough to move the picture by (x, y) pixels.
 Observer shifted(const Observer& observer, float x, float y, int height) {
     const Vec3 forward = observer.look_at - observer.position;
     const Vec3 right = candela::normalized(candela::cross(forward, observer.up));
@@ -47,17 +47,17 @@ Observer shifted(const Observer& observer, float x, float y, int height) {
     return result;
 }
 
-/// Radians. Many times what the last bits of floats do to a direction, and too little to show in anything
-/// continuous: a highlight with an exponent of 100 changes by a third of a level.
+/// In radians. Many times the effect of the last bits of floats on a direction, and too little to show in
+/// anything continuous: a highlight with an exponent of 100 changes by a third of a level.
 constexpr float k_turn = 2e-4f;
 
-/// Which way a light's directions are turned: an angle about the direction itself, in radians.
+/// The ways to turn a light's directions: an angle about the direction itself, in radians.
 constexpr std::array k_turns = {0.0f, 2 * std::numbers::pi_v<float> / 3, 4 * std::numbers::pi_v<float> / 3};
 
-/// A light whose directions are turned by a small angle. What it sends is not changed.
+/// A light whose directions are turned by a small angle. Its intensity is unchanged.
 class TurnedLight final : public candela::Light {
   public:
-    /// `way`: as in k_turns; none to leave the light as it is. It may change between pictures.
+    /// `way`: as in k_turns; empty to leave the light unchanged. It may change between pictures.
     TurnedLight(std::unique_ptr<candela::Light> light, const std::optional<float>& way)
         : light_(std::move(light)), way_(way) {}
 
@@ -90,7 +90,7 @@ class TurnedLight final : public candela::Light {
 
 using Intensities = std::vector<float>;
 
-/// Pictures of a scene with one sample a pixel. The scene is what it was when this is gone.
+/// Renders pictures of a scene with one sample per pixel. Restores the scene on destruction.
 class Mover {
   public:
     Mover(candela::CompiledScene& scene, const candela::Film& reference)
@@ -117,8 +117,8 @@ class Mover {
         }
     }
 
-    /// What is seen at each pixel's place (x, y), from its top left. `way`: in which the lights' directions
-    /// are turned, if at all.
+    /// The intensities at each pixel's point (x, y), measured from its top left. `way`: how the lights'
+    /// directions are turned, if at all.
     Intensities seen_at(float x, float y, std::optional<float> way = std::nullopt) {
         way_ = way;
         scene_.observer = shifted(observer_, 0.5f - x, 0.5f - y, reference_.height());
@@ -137,7 +137,7 @@ class Mover {
     std::vector<TurnedLight*> turned_;
 };
 
-/// In a picture's file, 0 to 255, not rounded.
+/// The value in a picture's file, 0 to 255, before rounding.
 float level_of(float intensity, candela::ColorEncoding encoding) {
     const float x = std::clamp(intensity, 0.0f, 1.0f);
     return 255 * (encoding == candela::ColorEncoding::srgb ? candela::linear_to_srgb(x) : x);
@@ -160,7 +160,7 @@ Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& r
     const auto expected = reference.view().bytes;
     const float share = 1 / static_cast<float>(pattern.size());
     std::vector<float> change(expected.size()), mean(expected.size());
-    // What is seen an eighth of a pixel to the left, to the right, above and below.
+    // The views an eighth of a pixel to the left, to the right, above and below.
     std::array<Intensities, 2> beside_x, beside_y;
     for (auto* const means : {&beside_x, &beside_y})
         for (Intensities& each : *means) each.resize(expected.size());
@@ -176,22 +176,22 @@ Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& r
         };
         for (const float dx : {-k_shift, k_shift}) {
             for (const float dy : {-k_shift, k_shift}) {
-                const Intensities beside = mover.seen_at(x + dx, y + dy);
+                const Intensities nearby = mover.seen_at(x + dx, y + dy);
                 Intensities& mean_x = beside_x[dx > 0 ? 1 : 0];
                 Intensities& mean_y = beside_y[dy > 0 ? 1 : 0];
                 for (std::size_t i = 0; i < there.size(); ++i) {
-                    mean_x[i] += 0.5f * share * beside[i];
-                    mean_y[i] += 0.5f * share * beside[i];
-                    note(beside, i);
+                    mean_x[i] += 0.5f * share * nearby[i];
+                    mean_y[i] += 0.5f * share * nearby[i];
+                    note(nearby, i);
                 }
             }
         }
-        // A sliver may lie between what is seen there and what is seen at that distance.
+        // A sliver may lie within that distance.
         for (const float near : {k_shift / 2, k_shift / 4}) {
             for (const float dx : {-near, near}) {
                 for (const float dy : {-near, near}) {
-                    const Intensities beside = mover.seen_at(x + dx, y + dy);
-                    for (std::size_t i = 0; i < there.size(); ++i) note(beside, i);
+                    const Intensities nearby = mover.seen_at(x + dx, y + dy);
+                    for (std::size_t i = 0; i < there.size(); ++i) note(nearby, i);
                 }
             }
         }

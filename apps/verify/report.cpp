@@ -17,7 +17,7 @@ double percent(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Of all pixels, those away from edges and those on them.
+/// All pixels: those away from edges and those on them.
 std::size_t pixels_of(const Verdict& v) { return v.interior().pixels + v.edges().pixels; }
 std::size_t identical_of(const Verdict& v) { return v.interior().identical + v.edges().identical; }
 
@@ -53,7 +53,7 @@ std::string row(const Verdict& v, const Limits& limits) {
         v.bias.down.value, outcome, outcome);
 }
 
-/// What follows the figures, a paragraph each.
+/// The remarks below the figures, a paragraph each.
 std::vector<std::string> remarks_on(const Verdict& v, const Limits& limits) {
     std::vector<std::string> remarks = v.problems(limits);
     if (const std::string doubt = v.doubt(limits); !doubt.empty()) remarks.push_back(doubt);
@@ -82,35 +82,35 @@ std::vector<std::string> Verdict::problems(const Limits& limits) const {
     std::vector<std::string> found;
     if (interior().maximum > limits.maximum)
         found.push_back(
-            fmt::format("a pixel away from edges, x {}, y {}, differs by {:.3g} levels; {:g} are allowed",
+            fmt::format("a pixel away from edges, x {}, y {}, differs by {:.3g} levels; the limit is {:g}",
                         interior().x, interior().y, interior().maximum, limits.maximum));
     if (interior().mean > limits.mean)
         found.push_back(
-            fmt::format("pixels away from edges differ by {:.3g} levels on average; {:g} are allowed",
+            fmt::format("pixels away from edges differ by {:.3g} levels on average; the limit is {:g}",
                         interior().mean, limits.mean));
     if (is_beyond(bias.gain, limits.gain, limits))
-        found.push_back(fmt::format("the picture is {} by {:.3g} %; {:g} % are allowed",
+        found.push_back(fmt::format("the picture is {} by {:.3g} %; the limit is {:g} %",
                                     brighter_or_darker(bias.gain.value), 100 * std::abs(bias.gain.value),
                                     100 * limits.gain));
     if (is_beyond(bias.right, limits.displacement, limits) ||
         is_beyond(bias.down, limits.displacement, limits))
         found.push_back(
             fmt::format("the picture is displaced by {:.3g} pixels to the right and {:.3g} down; "
-                        "{:.3g} are allowed",
+                        "the limit is {:.3g}",
                         bias.right.value, bias.down.value, limits.displacement));
     const double radius = 0.5 * std::max(comparison.width, comparison.height);
     if (is_beyond(bias.zoom, limits.distortion / radius, limits))
-        found.push_back(fmt::format("the picture is {} by {:.3g} %; {:.3g} % are allowed",
+        found.push_back(fmt::format("the picture is {} by {:.3g} %; the limit is {:.3g} %",
                                     bias.zoom.value > 0 ? "larger" : "smaller",
                                     100 * std::abs(bias.zoom.value), 100 * limits.distortion / radius));
     if (is_beyond(bias.roll, limits.distortion / radius, limits))
-        found.push_back(fmt::format("the picture is turned by {:.3g} degrees; {:.3g} are allowed",
+        found.push_back(fmt::format("the picture is rotated by {:.3g} degrees; the limit is {:.3g}",
                                     bias.roll.value * 180 / std::numbers::pi,
                                     limits.distortion / radius * 180 / std::numbers::pi));
     if (is_beyond(bias.region, limits.region, limits))
         found.push_back(
             fmt::format("the picture is {} by {:.3g} levels on average in the 16 x 16 pixels from x {}, y "
-                        "{}; {:g} are allowed",
+                        "{}; the limit is {:g}",
                         brighter_or_darker(bias.region.value), std::abs(bias.region.value), bias.region_x,
                         bias.region_y, limits.region));
     return found;
@@ -121,9 +121,10 @@ std::string Verdict::doubt(const Limits& limits) const {
     const double share = percent(bias.interior, bias.shown) / 100;
     if (bias.interior >= limits.least_pixels && share >= limits.least_share) return {};
     return fmt::format(
-        "of {} pixels that show more than the background, {} are away from edges; a verdict needs {}, and "
-        "{:g} % of "
-        "them. Make the picture larger (--width, --height), bring the observer nearer, or light what is dark",
+        "of {} pixels that show more than the background, {} are away from edges; a verdict needs {} pixels "
+        "and "
+        "{:g} % of them. Make the picture larger (--width, --height), move the observer closer, or light the "
+        "dark parts",
         bias.shown, bias.interior, limits.least_pixels, 100 * limits.least_share);
 }
 
@@ -184,16 +185,14 @@ std::string report_page(const std::string& title, const std::vector<Verdict>& ve
         "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
         "content=\"width=device-width\">\n"
         "<title>Verification of {0}</title>\n<style>{1}</style>\n<h1>Verification of {0}</h1>\n"
-        "<p>Differences between Candela's picture and those of the generated programs, in levels of 1/255. "
-        "Pixels whose colour "
-        "depends on where exactly an edge lies are counted apart; all others may differ by {2:g} at most, "
-        "and by {3:g} on "
-        "average. "
-        "Inside: pixels that show more than the background and are away from edges. Bias: by how many levels "
+        "<p>Differences between Candela's picture and those of the generated programs, in levels (1/255). "
+        "Pixels whose colour depends on the exact position of an edge are counted separately; all others may "
+        "differ "
+        "by at most {2:g}, and by {3:g} on average. "
+        "Inside: pixels that show more than the background and are away from edges. Gain: how much brighter "
         "these "
-        "are brighter on average ({4:g} are allowed), and by how many pixels the picture is displaced to the "
-        "right "
-        "and down ({5:.3g} are allowed).</p>\n"
+        "are, in percent (limit: {4:g}). Displaced: by how many pixels the picture is displaced to the "
+        "right and down (limit: {5:.3g}).</p>\n"
         "<table>\n<tr><th>program</th><th>pixels</th><th>identical</th><th>largest</th><th>mean</th><th>on "
         "edges</th>"
         "<th>largest "
@@ -208,7 +207,8 @@ std::string report_page(const std::string& title, const std::vector<Verdict>& ve
             text += fmt::format("<p>{}</p>\n", candela::target::html_text(remark));
         if (!v.failure.empty()) continue;
         text += "<div class=\"pictures\">\n" + picture(v.target + ".png", v.target) +
-                picture(v.target + "-difference.png", "difference; the largest is brightest") + "</div>\n";
+                picture(v.target + "-difference.png", "difference; brightest where it is largest") +
+                "</div>\n";
     }
     return text + "</html>\n";
 }

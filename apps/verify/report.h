@@ -1,4 +1,4 @@
-// A verification as a page to look at.
+// The report of a verification.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,18 @@
 
 namespace verify {
 
-/// What a program's picture may do; docs/adr/0007 has the measurements behind it.
+/// The limits for a program's picture; docs/adr/0007 has the underlying measurements.
 struct Limits {
-    // Of all pixels away from edges, background among them, in levels of 1/255:
+    // For all pixels away from edges, including the background, in levels (1/255):
     double maximum = 2;
     double mean = 0.1;
-    // Of what Bias counts:
+    // For the values in Bias:
     double gain = 0.0005;
     double displacement = 1.0 / 32;  // pixels
-    double distortion = 1.0 / 16;    // pixels that zoom or roll may displace the border
+    double distortion = 1.0 / 16;    // pixels by which zoom or roll may displace the border
     double region = 0.15;            // levels
-    double deviations = 5;  // what is within as many standard errors may be noise, however large it is
-    // A verdict rests on as many pixels away from edges, and on that share of those that show something:
+    double deviations = 5;           // standard errors within which any value may be noise
+    // A verdict needs this many pixels away from edges, and this share of those above the background:
     std::size_t least_pixels = 100;
     double least_share = 0.1;
 };
@@ -31,28 +31,28 @@ enum class Outcome { match, mismatch, undecided };
 /// A program of one target, and how its picture compares.
 struct Verdict {
     std::string target;
-    std::string failure{};  // why there are no figures: the program made no picture that could be compared
+    std::string failure{};  // why there are no figures: the program made no comparable picture
     Comparison comparison{};
     Bias bias{};
 
     const DifferenceStatistics& interior() const { return comparison.differences.interior; }
     DifferenceStatistics edges() const;
 
-    /// What is beyond the limits, a sentence each; none where nothing is.
+    /// A sentence for each value beyond the limits; empty if there is none.
     std::vector<std::string> problems(const Limits& limits) const;
-    /// Why the picture proves nothing, and what to do; empty where it does.
+    /// Why the picture proves nothing, and what to do; empty if it proves something.
     std::string doubt(const Limits& limits) const;
     Outcome outcome(const Limits& limits) const;
 };
 
-/// The figures, one line a target below a heading, and what is wrong, for a terminal.
+/// A table for a terminal: the figures, one line per target below a heading, and the problems.
 std::string table_of(const std::vector<Verdict>& verdicts, const Limits& limits);
 
-/// The same for programs: an array of objects.
+/// The same as JSON: an array of objects.
 std::string json_of(const std::vector<Verdict>& verdicts, const Limits& limits);
 
-/// An HTML page that shows, from its own folder, reference.png, edges.png, <target>.png and
-/// <target>-difference.png.
+/// An HTML page that shows reference.png, edges.png, <target>.png and <target>-difference.png from its own
+/// folder.
 std::string report_page(const std::string& title, const std::vector<Verdict>& verdicts, const Limits& limits);
 
 }  // namespace verify

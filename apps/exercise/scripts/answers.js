@@ -1,9 +1,9 @@
-/** The file of an answer, which `candela exercise grade` reads. */
+/** The text of an answer file for `candela exercise grade`. */
 export function answerText({ model, function: name }, body) {
     return `${JSON.stringify({ candela_exercise: 1, model, function: name, answer: body.split("\n") }, null, 2)}\n`;
 }
 
-/** The body in an answer's file. Throws for what is none, or is about something else. */
+/** The body in an answer file. Throws if the file is not an answer, or is about another exercise. */
 export function bodyOf(exercise, text) {
     let answer;
     try {
@@ -11,7 +11,7 @@ export function bodyOf(exercise, text) {
     } catch {
         answer = null;
     }
-    if (answer?.candela_exercise !== 1 || !Array.isArray(answer.answer)) throw new Error("This file is no answer to an exercise.");
-    if (answer.model !== exercise.model || answer.function !== exercise.function) throw new Error(`This is an answer to another exercise: ${answer.function} of ${answer.model}.`);
+    if (answer?.candela_exercise !== 1 || !Array.isArray(answer.answer)) throw new Error("This file is not an answer to an exercise.");
+    if (answer.model !== exercise.model || answer.function !== exercise.function) throw new Error(`This answer belongs to another exercise: ${answer.function} of ${answer.model}.`);
     return answer.answer.join("\n");
 }

@@ -1,10 +1,10 @@
-/** As the conformance kit compares a kernel's text with its plugin (agreement.h). */
+/** The conformance kit's comparison of a kernel's text with its plugin (agreement.h). */
 const agree = (a, b, largest) => Math.abs(a - b) <= 2e-3 * Math.max(Math.abs(a), Math.abs(b)) + 1e-5 * largest + 1e-7;
-const MAY_DIFFER = 0.01;  // the last bit decides on which side of an edge a point is
+const MAY_DIFFER = 0.01;  // near a discontinuity, the last bit decides on which side a point is
 
 const largestOf = (values, i) => Math.max(Math.abs(values[i]), Math.abs(values[i + 1]), Math.abs(values[i + 2]));
 
-/** How two arrays differ, three numbers a point: { share, largest (of the expected peak; NaN where there is no number), differing: by point }. */
+/** How two arrays of three numbers per point differ: { share, largest (relative to the expected peak; NaN if a value is not a number), differing: by point }. */
 export function compareTerm(expected, actual) {
     const count = expected.length / 3, differing = new Array(count);
     let peak = 0, largest = 0, points = 0;
@@ -23,7 +23,7 @@ export function compareTerm(expected, actual) {
     return { share: points / count, largest, differing };
 }
 
-/** A term over all cases, as wrong as it is in the worst of them: { share, largest, worst: the case's index, matches }. */
+/** The differences of a term in the worst of all cases: { share, largest, worst: the case's index, matches }. */
 export function compareAll(expected, actual, term) {
     const found = expected.map((one, i) => compareTerm(one[term], actual[i][term]));
     let worst = 0;

@@ -7,11 +7,11 @@ const PER_POINT = 3 * TERMS.length;
 
 /** Runs a formula at the points of the exercise's ball, on the graphics processor. */
 export class Evaluation {
-    /** Throws where there is no WebGL 2. */
+    /** Throws if WebGL 2 is unavailable. */
     constructor(exercise) {
         this.exercise = exercise;
         this.gl = document.createElement("canvas").getContext("webgl2");
-        if (this.gl === null) throw new Error("To try formulas, this page needs WebGL 2, which this browser does not offer. Answers can be written and saved all the same.");
+        if (this.gl === null) throw new Error("Trying formulas needs WebGL 2, which this browser does not support. You can still write and save answers.");
         const { gl } = this, normals = decodeFloats(exercise.normals), tangents = decodeFloats(exercise.tangents);
         this.count = normals.length / 3;
         gl.bindVertexArray(gl.createVertexArray());
@@ -28,7 +28,7 @@ export class Evaluation {
         gl.bindBuffer(gl.TRANSFORM_FEEDBACK_BUFFER, null);
     }
 
-    /** What a body gives: for each case an object of arrays, three numbers a point, by term. Throws an error whose `detail` is the driver's log. */
+    /** The results of a body: for each case an object of arrays by term, with three numbers per point. Throws an error whose `detail` is the driver's log. */
     valuesOf(body) {
         const { gl, exercise } = this, { before, after, points } = exercise.glsl;
         const program = new Program(gl, "the formula", `${before}${numbered(body)}${after}\n${points}`, "void main() {}", TERMS);

@@ -9,7 +9,7 @@ import { drawBall, drawDifference, drawNothing } from "./pictures.js";
 
 const byId = (id) => document.getElementById(id);
 function percent(share) {
-    if (Number.isNaN(share)) return "no number";
+    if (Number.isNaN(share)) return "not a number";
     if (share > 0 && share < 0.001) return "< 0.1 %";
     if (share >= 10) return share < 1000 ? `${share.toFixed(0)} times` : "> 1000 times";
     return `${(100 * share).toFixed(share > 0 && share < 0.1 ? 1 : 0)} %`;
@@ -25,8 +25,8 @@ function readExercise() {
 class ExercisePage {
     constructor() {
         const exercise = this.exercise = readExercise();
-        this.values = null;  // what the last formula that compiled gives
-        byId("task").textContent = `Write the body of ${exercise.function}(). What it gives is compared with the model at ${exercise.pixels.length} points of a ball, in ${exercise.cases.length} cases.`;
+        this.values = null;  // results of the last formula that compiled
+        byId("task").textContent = `Write the body of ${exercise.function}(). Its results are compared with the model's at ${exercise.pixels.length} points of a ball, in ${exercise.cases.length} cases.`;
         byId("paper").textContent = exercise.reference;
         byId("paper").hidden = exercise.reference === "";
         byId("before").textContent = exercise.before.trim();
@@ -74,7 +74,7 @@ class ExercisePage {
         });
     }
 
-    /** The last formula that compiles stays in the pictures. */
+    /** The pictures keep showing the last formula that compiled. */
     tryOut(text) {
         const verdict = byId("verdict");
         verdict.classList.remove("matches");
@@ -87,8 +87,8 @@ class ExercisePage {
             }
         }
         this.editor.showProblems(problems);
-        if (text.trim() === "") verdict.textContent = "Nothing is written yet.";
-        else if (problems.length > 0) verdict.textContent = this.values ? "It does not compile; below is what did last." : "It does not compile.";
+        if (text.trim() === "") verdict.textContent = "Nothing written yet.";
+        else if (problems.length > 0) verdict.textContent = this.values ? "It does not compile; the results below are from the last version that did." : "It does not compile.";
         else if (this.values) this.judge();
         this.draw();
     }
@@ -100,7 +100,7 @@ class ExercisePage {
             element("tr", { class: matches ? "" : "differs" }, element("th", { scope: "row" }, term), element("td", {}, percent(share)),
                 element("td", {}, percent(largest)), element("td", {}, share === 0 ? "" : exercise.cases[worst].label))));
         const wrong = found.filter(({ matches }) => !matches);
-        verdict.textContent = wrong.length === 0 ? "It gives what the model gives." : `It differs from the model: ${wrong.map(({ term }) => term).join(", ")}.`;
+        verdict.textContent = wrong.length === 0 ? "It matches the model." : `It differs from the model: ${wrong.map(({ term }) => term).join(", ")}.`;
         verdict.classList.toggle("matches", wrong.length === 0);
     }
 

@@ -1,4 +1,4 @@
-// What the model reflects at a point of a ball that is seen from far away along z.
+// The model's reflection at a point of a ball seen from far away along z.
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec3 tangent;
 
