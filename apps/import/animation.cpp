@@ -55,7 +55,7 @@ std::optional<Bounds> box_of(candela::ParamSet parameters, const Part& part, can
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
-        return std::nullopt;  // said when the scene is read
+        return std::nullopt;  // reported when the scene is read
     }
 }
 
@@ -113,7 +113,7 @@ void Animator::take_parts(const Source& source, candela::Registry& registry) {
     parameters.set("file", std::filesystem::absolute(source.file).string());
     parameters.set("allow_outside", source.allows_outside);
     if (!geometry_.origin.empty()) parameters.set("origin", geometry_.origin);
-    // While this exists, the file is read once.
+    // While this exists, the file is read only once.
     const auto whole = registry.create<candela::Shape>("mesh", parameters, candela::ColorEncoding::srgb);
     for (Part& part : model_.parts) {
         if (part.motion == nullptr) continue;
@@ -216,7 +216,7 @@ void Animator::take_view(Setting& setting) {
     for (std::size_t i = 0; i < model_.lights.size(); ++i) {
         Light& light = setting.lights[i];
         if (light.motion == nullptr) continue;
-        // It has been moved away from others.
+        // The light has been moved away from others.
         const Vector apart = light.position - model_.lights[i].position - geometry_.moved;
         Mover mover{.names = {light.has_position() ? "position" : nullptr,
                               light.type == "point" ? nullptr : "direction", nullptr},
@@ -245,26 +245,26 @@ void Animator::note() {
     if (has_camera_) taken.emplace_back("the camera");
     if (lights_ > 0) taken.push_back(counted(lights_, "light", "lights"));
     if (taken.empty()) {
-        return model_.note(count == 1
-                               ? "its animation is left out: it is shown at rest"
-                               : fmt::format("its {} animations are left out: it is shown at rest", count));
+        return model_.note(
+            count == 1 ? "its animation is left out; the model is shown at rest"
+                       : fmt::format("its {} animations are left out; the model is shown at rest", count));
     }
     const auto leave = [&](std::size_t number, const char* one, const char* many) {
         if (number > 0) left.push_back(counted(number, one, many));
     };
     leave(moving.in_pieces, "object whose pieces move apart", "objects whose pieces move apart");
-    leave(moving.undone, "thing that no position, rotation and scale describe",
-          "things that no position, rotation and scale describe");
-    leave(moving.too_many, "thing of too many keys", "things of too many keys");
+    leave(moving.undone, "motion that position, rotation and scale cannot describe",
+          "motions that position, rotation and scale cannot describe");
+    leave(moving.too_many, "motion with too many keys", "motions with too many keys");
     leave(moving.skins, "skin", "skins");
     leave(moving.weights, "channel of morph targets", "channels of morph targets");
-    leave(moving.channels, "channel of another kind, or damaged", "channels of other kinds, or damaged");
+    leave(moving.channels, "channel of another kind or damaged", "channels of other kinds or damaged");
     if (count > 1)
         left.push_back(fmt::format("the animation{} {}", count == 2 ? "" : "s",
                                    quoted({moving.names.begin() + 1, moving.names.end()})));
     std::string sentence =
-        fmt::format("{} animation is taken over, for {}{}", count == 1 ? "its" : "its first",
-                    fmt::join(taken, ", "), moving.has_splines ? ", its splines in straight pieces" : "");
+        fmt::format("{} animation is imported for {}{}", count == 1 ? "its" : "its first",
+                    fmt::join(taken, ", "), moving.has_splines ? ", with linear pieces for its splines" : "");
     if (!left.empty()) sentence += fmt::format("; left out: {}", fmt::join(left, ", "));
     model_.note(std::move(sentence));
 }

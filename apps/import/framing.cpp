@@ -112,7 +112,7 @@ Vector room_for(const Bounds& bounds, const Camera& camera, const std::vector<Li
     for (const Light& light : lights)
         if (light.has_position()) contain(light.position);
     const double largest = std::max({half[0], half[1], half[2]});
-    const double least = largest > 0 ? 0.1 * largest : 1;  // even where all is at the origin
+    const double least = largest > 0 ? 0.1 * largest : 1;  // even if everything is at the origin
     for (double& extent : half) extent = 2.1 * std::max(extent, least);
     return half;
 }

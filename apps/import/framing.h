@@ -1,4 +1,4 @@
-// Where to look from, and what to light with.
+// Chooses the camera and the lights.
 #pragma once
 
 #include <vector>
@@ -12,22 +12,22 @@ struct Bounds {
 
     Vector center() const;
     double radius() const;  // of the sphere around it; 1 for a single point
-    /// By how much a place may be off without a difference in the picture.
+    /// The largest error of a position that makes no difference in the picture.
     double tolerance() const;
 };
 
-/// From the front, the right and above, as near as the box fits the picture.
+/// Looks from the front, the right and above, with the box filling the picture.
 Camera camera_for(const Bounds& bounds, double aspect);
 
 /// A key light over the observer's left shoulder, a weaker one from the right, and light from all around.
 std::vector<Light> lights_for(const Camera& camera, double brightness);
 
-/// Brings the lights to an exposure at which a white surface is neither black nor burnt out; what they were
-/// multiplied with.
+/// Scales the lights to an exposure at which a white surface is neither black nor burnt out; returns the
+/// factor.
 double expose(std::vector<Light>& lights, const Bounds& bounds);
 
-/// Moves lights a thousandth of their distance along the line of sight where there is another already, or the
-/// camera: a scene has one thing at a place. Whether any has been moved.
+/// Moves each light that shares its position with another or with the camera along the line of sight, by a
+/// thousandth of its distance: a scene allows only one thing at a position. Returns whether any was moved.
 bool separate(std::vector<Light>& lights, const Camera& camera, const Bounds& bounds);
 
 /// The extent of a room around the origin that contains all of these: width, height and depth.

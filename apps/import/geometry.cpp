@@ -27,7 +27,7 @@ namespace importing {
 
 namespace {
 
-/// The positions alone, unchecked: what no scene can have as it is may still be moved.
+/// Only the positions, unchecked: out-of-range coordinates can still be moved into range.
 class Positions final : public candela::MeshSink {
   public:
     candela::MeshSpans allocate(const candela::MeshLayout& layout) override {
@@ -36,7 +36,7 @@ class Positions final : public candela::MeshSink {
         candela::MeshSpans spans{};
         spans.position = {x_.data(), y_.data(), z_.data()};
         spans.indices = indices_;
-        // What a shape knows, it writes, asked or not.
+        // A shape writes everything it has, whether requested or not.
         if (layout.has_normals) spans.normal = spare_.span(layout.vertices);
         spare_groups_.resize(layout.has_smooth_groups ? layout.vertices : 0);
         spans.smooth_group = spare_groups_;
@@ -81,7 +81,7 @@ class Look {
           parameters_(registry.parameters(candela::PluginKind::shape, "mesh")) {
         parameters_.set("file", fs::absolute(source.file).string());
         parameters_.set("allow_outside", source.allows_outside);
-        // As the scene will have it, for which the file need not be read again then.
+        // The same parameters as in the scene, which then need not read the file again.
         const std::string extension = candela::extension_of(source.file);
         if (extension == "gltf" || extension == "glb") {
             parameters_.set("sides", std::string("both"));
@@ -89,7 +89,7 @@ class Look {
         }
     }
 
-    /// With a point of the file's coordinates as its origin.
+    /// Makes a point of the file's coordinates the origin.
     void set_origin(const std::string& origin) { parameters_.set("origin", origin); }
 
     Geometry geometry() const {
@@ -147,7 +147,8 @@ class Look {
     candela::ParamSet parameters_;
 };
 
-/// Nearer than this times its size, single precision keeps a model's form to a hundred-thousandth of it.
+/// Up to this many times its size from the origin, single precision keeps a model's form to a
+/// hundred-thousandth of it.
 constexpr double k_far = 100;
 
 bool is_far(const Bounds& bounds) {
@@ -157,7 +158,7 @@ bool is_far(const Bounds& bounds) {
     return length(bounds.high - bounds.low) > 0 ? farthest > k_far * size : farthest > k_far;
 }
 
-/// Rounded to a power of ten that is a hundredth of `size` or less, so that it has few digits.
+/// Rounded to a power of ten that is at most a hundredth of `size`, so that it has few digits.
 Vector rounded(Vector v, double size) {
     const double power = std::floor(std::log10(size)) - 2, step = std::pow(10.0, std::abs(power));
     for (double& x : v) x = power < 0 ? std::round(x * step) / step : std::round(x / step) * step;
@@ -166,7 +167,7 @@ Vector rounded(Vector v, double size) {
 
 std::string text_of(const Vector& v) { return fmt::format("{} {} {}", v[0] + 0.0, v[1] + 0.0, v[2] + 0.0); }
 
-/// From the scene's directions to the file's.
+/// From the scene's axes to the file's.
 Vector in_file(const Vector& v, bool is_z_up) { return is_z_up ? Vector{v[0], -v[2], v[1]} : v; }
 
 }  // namespace
@@ -183,7 +184,7 @@ Geometry geometry_of(const Source& source, bool is_z_up, candela::Registry& regi
         if (!bounds || !is_far(*bounds)) throw;
         first = *bounds;
     }
-    // These bounds are as rounded as the coordinates. From near by they are exact.
+    // These bounds are as rounded as the coordinates. Relative to a near origin, they are exact.
     const Vector near = first.center();
     look.set_origin(text_of(in_file(near, is_z_up)));
     Geometry geometry = look.geometry();

@@ -1,4 +1,4 @@
-// What only a model's triangles tell.
+// Facts that only a model's triangles tell.
 #pragma once
 
 #include <memory>
@@ -16,15 +16,15 @@ struct Geometry {
     candela::Mesh mesh;
     Bounds bounds;  // in the scene, once the model has been moved
     bool has_colors = false, has_uv = false, is_closed = false;
-    /// The point of the file's coordinates that becomes the scene's origin, as the shape's parameter `origin`
-    /// has it; empty where the model is not far from its own.
+    /// The point of the file's coordinates that becomes the scene's origin, in the format of the shape's
+    /// parameter `origin`; empty if the model is not far from its own origin.
     std::string origin{};
-    std::shared_ptr<const void> file{};  // read, until this is gone or the file changes
-    Vector moved{};  // the same point in the scene's directions: what has been subtracted from all positions
+    std::shared_ptr<const void> file{};  // keeps the file read until it changes
+    Vector moved{};                      // the same point in the scene's axes: subtracted from all positions
 };
 
-/// Of a model far from its origin, as surveys and maps have them, the coordinates are moved to where single
-/// precision holds them. Throws candela::Error.
+/// Moves a model far from its origin, as in surveys and maps, to coordinates that single precision can hold.
+/// Throws candela::Error.
 Geometry geometry_of(const Source& source, bool is_z_up, candela::Registry& registry);
 
 }  // namespace importing

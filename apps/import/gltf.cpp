@@ -75,7 +75,8 @@ class Reader {
         struct Open {
             std::size_t node;
             Placement parent;
-            std::optional<std::size_t> above{}, mover{};  // its parent; what moves that: it, or one above it
+            std::optional<std::size_t> above{},
+                mover{};  // its parent; the node that moves that: it or an ancestor
         };
         std::vector<Open> open;
         const auto add = [&](const Json& list, const Open& parent) {
@@ -99,7 +100,7 @@ class Reader {
         } else {
             for (const Json& mesh : array_of(json_, "meshes")) add_mesh(mesh, std::nullopt);
         }
-        std::vector<bool> seen(nodes.size());  // the shape `mesh` refuses nodes in two places
+        std::vector<bool> seen(nodes.size());  // the shape `mesh` rejects nodes with two parents
         while (!open.empty()) {
             const auto [index, parent, above, above_mover] = open.back();
             open.pop_back();
@@ -126,7 +127,7 @@ class Reader {
         }
     }
 
-    /// What moves a node's mesh as a whole: not what moves a node with a skin.
+    /// The node that moves a node's mesh as a whole; nothing for a node with a skin.
     std::optional<std::size_t> mover_of_mesh(const Json& node, std::optional<std::size_t> mover) {
         const Json* const skin = element(array_of(json_, "skins"), index_of(node, "skin"));
         if (skin == nullptr) return mover;
@@ -138,7 +139,8 @@ class Reader {
         return std::nullopt;
     }
 
-    /// How `node` moves, which `mover` does. Relative: whatever is placed where it is at rest.
+    /// The motion of `node`, caused by `mover`. Relative: for parts whose coordinates include the rest
+    /// position.
     std::shared_ptr<const Motion> motion_of(std::optional<std::size_t> mover, std::size_t node,
                                             bool is_relative) {
         if (!mover) return nullptr;
@@ -182,7 +184,7 @@ class Reader {
                                                        : result.extent > 1e-3 && result.extent < 179;
         const bool is_sound =
             length(result.towards) > 0 && length(cross(result.towards, result.up)) > 1e-6 && shows_some;
-        if (!is_sound) return model_.note("a camera that shows nothing is left out");
+        if (!is_sound) return model_.note("a camera with an empty view is left out");
         result.motion = std::move(motion);
         model_.camera = result;
     }
@@ -195,14 +197,14 @@ class Reader {
             return model_.note("lights of other types than point, spot and directional are left out");
         if (const std::vector<double> color = numbers(light, "color", 3); !color.empty())
             result.color = gltf::encoded(color);
-        // Candela's models have no 1 / pi in what they reflect.
-        constexpr double k_brightest = 1e30;  // so that sums of some are numbers
+        // Candela's models have no factor of 1 / pi in what they reflect.
+        constexpr double k_brightest = 1e30;  // so that sums of several stay finite
         result.intensity = std::clamp(number(light, "intensity", 1), 0.0, k_brightest) * std::numbers::inv_pi;
         result.position = place.origin;
         result.direction = unit(-1 * place.z);
         if (length(result.direction) == 0) return model_.note("a light without a direction is left out");
         if (light.is_object() && light.contains("range"))
-            model_.note("the ranges of lights are left out: they shine as far as light does");
+            model_.note("the ranges of lights are left out: their light has no limit");
         if (result.type == "spot") {
             const Json& spot = object_of(light, "spot");
             constexpr double k_degrees = 180 / std::numbers::pi;
@@ -211,7 +213,7 @@ class Reader {
             result.inner_angle =
                 std::clamp(number(spot, "innerConeAngle", 0) * k_degrees, 0.0, result.outer_angle);
             model_.note(
-                "between a spotlight's cones light falls off as a smoothstep of the cosine, not as its "
+                "between a spotlight's cones, the light falls off as a smoothstep of the cosine, not as its "
                 "square");
         }
         result.motion = std::move(motion);
@@ -265,7 +267,7 @@ class Reader {
     std::vector<std::optional<std::size_t>> used_materials_;  // by the order of their first triangles
     std::set<std::optional<std::size_t>> known_materials_;
     std::map<std::optional<std::size_t>, std::set<std::optional<std::size_t>>> movers_;  // by material
-    std::set<std::optional<std::size_t>> flat_materials_;  // those of triangles without normals
+    std::set<std::optional<std::size_t>> flat_materials_;  // of triangles without normals
 };
 
 }  // namespace

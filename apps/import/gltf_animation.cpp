@@ -55,7 +55,7 @@ std::vector<double> slerp(std::vector<double> a, std::vector<double> b, double s
     return a;
 }
 
-constexpr std::size_t k_most_values = 10'000'000;  // of accessors, which may share their bytes
+constexpr std::size_t k_most_values = 10'000'000;  // in all accessors, which may share their bytes
 
 }  // namespace
 
@@ -166,7 +166,7 @@ std::shared_ptr<const Motion> Animation::motion(const std::shared_ptr<const Anim
                                                 const Json& nodes, const std::vector<std::size_t>& chain,
                                                 bool is_relative) {
     struct Link {
-        Placement rest;              // of those before it that do not move
+        Placement rest;              // the product of the fixed nodes before it
         const Node* node = nullptr;  // null: none
     };
     std::vector<Link> links(1);
@@ -184,7 +184,7 @@ std::shared_ptr<const Motion> Animation::motion(const std::shared_ptr<const Anim
         links.back().node = &moved->second;
         links.emplace_back();
         for (const auto& [what, channel] : moved->second.channels) {
-            // More than are taken over anyway.
+            // More than can be imported anyway.
             if (motion->times.size() + channel.times->size() > Motion::k_most_times) return nullptr;
             motion->times.insert(motion->times.end(), channel.times->begin(), channel.times->end());
             if (channel.way == Way::step)

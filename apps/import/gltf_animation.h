@@ -1,4 +1,4 @@
-// What moves a glTF file's nodes.
+// The animations of a glTF file's nodes.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ Placement placement_of(const Json& node);
 /// One animation of the file; it outlives the file.
 class Animation {
   public:
-    /// Channels that cannot be read are left out, and counted.
+    /// Unreadable channels are left out and counted.
     Animation(Container& container, const Json& animation);
 
     bool moves(std::size_t node) const { return nodes_.contains(node); }
@@ -28,8 +28,9 @@ class Animation {
     std::size_t weights() const { return weights_; }        // channels of morph targets
     std::size_t unreadable() const { return unreadable_; }  // other channels
 
-    /// How the last of `chain` is placed over time, each of which is within the one before it. Relative to
-    /// how it is at rest: nothing where that cannot be undone. Otherwise: in the world.
+    /// The placement of the last of `chain` over time; each node of the chain is within the one before it. If
+    /// relative, it is relative to the rest placement, and nothing is returned if that cannot be inverted.
+    /// Otherwise it is in the world.
     static std::shared_ptr<const Motion> motion(const std::shared_ptr<const Animation>& animation,
                                                 const Json& nodes, const std::vector<std::size_t>& chain,
                                                 bool is_relative);
@@ -44,7 +45,7 @@ class Animation {
         std::vector<double> at(double time) const;
     };
     struct Node {
-        std::map<std::string, Channel> channels;           // by what they change
+        std::map<std::string, Channel> channels;           // by the property they change
         std::vector<double> translation, rotation, scale;  // at rest
 
         Placement at(double time) const;
@@ -55,7 +56,7 @@ class Animation {
                                                     std::size_t components);
 
     std::map<std::size_t, Node> nodes_;
-    std::map<std::size_t, std::shared_ptr<const std::vector<double>>> accessors_;  // while it is read
+    std::map<std::size_t, std::shared_ptr<const std::vector<double>>> accessors_;  // used while reading
     std::size_t values_read_ = 0, weights_ = 0, unreadable_ = 0;
     double length_ = 0;
     bool has_splines_ = false;

@@ -27,7 +27,7 @@ namespace {
     throw candela::Error(candela::ErrorCategory::failure, what);
 }
 
-/// Fewer bytes than asked for where the file ends.
+/// Returns fewer bytes than requested at the end of the file.
 std::string bytes_at(candela::RegularFile& file, std::uint64_t begin, std::size_t size) {
     std::string bytes(begin < file.size() ? std::min<std::uint64_t>(size, file.size() - begin) : 0, '\0');
     const auto count = file.seek(begin) ? file.read(bytes) : std::nullopt;
@@ -46,7 +46,7 @@ std::size_t word_at(std::string_view bytes, std::size_t at) {
 constexpr std::uint32_t k_json_chunk = 0x4e4f534a, k_binary_chunk = 0x004e4942;
 
 /// The chunk of that type, among the first few: files have two. Some programs do not count the padding before
-/// it.
+/// a chunk.
 Chunk chunk_of(candela::RegularFile& file, std::uint32_t type) {
     constexpr std::size_t k_header = 8;
     std::uint64_t at = 12;
@@ -80,29 +80,29 @@ std::string decoded_percents(std::string_view uri) {
     return result;
 }
 
-/// What a data: URI holds.
+/// The content of a data: URI.
 std::string data_of(std::string_view uri) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64"))
-        fail("its data: URI is not in base64");
+        fail("its data: URI is not valid base64");
     try {
         return candela::target::base64_decoded(uri.substr(comma + 1));
     } catch (const std::invalid_argument&) {
-        fail("its data: URI is not in base64");
+        fail("its data: URI is not valid base64");
     }
 }
 
-/// What a picture is, by its first bytes.
+/// The extension of a picture's format, from its first bytes.
 const char* extension_of(std::string_view content) {
     if (content.starts_with("\x89PNG")) return "png";
     if (content.starts_with("\xff\xd8\xff")) return "jpg";
     if (content.starts_with("RIFF") && content.substr(8).starts_with("WEBP")) return "webp";
     if (content.starts_with("\xabKTX")) return "ktx2";
     if (content.starts_with("DDS ")) return "dds";
-    fail("it is no picture");
+    fail("it is not a picture");
 }
 
-/// A name for a file, of the image's own.
+/// A file name made from the image's own name.
 std::string stem_of(const std::string& name, std::size_t number) {
     std::string stem;
     for (const char c : name) {
@@ -131,7 +131,7 @@ Container::Container(Source source) : source_(std::move(source)), file_(source_.
     }
     json_ = Json::parse(json, nullptr, false);
     if (!json_.is_object())
-        fail(fmt::format("'{}' is no glTF file: it has no JSON object", source_.file.string()));
+        fail(fmt::format("'{}' is not a glTF file: it has no JSON object", source_.file.string()));
 }
 
 fs::path Container::part_named(const std::string& uri) const {
@@ -141,7 +141,7 @@ fs::path Container::part_named(const std::string& uri) const {
         fail(fmt::format("'{}' is outside the model's folder{}", candela::shortened(uri), k_outside_remedy));
     std::error_code problem;
     if (!fs::is_regular_file(path, problem))
-        fail(fmt::format("there is no file '{}'", candela::shortened(uri)));
+        fail(fmt::format("'{}' does not exist", candela::shortened(uri)));
     return path;
 }
 
@@ -149,7 +149,7 @@ std::string_view Container::buffer(std::size_t index) {
     const auto known = buffers_.find(index);
     if (known != buffers_.end()) return known->second;
     const Json* const buffer = element(array_of(json_, "buffers"), index);
-    if (buffer == nullptr) fail(fmt::format("there is no buffer {}", index));
+    if (buffer == nullptr) fail(fmt::format("buffer {} does not exist", index));
     const std::string uri = text(*buffer, "uri");
     if (uri.empty() && index > 0) return {};
     std::string& content = buffers_[index];
@@ -162,7 +162,7 @@ std::string_view Container::buffer(std::size_t index) {
 
 std::string_view Container::view(std::size_t index) {
     const Json* const view = element(array_of(json_, "bufferViews"), index);
-    if (view == nullptr) fail(fmt::format("there is no view {} of a buffer", index));
+    if (view == nullptr) fail(fmt::format("buffer view {} does not exist", index));
     const std::string_view bytes = buffer(index_of(*view, "buffer").value_or(0));
     const std::size_t first = index_of(*view, "byteOffset").value_or(0),
                       size = index_of(*view, "byteLength").value_or(0);
@@ -173,8 +173,7 @@ std::string_view Container::view(std::size_t index) {
 std::vector<double> Container::values(std::size_t accessor, std::size_t components) {
     const Json* const from = element(array_of(json_, "accessors"), accessor);
     const auto index = from != nullptr ? index_of(*from, "bufferView") : std::nullopt;
-    if (!index || from->contains("sparse"))
-        fail(fmt::format("accessor {} has no view of a buffer", accessor));
+    if (!index || from->contains("sparse")) fail(fmt::format("accessor {} has no buffer view", accessor));
     if (text(*from, "type") != (components == 1 ? "SCALAR" : fmt::format("VEC{}", components)))
         fail(fmt::format("accessor {} is of another type", accessor));
     const std::size_t kind = index_of(*from, "componentType").value_or(0);
@@ -184,7 +183,7 @@ std::vector<double> Container::values(std::size_t accessor, std::size_t componen
                              : kind == k_short || kind == k_unsigned_short ? 2
                              : kind == k_byte || kind == k_unsigned_byte   ? 1
                                                                            : 0;
-    if (size == 0) fail(fmt::format("accessor {} has numbers of type {}", accessor, kind));
+    if (size == 0) fail(fmt::format("accessor {} has an unknown component type, {}", accessor, kind));
     const std::string_view bytes = view(*index);
     const std::size_t stride =
         index_of(array_of(json_, "bufferViews")[*index], "byteStride").value_or(components * size);
@@ -199,13 +198,13 @@ std::vector<double> Container::values(std::size_t accessor, std::size_t componen
         const std::size_t at = first + i / components * stride + i % components * size;
         std::uint32_t word = 0;
         for (std::size_t k = size; k-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + k]);
-        // glTF 2.0, 3.11: integers are parts of 1.
+        // glTF 2.0, 3.11: integers are fractions of 1.
         const double value = kind == k_float            ? std::bit_cast<float>(word)
                              : kind == k_unsigned_short ? word / 65535.0
                              : kind == k_unsigned_byte  ? word / 255.0
                              : kind == k_short ? std::max(static_cast<std::int16_t>(word) / 32767.0, -1.0)
                                                : std::max(static_cast<std::int8_t>(word) / 127.0, -1.0);
-        if (!std::isfinite(value)) fail(fmt::format("accessor {} has what is not a number", accessor));
+        if (!std::isfinite(value)) fail(fmt::format("accessor {} contains a non-finite value", accessor));
         result.push_back(value);
     }
     return result;

@@ -17,7 +17,7 @@ import candela.files;
 
 namespace importing::gltf {
 
-/// Where a chunk of a GLB file has its bytes; none if there is no such chunk.
+/// The position of a GLB chunk's bytes in the file; empty if there is no such chunk.
 struct Chunk {
     std::uint64_t begin = 0;
     std::size_t size = 0;
@@ -25,26 +25,26 @@ struct Chunk {
 
 class Container {
   public:
-    /// Reads what the file, text or binary, says of itself; the bytes of a GLB file, most of which are
-    /// triangles, only where they are asked for. Throws candela::Error (failure).
+    /// Reads the JSON of a text or binary file. Reads the bytes of a GLB file, most of which are triangles,
+    /// only on request. Throws candela::Error (failure).
     explicit Container(Source source);
 
     const Json& json() const { return json_; }
 
-    /// An image: a file in the model's folder or below it, or what the file has of it. Throws candela::Error
-    /// (failure).
+    /// An image: a file in the model's folder or below it, or bytes in the model itself. Throws
+    /// candela::Error (failure).
     Picture picture(std::size_t image);
 
-    /// All numbers of an accessor with so many components. Throws candela::Error (failure).
+    /// All numbers of an accessor with that number of components. Throws candela::Error (failure).
     std::vector<double> values(std::size_t accessor, std::size_t components);
 
-    /// The files that its buffers, and its images, name, whether or not they exist.
+    /// The files named by its buffers and its images, whether or not they exist.
     std::vector<std::filesystem::path> named_files(bool with_images) const;
 
   private:
     std::string_view buffer(std::size_t index);
     std::string_view view(std::size_t index);
-    /// A file beside this one.
+    /// A file next to this one.
     std::filesystem::path part_named(const std::string& uri) const;
 
     Source source_;

@@ -1,4 +1,4 @@
-// Values of JSON that may be of any type, as files from anywhere have it.
+// Reads JSON whose values may be of any type, as in untrusted files.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@ using Json = nlohmann::json;
 
 /// The member of that name, or null.
 const Json* find(const Json& object, const char* name);
-/// The array, or the object, of that name, or an empty one.
+/// The array or object of that name, or an empty one.
 const Json& array_of(const Json& object, const char* name);
 const Json& object_of(const Json& object, const char* name);
 std::optional<std::size_t> index_of(const Json& object, const char* name);
 /// Null if there is none.
 const Json* element(const Json& array, std::optional<std::size_t> index);
-/// Finite; otherwise `otherwise`.
+/// The number if it is finite; otherwise `otherwise`.
 double number(const Json& object, const char* name, double otherwise);
-/// An array of so many finite numbers; otherwise empty.
+/// An array of `count` finite numbers; otherwise empty.
 std::vector<double> numbers(const Json& object, const char* name, std::size_t count);
 std::string text(const Json& object, const char* name);
 

@@ -17,7 +17,7 @@ namespace {
 
 double rounded(double x) { return std::round(1e4 * x) / 1e4; }
 
-/// The factor of that name, or all of it.
+/// The factor of that name; all ones by default.
 std::vector<double> factor_of(const Json& object, const char* name, std::size_t count) {
     std::vector<double> factor = numbers(object, name, count);
     if (factor.empty()) factor.assign(count, 1);
@@ -25,7 +25,7 @@ std::vector<double> factor_of(const Json& object, const char* name, std::size_t 
     return factor;
 }
 
-/// What the dielectric mirrors at normal incidence: KHR_materials_specular.
+/// The reflectance of a dielectric at normal incidence: KHR_materials_specular.
 std::vector<double> dielectric_of(const Json& from) {
     const Json& extensions = object_of(from, "extensions");
     const double ior = number(object_of(extensions, "KHR_materials_ior"), "ior", 1.5);
@@ -40,7 +40,7 @@ std::vector<double> dielectric_of(const Json& from) {
 
 std::vector<double> alpha_of(double roughness) { return {std::max(rounded(roughness * roughness), 0.02)}; }
 
-/// KHR_texture_transform that changes nothing is written by some exporters.
+/// Some exporters write a KHR_texture_transform that changes nothing.
 bool is_moved(const Json& info) {
     const Json* const transform = find(object_of(info, "extensions"), "KHR_texture_transform");
     if (transform == nullptr) return false;
@@ -73,8 +73,8 @@ Material Materials::material(std::size_t index) {
         glossy != nullptr ? specular_glossiness(from, *glossy, shown) : metallic_roughness(from, shown);
     result.name = name;
     model_.note(
-        "metallic-roughness materials are 'ggx' with highlights of the reflectance at normal "
-        "incidence, which does not rise towards grazing angles");
+        "metallic-roughness materials become 'ggx' with highlights of the reflectance at normal "
+        "incidence, which does not increase towards grazing angles");
     return result;
 }
 
@@ -96,8 +96,8 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
         if (const Image* const map = image_of(*info, name)) {
             roughness *= map->means.stored[1];
             metallic *= map->means.stored[2];
-            model_.count("roughness maps", "of a texture of metalness and roughness only the mean is taken",
-                         "of {} textures of metalness and roughness only the means are taken");
+            model_.count("roughness maps", "only the mean of a texture of metalness and roughness is used",
+                         "only the means of {} textures of metalness and roughness are used");
         }
     }
     if (result.picture && metallic > 0.05)
@@ -129,8 +129,8 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
         if (const Image* const map = image_of(*info, name)) {
             for (std::size_t k = 0; k < 3; ++k) specular[k] *= map->means.linear[k];
             glossiness *= map->means.opacity;
-            model_.count("gloss maps", "of a texture of highlights and gloss only the mean is taken",
-                         "of {} textures of highlights and gloss only the means are taken");
+            model_.count("gloss maps", "only the mean of a texture of highlights and gloss is used",
+                         "only the means of {} textures of highlights and gloss are used");
         }
     }
     const double diffuse = 1 - *std::ranges::max_element(specular);
@@ -169,8 +169,8 @@ void Materials::cut_out(const Json& from, double factor, Image* image, Material&
     const bool is_all_there =
         mode == "MASK" && level <= 1 && (image == nullptr || image->opacity.is_all(level));
     if (is_all_there) return;
-    model_.count("opacity", "the opacity of a material is left out: it is opaque",
-                 "the opacity of {} materials is left out: they are opaque");
+    model_.count("opacity", "the opacity of a material is left out; it is opaque",
+                 "the opacity of {} materials is left out; they are opaque");
 }
 
 void Materials::note_losses(const Json& from) {
@@ -193,10 +193,9 @@ void Materials::note_losses(const Json& from) {
     const Json& specular = object_of(extensions, "KHR_materials_specular");
     for (const char* const map : {"specularTexture", "specularColorTexture"})
         if (specular.contains(map))
-            model_.count(
-                "specular maps",
-                "a texture of what a surface mirrors is left out; the factor holds for all of it",
-                "{} textures of what surfaces mirror are left out; the factors hold for all of them");
+            model_.count("specular maps",
+                         "a texture of specular reflectance is left out; its factor applies everywhere",
+                         "{} textures of specular reflectance are left out; their factors apply everywhere");
 }
 
 Materials::Image* Materials::show(const Json& info, const std::string& material, Material& to) {
@@ -216,8 +215,8 @@ Materials::Image* Materials::show(const Json& info, const std::string& material,
         const std::size_t s = index_of(*sampler, "wrapS").value_or(10497),
                           t = index_of(*sampler, "wrapT").value_or(10497);
         to.clamps = s == 33071 && t == 33071;
-        if (s == 33648 || t == 33648) model_.note("mirrored repetition of textures is plain repetition");
-        if (s != t) model_.note("textures that repeat in one direction only repeat in both");
+        if (s == 33648 || t == 33648) model_.note("mirrored repetition of textures becomes plain repetition");
+        if (s != t) model_.note("textures that repeat in only one direction repeat in both");
     }
     if (!image->picture) {
         image->picture = model_.pictures.size();
@@ -232,14 +231,14 @@ Materials::Image* Materials::image_of(const Json& info, const std::string& mater
     std::optional<std::size_t> source;
     if (texture != nullptr) {
         source = index_of(*texture, "source");
-        // What is there in two formats is read in that which every program reads.
+        // Given two formats, prefer the one that every program reads.
         for (const char* const extension :
              {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"})
             if (!source) source = index_of(object_of(object_of(*texture, "extensions"), extension), "source");
     }
     if (!source || element(array_of(json_, "images"), source) == nullptr) {
-        model_.count("no textures", fmt::format("there is no picture for a texture of {}", material),
-                     fmt::format("there are no pictures for {{}} textures, the first of {}", material));
+        model_.count("no textures", fmt::format("the picture of a texture of {} is missing", material),
+                     fmt::format("the pictures of {{}} textures are missing, the first of {}", material));
         return nullptr;
     }
     return image_at(*source, material);
@@ -254,9 +253,9 @@ Materials::Image* Materials::image_at(std::size_t index, const std::string& mate
         found.brightness = brightness_of(pixels);
         if (!other_format.empty())
             model_.count("misnamed pictures",
-                         fmt::format("a texture of {} is read as {}, which its content says it is", material,
+                         fmt::format("a texture of {} is read as {}, according to its content", material,
                                      other_format),
-                         fmt::format("{{}} textures are read as what their content says they are, the first "
+                         fmt::format("{{}} textures are read according to their content, the first "
                                      "of {} as {}",
                                      material, other_format));
         known->second =

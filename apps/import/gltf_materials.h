@@ -1,4 +1,4 @@
-// A glTF file's materials in the words of a scene.
+// Translates a glTF file's materials to a scene's.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@ import candela.registry;
 
 namespace importing::gltf {
 
-/// A linear colour as a scene has it.
+/// Encodes a linear colour for a scene.
 Vector encoded(const std::vector<double>& linear);
 
 class Materials {
   public:
-    /// What is lost is noted in `model`, to which pictures are added.
+    /// Notes losses in `model` and adds pictures to it.
     Materials(Container& container, candela::Registry& registry, Model& model);
 
     Material material(std::size_t index);
@@ -31,18 +31,18 @@ class Materials {
         Picture file;
         Means means;
         OpacityMap opacity;
-        std::optional<std::size_t> cutout{};   // of the model
-        std::optional<std::size_t> picture{};  // of the model, once a surface shows it
+        std::optional<std::size_t> cutout{};   // index in the model
+        std::optional<std::size_t> picture{};  // index in the model, once a surface shows it
     };
 
     Material metallic_roughness(const Json& from, const std::string& name);
     Material specular_glossiness(const Json& from, const Json& extension, const std::string& name);
     void note_losses(const Json& from);
-    /// Cuts a surface along the outline of its texture's opacity, where the material asks for that.
+    /// Cuts a surface along the outline of its texture's opacity if the material asks for that.
     void cut_out(const Json& from, double factor, Image* image, Material& to);
-    /// The colour texture of a material, which becomes that of the surface; null if there is none.
+    /// Uses a material's colour texture for the surface, and returns its image; null if there is none.
     Image* show(const Json& info, const std::string& material, Material& to);
-    /// The image that a texture shows, if it can be read.
+    /// The image of a texture; null if it cannot be read.
     Image* image_of(const Json& info, const std::string& material);
     Image* image_at(std::size_t index, const std::string& material);
 

@@ -34,7 +34,7 @@ void Model::count(const std::string& kind, std::string one, std::string_view man
     const auto [known, is_new] =
         counted_.try_emplace(kind, Counted{.note = notes.size(), .count = 1, .many = std::string(many)});
     if (is_new) return notes.push_back(std::move(one));
-    // Not as a format: names from the file may hold braces.
+    // Not with fmt: names from the file may contain braces.
     std::string sentence = known->second.many;
     sentence.replace(sentence.find("{}"), 2, std::to_string(++known->second.count));
     notes[known->second.note] = std::move(sentence);
@@ -61,7 +61,7 @@ Model model_of(const Source& source, bool with_animation, candela::Registry& reg
     return model;
 }
 
-/// What is multiplied with the colours of a part's vertices: their mean, linear.
+/// The factor that a part's vertex colours amount to: their linear mean.
 std::optional<Vector> mean_color(candela::ParamSet parameters, const Part& part,
                                  candela::Registry& registry) {
     parameters.set("part", part.selector);
@@ -78,7 +78,7 @@ std::optional<Vector> mean_color(candela::ParamSet parameters, const Part& part,
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
-        return std::nullopt;  // said when the scene is read
+        return std::nullopt;  // reported when the scene is read
     }
 }
 
@@ -86,7 +86,7 @@ void tint_metals(Model& model, const Source& source, candela::Registry& registry
     candela::ParamSet parameters = registry.parameters(candela::PluginKind::shape, "mesh");
     parameters.set("file", fs::absolute(source.file).string());
     parameters.set("allow_outside", source.allows_outside);
-    // While this exists, the file is read once.
+    // While this exists, the file is read only once.
     const auto whole = registry.create<candela::Shape>("mesh", parameters, candela::ColorEncoding::srgb);
     for (const Part& part : model.parts) {
         Material* const material = part.material ? &model.materials[*part.material] : nullptr;
@@ -102,7 +102,8 @@ void tint_metals(Model& model, const Source& source, candela::Registry& registry
     }
 }
 
-/// A single-sided plane that faces away would be a picture of nothing.
+/// Shows back faces of a model seen only from behind; a single-sided plane would otherwise give an empty
+/// picture.
 void show_backs_alone(Model& model, const candela::Mesh& mesh, const Vector& to_observer) {
     if (std::ranges::any_of(model.parts, [](const Part& part) { return part.sides != Sides::front; })) return;
     const auto vertex = [&](std::uint32_t index) {
@@ -128,19 +129,19 @@ void write_cutouts(const Request& request, Model& model, Setting& setting) {
             setting.cutouts.push_back(request.write_picture(cutout.file.string(), cutout.content));
     } catch (const candela::Error& problem) {
         if (problem.category() != candela::ErrorCategory::bad_request) throw;
-        // A scene that is printed has no place beside it.
+        // A printed scene has no folder for other files.
         setting.cutouts.clear();
-        model.note("what is transparent is not cut out: that needs a file beside the scene");
+        model.note("transparent parts are not cut out: that needs a file next to the scene");
     }
 }
 
-/// No scene has anything farther out than a mesh may be.
+/// Positions in a scene are limited like those of a mesh.
 bool is_near(const Vector& position) {
     constexpr double k_farthest = 1e9;
     return std::ranges::all_of(position, [](double x) { return std::abs(x) <= k_farthest; });
 }
 
-/// By what the model's coordinates are moved, too.
+/// Moves the model's camera and lights along with its coordinates.
 void move(Model& model, const Geometry& geometry) {
     if (geometry.origin.empty()) return;
     if (model.camera) model.camera->position = model.camera->position - geometry.moved;
@@ -149,7 +150,7 @@ void move(Model& model, const Geometry& geometry) {
                            geometry.origin));
 }
 
-/// How bright the chosen lights are, so that the brightest surface that faces them does not burn out.
+/// The brightness of the chosen lights, such that the brightest surface facing them does not burn out.
 double brightness_for(const Model& model) {
     double brightest = 0;
     bool is_physical = false;
@@ -160,7 +161,7 @@ double brightness_for(const Model& model) {
         const double picture =
             material.picture ? std::min(1.0, k_spots * model.pictures[*material.picture].brightness) : 1;
         double sum = 0;
-        // Of the key light and most of the fill light, and of the ambient light.
+        // For the key light with most of the fill light, and for the ambient light.
         constexpr double k_direct = 1.9, k_ambient = 0.6;
         for (const auto& [name, value] : material.values) {
             const double factor = name == "kd" ? k_direct : name == "ka" ? k_ambient : 0;
@@ -188,15 +189,15 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     if (!is_model(request.file)) {
         throw candela::Error(
             candela::ErrorCategory::bad_request,
-            fmt::format("'{}' is of no format that can be imported: .obj, .ply, .stl, .gltf, .glb",
+            fmt::format("'{}' has an unsupported format; expected .obj, .ply, .stl, .gltf or .glb",
                         request.file.string()));
     }
     std::error_code problem;
     if (!fs::exists(request.file, problem)) {
         throw candela::Error(candela::ErrorCategory::failure,
-                             fmt::format("there is no file '{}'", request.file.string()));
+                             fmt::format("'{}' does not exist", request.file.string()));
     }
-    // What machines print has z upwards.
+    // Files for 3D printers have z upwards.
     const bool is_stl = candela::extension_of(request.file) == "stl";
     const bool is_z_up = request.up == UpAxis::z || (request.up == UpAxis::by_format && is_stl);
     const Source source{.file = request.file, .allows_outside = request.allow_outside};
@@ -216,7 +217,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     setting.allows_outside = request.allow_outside;
     setting.tolerance = geometry.bounds.tolerance();
     if (!model.pictures.empty() && !geometry.has_uv) {
-        model.note("its textures are left out: it has no texture coordinates");
+        model.note("its textures are left out; it has no texture coordinates");
         model.pictures.clear();
         for (Material& material : model.materials) material.picture.reset();
     }
@@ -242,16 +243,16 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     if (setting.lights.empty()) {
         setting.lights = lights_for(setting.camera, brightness_for(model));
     } else {
-        // What they do not reach is dark, and not black.
+        // Makes parts that the lights do not reach dark rather than black.
         constexpr double k_little = 0.08;
         const double factor = expose(setting.lights, bounds);
         if (factor != 1)
             model.note(fmt::format(
-                "its lights are {:.3g} times as bright as in the file, for which it has no exposure",
-                factor));
+                "its lights are {:.3g} times as bright as in the file, which has no exposure", factor));
         if (separate(setting.lights, setting.camera, bounds))
             model.note(
-                "lights at one place, or where the camera is, are moved a little along the line of sight");
+                "lights at the position of another light or the camera are moved slightly along the line of "
+                "sight");
         setting.lights.push_back({.name = "sky", .type = "ambient", .intensity = k_little});
     }
     animator.take_view(setting);

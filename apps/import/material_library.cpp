@@ -29,9 +29,9 @@ bool are_all(const std::vector<double>& values, double value) {
     return !values.empty() && std::ranges::all_of(values, [&](double x) { return x == value; });
 }
 
-/// What a surface sends out must not be more than what it receives: both coefficients by the same factor,
-/// which keeps the material's look. Rounded down, so that the sum in a scene's text is not above 1. Whether
-/// it was more.
+/// A surface must not reflect more light than it receives: scales both coefficients by the same factor, which
+/// keeps the material's look. Rounds down, so that the sum in a scene's text does not exceed 1. Returns
+/// whether it scaled them.
 bool limit(std::vector<double>& kd, std::vector<double>& ks) {
     double most = 0;
     for (std::size_t c = 0; c < 3; ++c) most = std::max(most, kd[c] + ks[c]);
@@ -51,9 +51,9 @@ void MaterialLibraries::read_named(std::string_view names) {
     constexpr std::size_t k_most_statements = 1000;
     if (named_.size() > k_most_statements)
         return model_.note(
-            fmt::format("statements mtllib after the first {} are left out", k_most_statements));
+            fmt::format("mtllib statements after the first {} are left out", k_most_statements));
     if (read_if_there(names)) return;
-    // Several, if each of them has an extension.
+    // Several names, if each has an extension.
     std::vector<std::string_view> words;
     for (std::string_view rest = names, word = word_from(rest); !word.empty(); word = word_from(rest))
         words.push_back(word);
@@ -89,7 +89,7 @@ void MaterialLibraries::read(const fs::path& file) {
         return model_.note(fmt::format("the material library '{}' is too large", file.string()));
     if (is_utf16(*text))
         return model_.note(fmt::format(
-            "the material library '{}' is text in UTF-16 and left out; save it as UTF-8", file.string()));
+            "the material library '{}' is left out: it is UTF-16; save it as UTF-8", file.string()));
     folder_ = file.parent_path();
     Description* current = nullptr;
     each_statement(*text, [&](const Statement& s) {
@@ -108,7 +108,7 @@ void MaterialLibraries::read(const fs::path& file) {
 const MaterialLibraries::Description* MaterialLibraries::find(const std::string& name) const {
     const auto same = descriptions_.find(name);
     if (same != descriptions_.end()) return &same->second;
-    // One of them may have a comment behind it.
+    // One of them may be followed by a comment.
     const std::string_view bare = without_comment(name);
     if (const auto plain = descriptions_.find(bare); plain != descriptions_.end()) return &plain->second;
     const auto commented = commented_.find(bare);
@@ -118,7 +118,7 @@ const MaterialLibraries::Description* MaterialLibraries::find(const std::string&
 std::vector<double> MaterialLibraries::coefficients(const std::vector<double>& value, double otherwise) {
     std::vector<double> rgb = value.empty() ? std::vector(3, otherwise) : value;
     for (double& x : rgb) {
-        if (x < 0 || x > 1) model_.note("coefficients of materials beyond 0 to 1 are clamped");
+        if (x < 0 || x > 1) model_.note("material coefficients outside 0 to 1 are clamped");
         x = std::clamp(x, 0.0, 1.0);
     }
     return rgb;
@@ -128,25 +128,25 @@ Material MaterialLibraries::material(const std::string& name) {
     const Description& d = *find(name);
     Material material{.name = name};
     if (d.illumination == 0)
-        model_.note("materials of illumination model 0, a constant colour, are lit like others");
+        model_.note("materials of illumination model 0, a constant colour, are lit like the others");
     if (d.illumination > 2)
         model_.note("reflections, refraction and other effects of illumination models 3 to 10 are left out");
     std::vector<double> kd = coefficients(d.kd, 0.8),
                         ks = coefficients(d.illumination < 2 ? std::vector<double>{} : d.ks, 0.0);
     constexpr double k_sharpest = 1e6;  // a highlight of a tenth of a degree; files have up to 1000
-    if (d.shininess > k_sharpest) model_.note("exponents of highlights beyond a million are a million");
+    if (d.shininess > k_sharpest) model_.note("highlight exponents above a million are clamped to it");
     const double shininess = std::clamp(d.shininess, 0.0, k_sharpest);
     if (shininess == 0 && !are_all(ks, 0)) {
-        model_.note("highlights without an exponent (Ns), as bright everywhere, are left out");
+        model_.note("highlights without an exponent (Ns) are left out: they would cover everything");
         ks = {0, 0, 0};
     }
     // Some programs write black next to a texture, and mean the texture.
     if (!d.texture.empty() && are_all(kd, 0)) kd = {1, 1, 1};
     if (limit(kd, ks))
-        model_.note("materials that send out more light than they receive (Kd + Ks above 1) are scaled to 1");
+        model_.note("materials that reflect more light than they receive (Kd + Ks above 1) are scaled to 1");
     std::vector<double> ka = coefficients(d.ka, 1);
-    // White is what programs write that have no ambient colour: the surface's own is meant. So it is, weaker,
-    // where there is none; grey would bleach it.
+    // Programs without ambient colours write white and mean the surface's own colour. The same applies,
+    // weaker, if there is none; grey would bleach it.
     if (d.ka.empty() || d.illumination == 0) {
         for (std::size_t c = 0; c < 3; ++c) ka[c] = 0.2 * kd[c];
     } else if (are_all(ka, 1)) {
@@ -175,36 +175,36 @@ void MaterialLibraries::statement(const std::string& keyword, std::string_view r
         to.illumination = static_cast<int>(std::clamp(first, 0.0, 10.0));
     } else if (keyword == "d" || keyword == "tr") {
         if (numbers.empty() || first != (keyword == "d" ? 1 : 0))
-            model_.note("the opacity of materials is left out: they are opaque");
+            model_.note("the opacity of materials is left out; they are opaque");
     } else if (keyword == "ke") {
         if (std::ranges::any_of(numbers, [](double x) { return x > 0; }))
             model_.note("the light that materials emit is left out");
     } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" || keyword == "disp" ||
                keyword == "decal" || keyword == "refl") {
-        model_.note(fmt::format("textures other than those of colours are left out, such as '{}'", keyword));
+        model_.note(fmt::format("textures other than colour textures are left out, such as '{}'", keyword));
     } else if (keyword == "pr" || keyword == "pm" || keyword == "ps" || keyword == "pc" || keyword == "pcr" ||
                keyword == "aniso" || keyword == "anisor") {
-        model_.note("the roughness and metalness of materials are left out; they are Phong's");
+        model_.note("the roughness and metalness of materials are left out; they become Phong materials");
     } else if (keyword == "tf") {
-        // White lets all through, and says nothing of how much there is.
+        // White transmits everything, and so says nothing.
         if (!are_all(numbers, 1)) model_.note("the transmission of materials is left out");
     }
-    // Ni, the index of refraction, matters only together with opacity; sharpness only to reflections.
+    // Ni, the index of refraction, matters only with opacity; sharpness only for reflections.
 }
 
 void MaterialLibraries::color(std::string_view rest, std::vector<double>& to) {
     std::string_view after = rest;
     const std::string_view first = word_from(after);
     if (first == "spectral" || first == "xyz")
-        return model_.note("colours of materials as spectra or XYZ are left out");
+        return model_.note("material colours given as spectra or XYZ are left out");
     std::vector<double> numbers = numbers_from(rest);
     if (numbers.size() == 1) numbers = {numbers[0], numbers[0], numbers[0]};
-    if (numbers.size() < 3) return model_.note("colours of materials that are no numbers are left out");
+    if (numbers.size() < 3) return model_.note("material colours that are not numbers are left out");
     numbers.resize(3);
     to = numbers;
 }
 
-/// Options come before the name, which may have blanks in it.
+/// Options precede the name, which may contain blanks.
 void MaterialLibraries::texture(std::string_view rest, Description& to) {
     while (rest.starts_with('-')) {
         std::string_view after = rest;
@@ -241,7 +241,7 @@ std::optional<std::size_t> MaterialLibraries::picture(const std::string& materia
     };
     const auto found = find_named(of.texture_folder, of.texture);
     if (!found) {
-        say("missing textures", "is not there", "are not there");
+        say("missing textures", "does not exist", "do not exist");
         return std::nullopt;
     }
     if (!source_.may_read(found->path)) {
@@ -257,7 +257,7 @@ std::optional<std::size_t> MaterialLibraries::picture(const std::string& materia
             fmt::format(" '{}'", found->path.filename().string()));
     Picture picture{file};
     try {
-        // A scene is UTF-8, and could not name it.
+        // A scene is UTF-8 and could not name the file.
         if (candela::first_invalid_byte(file.string())) {
             picture.content = candela::read_text_file(file).value_or("");
             picture.file = fmt::format("texture_{}{}", model_.pictures.size(), file.extension().string());
@@ -267,8 +267,8 @@ std::optional<std::size_t> MaterialLibraries::picture(const std::string& materia
         picture.brightness = brightness_of(read.pixels);
         if (!read.other_format.empty())
             say("misnamed textures",
-                fmt::format("is read as {}, which its content says it is", read.other_format),
-                "are read as what their content says they are");
+                fmt::format("is read as {}, according to its content", read.other_format),
+                "are read according to their content");
     } catch (const candela::Error& problem) {
         say("broken textures", "is left out", "are left out", fmt::format(": {}", problem.what()));
         return std::nullopt;

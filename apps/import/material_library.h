@@ -1,4 +1,4 @@
-// MTL files: what they say of materials, in the words of a scene.
+// Translates the materials of MTL files to a scene's.
 #pragma once
 
 #include <filesystem>
@@ -19,11 +19,11 @@ namespace importing::obj {
 /// The libraries that an OBJ file names.
 class MaterialLibraries {
   public:
-    /// What is lost is noted in `model`, to which the pictures of materials are added.
+    /// Notes losses in `model` and adds the materials' pictures to it.
     MaterialLibraries(Model& model, const Source& source, candela::Registry& registry)
         : model_(model), source_(source), registry_(registry) {}
 
-    /// Reads those of a statement mtllib: one, whose name may have blanks in it, or several.
+    /// Reads the libraries of an mtllib statement: one whose name may contain blanks, or several.
     void read_named(std::string_view names);
 
     bool are_there() const { return !known_files_.empty(); }
@@ -31,13 +31,13 @@ class MaterialLibraries {
     Material material(const std::string& name);
 
   private:
-    /// What a library says of a material, before it is a scene's.
+    /// A material as described by a library, before its translation.
     struct Description {
         std::vector<double> ka, kd, ks;
         double shininess = 0;
         int illumination = 2;
         std::string texture;
-        std::filesystem::path texture_folder{};  // which it is relative to
+        std::filesystem::path texture_folder{};  // the folder that it is relative to
         bool clamps = false;
     };
 
@@ -54,12 +54,12 @@ class MaterialLibraries {
     Model& model_;
     const Source& source_;
     candela::Registry& registry_;
-    std::filesystem::path folder_;              // of the library that is being read
-    std::set<std::string, std::less<>> named_;  // by statements mtllib
+    std::filesystem::path folder_;              // of the library being read
+    std::set<std::string, std::less<>> named_;  // by mtllib statements
     std::set<std::filesystem::path> known_files_;
     std::map<std::string, Description, std::less<>> descriptions_;
     std::map<std::string, std::string, std::less<>> commented_;             // names without their comments
-    std::map<std::filesystem::path, std::optional<std::size_t>> pictures_;  // of the model, by file
+    std::map<std::filesystem::path, std::optional<std::size_t>> pictures_;  // indices in the model, by file
 };
 
 }  // namespace importing::obj

@@ -1,4 +1,4 @@
-// What a model's file says beside its triangles, in the words of a scene.
+// The contents of a model's file other than its triangles, in a scene's terms.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace importing {
 
 using Vector = std::array<double, 3>;
 
-/// Columns of a transformation to the world.
+/// The columns of a transformation to the world.
 struct Placement {
     Vector x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{};
 
@@ -33,37 +33,37 @@ struct Placement {
     }
 };
 
-/// How something is placed over time.
+/// A placement over time.
 struct Motion {
     static constexpr std::size_t k_most_times = 100'000;
 
     std::vector<double> times;    // of its keys, in seconds, increasing: at least one
-    std::vector<double> jumps{};  // those at which it is somewhere else at once
-    bool has_steps_only = false;  // between them, it does not move
-    std::size_t cost = 1;         // of calling `at`, in nodes
+    std::vector<double> jumps{};  // times at which it jumps
+    bool has_steps_only = false;  // it rests between its keys
+    std::size_t cost = 1;         // cost of calling `at`, in nodes
     std::function<Placement(double)> at;
 };
 
 /// A value that changes with time.
 struct Track {
-    std::string name;  // as the table of what moves has it
+    std::string name;  // its name in the table of the moving thing
     bool steps = false;
     std::vector<std::pair<double, Vector>> keys{};  // seconds, value
 };
 
-/// A picture for surfaces: a file that is there, or the content of one that has to be written.
+/// A picture for surfaces: an existing file, or the content of one to write.
 struct Picture {
-    std::filesystem::path file;  // absolute; or the name that it should have
-    std::string content{};       // empty: it is there
+    std::filesystem::path file;  // absolute; or the name to give it
+    std::string content{};       // empty: the file exists
     double brightness = 1;       // the mean of its pixels' largest channels, linear
 };
 
-/// What a surface mirrors: light of a metal's colour, and that of what is not a metal.
+/// The specular reflectance: a metal's colour, and a dielectric's.
 struct Metal {
     double share = 0;  // of the metal, 0 to 1
     Vector color{}, below{};
 
-    /// As a parameter: one number where it is grey.
+    /// As a parameter: one number if it is grey.
     std::vector<double> highlights() const;
 };
 
@@ -71,32 +71,32 @@ struct Material {
     std::string name;  // may be empty
     std::string reflection = "phong";
     Vector color{255, 255, 255};                                        // 0-255
-    std::vector<std::pair<std::string, std::vector<double>>> values{};  // of the reflection model
-    std::optional<std::size_t> picture{};                               // of Model::pictures
-    bool clamps = false;                                                // it, at its edges
-    std::optional<std::size_t> cutout{};                                // of Model::cutouts
+    std::vector<std::pair<std::string, std::vector<double>>> values{};  // parameters of the reflection model
+    std::optional<std::size_t> picture{};                               // index in Model::pictures
+    bool clamps = false;                                                // the picture is clamped at its edges
+    std::optional<std::size_t> cutout{};                                // index in Model::cutouts
     double cutout_level = 0.5;
     Metal metal{};
 };
 
-/// From where triangles are seen: as the shape's parameter `sides` has it.
+/// The side from which triangles are visible, as for the shape's parameter `sides`.
 enum class Sides { outside, front, both };
 
 /// The triangles of one material.
 struct Part {
-    std::string selector;                   // as the shape's parameter `part` has it; empty: all
-    std::optional<std::size_t> material{};  // of Model::materials
-    bool is_flat = false;                   // it has no normals, and is not smooth
+    std::string selector;                   // as for the shape's parameter `part`; empty: all
+    std::optional<std::size_t> material{};  // index in Model::materials
+    bool is_flat = false;                   // it has no normals and is not smooth
     Sides sides = Sides::outside;
     std::shared_ptr<const Motion> motion{};  // of the file's coordinates
-    std::vector<Track> tracks{};             // what has become of it
+    std::vector<Track> tracks{};             // the motion as tracks
 };
 
 struct Camera {
     Vector position{}, towards{}, up{};  // `towards`: a direction
     bool is_orthographic = false;
     double extent = 0;  // the full vertical angle in degrees, or metres
-    double aspect = 0;  // width to height; 0: not said
+    double aspect = 0;  // width to height; 0: unspecified
     std::shared_ptr<const Motion> motion{};
     std::vector<Track> tracks{};
 };
@@ -105,7 +105,7 @@ struct Light {
     std::string name;
     std::string type;  // point, spot, directional
     Vector color{255, 255, 255};
-    double intensity = 1;  // as Candela has it: at one metre, before 1 / pi
+    double intensity = 1;  // in Candela's terms: at one metre, without 1 / pi
     Vector position{}, direction{};
     double inner_angle = 0, outer_angle = 45;  // half angles, degrees
     std::shared_ptr<const Motion> motion{};
@@ -114,23 +114,23 @@ struct Light {
     bool has_position() const { return type == "point" || type == "spot"; }
 };
 
-/// What a file has of animations.
+/// The animations of a file.
 struct Moving {
     std::vector<std::string> names{};  // of all animations; may be empty
     double length = 0;                 // of the first, in seconds
     bool has_splines = false;
-    std::size_t in_pieces = 0;  // objects that several nodes move
-    std::size_t too_many = 0;   // things whose keys are
-    std::size_t undone = 0;     // things whose rest cannot be told apart from how they move
-    std::size_t skins = 0, weights = 0, channels = 0;  // that are not taken over
+    std::size_t in_pieces = 0;  // objects moved by several nodes
+    std::size_t too_many = 0;   // motions with too many keys
+    std::size_t undone = 0;     // motions that cannot be separated from the rest placement
+    std::size_t skins = 0, weights = 0, channels = 0;  // not imported
 };
 
-/// What a file says, and what of it was lost.
+/// The contents of a file, and what was lost.
 struct Model {
     std::vector<Material> materials;
     std::vector<Part> parts;  // at least one
     std::vector<Picture> pictures;
-    std::vector<Picture> cutouts;  // greymaps of what is opaque
+    std::vector<Picture> cutouts;  // greymaps of opacity
     std::optional<Camera> camera;
     std::vector<Light> lights;
     Moving moving{};
@@ -138,8 +138,8 @@ struct Model {
     std::vector<std::string> notes;  // whole sentences without a full stop, each once
 
     void note(std::string sentence);
-    /// One line for each kind of loss: `one` where it is called once, otherwise `many` with the count in
-    /// place of its {}.
+    /// One line for each kind of loss: `one` if it is counted once, otherwise `many` with the count in place
+    /// of its {}.
     void count(const std::string& kind, std::string one, std::string_view many);
 
   private:

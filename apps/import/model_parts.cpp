@@ -29,7 +29,7 @@ bool is_same_word(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-/// Readers may look for a name in another case, so that is the same file here.
+/// Readers may ignore case when they look for a name, so names in another case count as the same file.
 bool is_file(const fs::path& named, const fs::path& file) {
     std::error_code problem;
     if (fs::equivalent(named, file, problem)) return true;
@@ -38,7 +38,7 @@ bool is_file(const fs::path& named, const fs::path& file) {
            fs::equivalent(named.parent_path() / ".", target.parent_path(), problem);
 }
 
-/// Whether `is_wanted` is true of a line, without the blanks that it begins with.
+/// Whether `is_wanted` returns true for a line without its leading blanks.
 template <class IsWanted>
 bool any_line(std::string_view text, const IsWanted& is_wanted) {
     for (std::size_t at = 0; at < text.size();) {
@@ -50,7 +50,7 @@ bool any_line(std::string_view text, const IsWanted& is_wanted) {
     return false;
 }
 
-/// Whatever may be a name after a line's keyword: a word, or several with the blanks between them.
+/// The possible names after a line's keyword: each word, or several with the blanks between them.
 std::vector<std::string> possible_names(std::string_view line) {
     constexpr std::size_t k_most_words = 32;
     std::vector<std::pair<std::size_t, std::size_t>> words;
@@ -93,7 +93,7 @@ bool is_part_of_obj(const fs::path& model, const fs::path& file) {
            });
 }
 
-/// A texture in a comment, as MeshLab writes it.
+/// A texture named in a comment, as MeshLab writes it.
 bool is_part_of_ply(const fs::path& model, const fs::path& file) {
     constexpr std::size_t k_longest_header = 1 << 16;
     const auto text = candela::read_text_file(model, k_longest_header);
@@ -108,7 +108,7 @@ bool is_named_in_gltf(const fs::path& model, const fs::path& file, bool with_pic
         return std::ranges::any_of(container.named_files(with_pictures),
                                    [&](const fs::path& named) { return is_file(named, file); });
     } catch (const candela::Error&) {
-        return false;  // whoever reads it will say why it cannot be read
+        return false;  // its reader will report the error
     }
 }
 
@@ -120,7 +120,7 @@ bool is_gltf(const fs::path& model) {
 }  // namespace
 
 bool is_buffer_of(const fs::path& model, const fs::path& file) {
-    // A GLB file has its buffer in itself, and may be large.
+    // A GLB file contains its own buffer, and may be large.
     return candela::extension_of(model) == "gltf" && is_named_in_gltf(model, file, false);
 }
 

@@ -13,8 +13,8 @@ namespace importing {
 
 namespace {
 
-constexpr double k_shortest = 1e-3;  // seconds: nearer keys have none in between
-constexpr double k_jump = 1e-5;  // seconds that a jump takes, and by which it is earlier than the frame there
+constexpr double k_shortest = 1e-3;  // seconds; closer keys are not refined
+constexpr double k_jump = 1e-5;      // seconds that a jump takes and by which it precedes its frame
 
 State between(const State& a, const State& b, double s) {
     State result;
@@ -85,9 +85,9 @@ class Sampler {
     }
 
     bool is_straight(double from, double to, const State& a, const State& b) {
-        // A spline may be on the line at one of them, and a turn be back where it was.
+        // A spline may cross the line at one of them, and a rotation may be back at its start.
         for (const double s : {0.5, 0.21, 0.82}) {
-            if (budget_ < motion_.cost) return true;  // and then there is no next key
+            if (budget_ < motion_.cost) return true;  // gives up: the caller finds the budget spent
             budget_ -= motion_.cost;
             if (!mover_.is_close(between(a, b, s), motion_.at(from + s * (to - from)))) return false;
         }
@@ -99,12 +99,12 @@ class Sampler {
     std::size_t& budget_;
 };
 
-/// Without keys that are on the line between others.
+/// Without the keys that lie on the line between others.
 std::vector<std::pair<double, Vector>> thinned(const std::vector<std::pair<double, Vector>>& keys, bool steps,
                                                double tolerance) {
     std::vector<std::pair<double, Vector>> result;
     std::size_t kept = 0;
-    const auto is_spare = [&](std::size_t next) {  // whether all between `kept` and `next` are
+    const auto is_spare = [&](std::size_t next) {  // whether all keys between `kept` and `next` are redundant
         constexpr std::size_t k_most = 256;
         if (next - kept > k_most) return false;
         for (std::size_t i = kept + 1; i < next; ++i) {
@@ -147,7 +147,7 @@ std::optional<std::vector<Track>> tracks_of(const Motion& motion, const Mover& m
         if (mover.names[k] == nullptr) continue;
         std::vector<std::pair<double, Vector>> keys;
         for (const auto& [time, state] : sampler.keys) {
-            // A step is there when its frame comes, whose time is rounded as well.
+            // A step happens when its frame comes, whose time is rounded as well.
             const double rounded = motion.has_steps_only ? std::floor(time / k_jump + 0.1) * k_jump
                                                          : std::round(time * 1e6) / 1e6;
             if (!keys.empty() && rounded <= keys.back().first) keys.pop_back();
@@ -194,7 +194,7 @@ std::optional<State> state_of(const Placement& place, const State& before) {
         const Vector turned{std::atan2(y[2], z[2]), std::atan2(-x[2], level), std::atan2(x[1], x[0])};
         candidates[0] = k_degrees * turned;
         candidates[1] = {candidates[0][0] + 180, 180 - candidates[0][1], candidates[0][2] + 180};
-    } else {  // about x and z it turns around the same axis
+    } else {  // x and z now rotate about the same axis
         const double about_z = before[1][2] / k_degrees, c = std::cos(about_z), s = std::sin(about_z);
         const double about_x = std::atan2(s * z[0] - c * z[1], c * y[1] - s * y[0]);
         candidates.fill({about_x * k_degrees, x[2] < 0 ? 90.0 : -90.0, before[1][2]});

@@ -1,4 +1,4 @@
-// Motions as values of a scene that change with time.
+// Motions as a scene's animated values.
 #pragma once
 
 #include <array>
@@ -13,29 +13,29 @@ namespace importing {
 
 using State = std::array<Vector, 3>;
 
-/// What a scene has of something that moves: up to three values.
+/// The values that describe a moving thing in a scene: up to three.
 struct Mover {
-    std::array<const char*, 3> names{};  // null: there is no such value
+    std::array<const char*, 3> names{};  // null: unused
     State rest{};
-    std::array<double, 3> tolerance{};  // of their numbers
-    /// The values at a placement, as near to those before as they can be; nothing where there are none.
+    std::array<double, 3> tolerance{};  // of the values' numbers
+    /// The values for a placement, as close to `before` as possible; nothing if no values describe it.
     std::function<std::optional<State>(const Placement& place, const State& before)> state{};
-    /// Whether there is hardly a difference between values and the placement that they stand for.
+    /// Whether values differ negligibly from the placement that they describe.
     std::function<bool(const State& values, const Placement& place)> is_close{};
 };
 
-/// The values that change; empty where it rests. Between two keys they follow the motion closely, so that
-/// there are more keys than the motion has. Nothing where the motion leads to what no values describe, or to
-/// more work than is in `budget`, from which it is taken.
+/// The values that change; empty if it rests. Adds keys to the motion's own so that the values follow it
+/// closely between keys. Nothing if no values describe the motion, or if it takes more work than `budget`,
+/// which is reduced by the work done.
 std::optional<std::vector<Track>> tracks_of(const Motion& motion, const Mover& mover, std::size_t& budget);
 
-/// The values at a time.
+/// The values at a given time.
 State state_at(const std::vector<Track>& tracks, const Mover& mover, double time);
 
-/// The placement that an object's position, rotation and scale stand for.
+/// The placement described by an object's position, rotation and scale.
 Placement placement_of(const State& state);
 
-/// And the other way round; the rotation is as near to `before` as it can be, beyond 360 degrees too.
+/// The inverse; the rotation is as close to `before` as possible, even beyond 360 degrees.
 std::optional<State> state_of(const Placement& place, const State& before);
 
 }  // namespace importing

@@ -24,7 +24,7 @@ bool is_file(const fs::path& path) {
     return fs::is_regular_file(path, problem);
 }
 
-/// The name, and what it may mean where it comes from another machine.
+/// The name and its possible meanings if it comes from another machine.
 std::vector<std::string> readings_of(std::string_view name) {
     std::vector<std::string> readings;
     const auto add = [&](std::string reading) {
@@ -46,7 +46,7 @@ bool are_same_but_for_capitals(std::string_view a, std::string_view b) {
         a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// Whatever the capitals of each part of the path are.
+/// Finds a file, ignoring the case of each part of the path.
 std::optional<fs::path> find_in_other_case(const fs::path& folder, const fs::path& name) {
     fs::path found = name.is_absolute() ? fs::path("/") : folder;
     for (const fs::path& part : name.relative_path()) {
@@ -67,7 +67,7 @@ std::optional<fs::path> find_in_other_case(const fs::path& folder, const fs::pat
     return is_file(found) ? std::optional(found) : std::nullopt;
 }
 
-/// Nothing if it is not text in that encoding.
+/// Nothing if the text is invalid in that encoding.
 std::optional<std::string> to_utf8(std::string_view text, const char* encoding) {
     ::iconv_t converter = ::iconv_open("UTF-8", encoding);  // NOLINT(misc-const-correctness): a pointer
     if (std::bit_cast<std::intptr_t>(converter) == -1) return std::nullopt;
@@ -96,7 +96,7 @@ std::optional<NamedFile> find_named(const fs::path& folder, std::string_view nam
     if (name.empty() || name.find('\0') != std::string_view::npos) return std::nullopt;
     if (auto found = find_as_written(folder, name)) return found;
     if (!candela::first_invalid_byte(name)) return std::nullopt;
-    // The file that is there tells which encoding it was.
+    // The encoding that yields an existing file is the right one.
     for (const char* const encoding : {"CP1252", "CP932", "GB18030", "CP949", "CP1251", "CP850"}) {
         const auto converted = to_utf8(name, encoding);
         if (!converted) continue;

@@ -1,4 +1,4 @@
-// Files that a model names the way another system does.
+// Finds files that a model names in another system's way.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,16 @@
 
 namespace importing {
 
-/// A file that is there.
+/// An existing file.
 struct NamedFile {
     std::filesystem::path path;
-    /// It has another name than the model gives it: other letters are capitals, or they are encoded
-    /// otherwise.
+    /// Its name differs from the one in the model, in case or encoding.
     bool is_renamed = false;
 };
 
-/// The regular file that a model in `folder` calls `name`: as it stands; with Windows' separators; without
-/// its folders, which are those of another machine; in quotes; with other capitals (ASCII); or with letters
-/// in an encoding other than UTF-8. Nothing if there is none of these.
+/// The regular file that a model in `folder` calls `name`: verbatim; with Windows separators; without its
+/// folders, if they are those of another machine; without quotes; ignoring case (ASCII); or in an encoding
+/// other than UTF-8. Nothing if none of these exists.
 std::optional<NamedFile> find_named(const std::filesystem::path& folder, std::string_view name);
 
 }  // namespace importing

@@ -24,7 +24,7 @@ Model read_obj(const Source& source, candela::Registry& registry) {
     const auto text = candela::read_text_file(source.file);
     std::vector<std::string> used;  // in the order of their first faces
     std::set<std::string, std::less<>> known;
-    std::map<std::string, std::size_t> numbers;  // as the shape `mesh` numbers them
+    std::map<std::string, std::size_t> numbers;  // the shape `mesh`'s numbers
     std::string current = "(none)";
     bool is_listed = false;
     obj::each_statement(text ? *text : std::string_view(), [&](const obj::Statement& s) {
@@ -44,7 +44,7 @@ Model read_obj(const Source& source, candela::Registry& registry) {
     });
     for (const std::string& name : used) {
         Part part;
-        // A scene is UTF-8, which an OBJ file need not be.
+        // A scene is UTF-8, but an OBJ file may not be.
         if (used.size() > 1)
             part.selector = candela::first_invalid_byte(name) ? fmt::format("#{}", numbers[name]) : name;
         if (libraries.has(name)) {
@@ -59,7 +59,7 @@ Model read_obj(const Source& source, candela::Registry& registry) {
     }
     const bool is_plain = std::ranges::all_of(used, [](const std::string& name) { return name == "(none)"; });
     if (libraries.are_there() && is_plain)
-        model.note("it names a material library, but no face uses a material (usemtl): the model is grey");
+        model.note("it names a material library, but no face uses a material (usemtl); the model is grey");
     if (model.parts.empty()) model.parts.emplace_back();
     return model;
 }

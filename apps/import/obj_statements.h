@@ -7,7 +7,7 @@
 
 namespace importing::obj {
 
-/// A statement: its first word, and what follows it.
+/// A statement: its first word and the rest of the line.
 struct Statement {
     std::string_view keyword, rest;
 };
@@ -15,16 +15,16 @@ struct Statement {
 std::string_view trimmed(std::string_view text);
 /// Takes the first word from `rest`.
 std::string_view word_from(std::string_view& rest);
-/// A material's name, which goes to the end of its line, with one blank between words, as the shape `mesh`
-/// has the names of materials.
+/// A material's name, which extends to the end of its line, with one blank between words, as in the shape
+/// `mesh`.
 std::string name_from(std::string_view rest);
-/// The name without what may be a comment: "red" of "red # the door".
+/// The name without a possible comment: "red" of "red # the door".
 std::string_view without_comment(std::string_view name);
 /// Up to four finite numbers.
 std::vector<double> numbers_from(std::string_view rest);
 std::string lower(std::string_view word);
 
-/// Calls `visit` for each line that is neither empty nor a comment; a byte order mark is skipped.
+/// Calls `visit` for each line that is neither empty nor a comment; skips a byte order mark.
 template <class Visit>
 void each_statement(std::string_view text, Visit visit) {
     constexpr std::string_view k_mark = "\xef\xbb\xbf";

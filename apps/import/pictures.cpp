@@ -55,7 +55,7 @@ class MemoryFile {
     int descriptor_;
 };
 
-/// The reason without the file's name, which is another one to the user.
+/// The reason without the file's name, because the user knows it by another.
 std::string reason_of(const candela::Error& problem, const fs::path& file) {
     const std::string reason = problem.what();
     const std::string begin = fmt::format("'{}' cannot be read as a picture: ", file.string());
@@ -83,7 +83,7 @@ ReadPicture read_picture(const Picture& picture, candela::Registry& registry) {
                                          candela::possible_formats(registry, candela::FormatUse::read)));
     if (!decoded->is_encoded &&
         !std::ranges::all_of(decoded->values, [](float value) { return std::isfinite(value); }))
-        throw candela::Error(candela::ErrorCategory::failure, "it has a pixel that is not finite");
+        throw candela::Error(candela::ErrorCategory::failure, "it has a non-finite pixel");
     ReadPicture result{.pixels = std::move(*decoded)};
     if (!format.empty() && !candela::are_one_format(format, candela::extension_of(picture.file)))
         result.other_format = format;
@@ -107,7 +107,7 @@ double brightness_of(const candela::DecodedPicture& picture) {
 
 Means means_of(const candela::DecodedPicture& picture) {
     Means means;
-    // Of large pictures some hundred thousand pixels are enough.
+    // A hundred thousand or more pixels are enough for large pictures.
     constexpr std::size_t k_enough = std::size_t{1} << 18;
     const std::size_t all = picture.values.size() / 3, step = all / k_enough | 1;
     const std::size_t pixels = (all + step - 1) / step;

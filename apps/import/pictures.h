@@ -1,5 +1,5 @@
-// Pictures that a model names or contains, before a scene relies on them: whether they can be read, and what
-// their pixels say.
+// Pictures that a model names or contains, before a scene relies on them: whether they can be read, and
+// properties of their pixels.
 #pragma once
 
 #include <array>
@@ -15,34 +15,34 @@ namespace importing {
 /// A picture as a scene will read it.
 struct ReadPicture {
     candela::DecodedPicture pixels;
-    /// The format that its content tells, where its name says another: "jpg"; otherwise empty.
+    /// The format of its content if its name says another: "jpg"; otherwise empty.
     std::string other_format{};
 };
 
-/// Reads a picture, whether it is a file or bytes of one. Throws candela::Error (failure) with the reason if
-/// none can be made of it: no image plugin reads its format, it is empty, it is cut off. A scene that has it
-/// would be refused.
+/// Reads a picture from a file or from its bytes. Throws candela::Error (failure) with the reason if that
+/// fails: no image plugin reads its format, or it is empty or truncated. A scene that uses such a picture
+/// would be rejected.
 ReadPicture read_picture(const Picture& picture, candela::Registry& registry);
 
-/// The mean over the pixels of their largest channel: 0 to 1, linear.
+/// The mean over all pixels of the largest channel: 0 to 1, linear.
 double brightness_of(const candela::DecodedPicture& picture);
 
 /// Means of a picture's channels, 0 to 1.
 struct Means {
-    std::array<double, 3> stored{};  // as they are in the file
-    std::array<double, 3> linear{};  // of intensities
+    std::array<double, 3> stored{};  // as stored in the file
+    std::array<double, 3> linear{};  // of linear intensities
     double opacity = 1;
 };
 
 Means means_of(const candela::DecodedPicture& picture);
 
-/// How opaque a picture is, in at most a few hundred rows and columns.
+/// A picture's opacity, in at most a few hundred rows and columns.
 struct OpacityMap {
     int width = 0, height = 0;
-    std::string bytes{};        // 255: opaque; empty: all of it is
+    std::string bytes{};        // 255: opaque; empty: all opaque
     bool is_clear_cut = false;  // some pixels are opaque, some transparent, and few are neither
 
-    /// Whether all of it is at least `level`; and whether some is, and some is not.
+    /// is_all(): whether all of it is at least `level`. is_cut_by(): whether some of it is, and some is not.
     bool is_all(double level) const;
     bool is_cut_by(double level) const;
     /// As a binary greymap.

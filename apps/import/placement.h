@@ -1,4 +1,4 @@
-// Where something is, and how it is turned and scaled.
+// Positions, rotations and scales.
 #pragma once
 
 #include "import/model.h"
@@ -12,7 +12,7 @@ inline Placement within(const Placement& a, const Placement& b) {
 
 inline double determinant(const Placement& p) { return dot(p.x, cross(p.y, p.z)); }
 
-/// What undoes a placement whose determinant is not zero.
+/// The inverse of a placement whose determinant is not zero.
 inline Placement inverse(const Placement& p) {
     const double factor = 1 / determinant(p);
     const Vector a = factor * cross(p.y, p.z), b = factor * cross(p.z, p.x), c = factor * cross(p.x, p.y);

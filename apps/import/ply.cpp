@@ -1,4 +1,4 @@
-// MeshLab's textures: PLY files have no materials.
+// Textures of PLY files by MeshLab; the format has no materials.
 #include <fmt/format.h>
 
 #include <array>
@@ -21,7 +21,7 @@ namespace importing {
 
 namespace {
 
-/// The names behind "comment TextureFile" in a PLY file's header.
+/// The names after "comment TextureFile" in a PLY file's header.
 std::vector<std::string> texture_names(const fs::path& file) {
     std::vector<std::string> names;
     std::ifstream in(file, std::ios::binary);
@@ -43,17 +43,17 @@ Model read_ply(const Source& source, candela::Registry& registry) {
     const std::vector<std::string> names = texture_names(source.file);
     if (names.empty()) return model;
     const std::string& name = names.front();
-    if (names.size() > 1) model.note(fmt::format("of its {} textures the first is shown", names.size()));
+    if (names.size() > 1) model.note(fmt::format("only the first of its {} textures is shown", names.size()));
     const auto found = find_named(source.file.parent_path(), name);
     if (!found) {
-        model.note(fmt::format("there is no texture '{}', which it names", name));
+        model.note(fmt::format("its texture '{}' does not exist", name));
         return model;
     }
     const fs::path& picture = found->path;
     if (!source.may_read(picture)) {
         model.note(fmt::format("the texture '{}' is outside the model's folder{}", name, k_outside_remedy));
     } else if (!is_readable_picture(picture, registry)) {
-        model.note(fmt::format("the texture '{}' is of a format that no image plugin reads{}", name,
+        model.note(fmt::format("no image plugin reads the format of the texture '{}'{}", name,
                                candela::possible_formats(registry, candela::FormatUse::read)));
     } else {
         part.material = 0;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int k_height = 600;
 
-/// In six digits, and where these are off by more than `tolerance`, in as many as single precision has.
+/// In six digits, or in all digits of single precision if those are off by more than `tolerance`.
 std::string real(double x, double tolerance = std::numeric_limits<double>::infinity()) {
     std::string text = fmt::format("{:.6g}", x == 0 ? 0.0 : x);
     double six = 0;
@@ -29,7 +29,7 @@ std::string real(double x, double tolerance = std::numeric_limits<double>::infin
 }
 std::string color(const Vector& v) { return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v[0], v[1], v[2]); }
 
-/// A vector that is close to zero in some direction is so.
+/// Rounds components close to zero to zero.
 Vector direction(Vector v) {
     for (double& x : v) x = std::round(x * 1e5) / 1e5;
     return v;
@@ -40,7 +40,7 @@ class Writer {
     Writer(const Model& model, const Setting& setting) : model_(model), setting_(setting) {}
 
     std::string write() {
-        text_ = fmt::format("# {}, as candela import made it.\n", candela::printable(setting_.file));
+        text_ = fmt::format("# {}, imported by candela import.\n", candela::printable(setting_.file));
         for (const std::string& note : model_.notes)
             text_ += fmt::format("# Note: {}.\n", candela::printable(note));
         text_ += "version = 1\n";
@@ -103,7 +103,7 @@ class Writer {
         end();
     }
 
-    /// As the file has it, if it has one that no other has.
+    /// The name in the file if it is unique; otherwise with a number.
     std::string add_name(std::string name) {
         if (name.empty()) return {};
         std::string unique = name;
@@ -123,7 +123,7 @@ class Writer {
             write_tracks(path_of("object", object_names_, i), model_.parts[i].tracks);
     }
 
-    /// By its name, where that is one word that needs no quotes and is no number.
+    /// Its name if that is a single word that needs no quotes and is not a number.
     static std::string path_of(const char* kind, const std::vector<std::string>& names, std::size_t index) {
         const std::string& name = names[index];
         const auto is_letter = [](char c) {
@@ -194,7 +194,7 @@ class Writer {
             if (material->clamps) add("cutout_clamps", "true");
         }
         if (model_.is_z_up) add("rotation", "[-90.0, 0.0, 0.0]");
-        // Seen from both sides, and on purpose.
+        // Intentionally visible from both sides.
         if (model_.parts.size() > 1 || !setting_.is_closed || !model_.lights.empty() ||
             part.sides == Sides::both || setting_.frames > 0)
             add("encloses", "true");

@@ -9,11 +9,11 @@
 
 namespace importing {
 
-/// What a scene needs beside the model itself.
+/// The data that a scene needs in addition to the model itself.
 struct Setting {
-    std::string file;                   // the model's, as the scene names it
-    std::vector<std::string> pictures;  // likewise, of Model::pictures
-    std::vector<std::string> cutouts;   // likewise, of Model::cutouts
+    std::string file;                   // the model's file, as named in the scene
+    std::vector<std::string> pictures;  // names of Model::pictures in the scene
+    std::vector<std::string> cutouts;   // names of Model::cutouts in the scene
     Camera camera;
     Vector look_at{};
     Vector room{};  // width, height, depth
@@ -21,14 +21,14 @@ struct Setting {
     bool has_vertex_colors = false;
     bool is_textured = false;  // it has texture coordinates
     bool is_closed = false;
-    std::string origin{};  // of the mesh, in the file's coordinates; empty: its own
+    std::string origin{};  // of the mesh, in the file's coordinates; empty: unchanged
     bool allows_outside = false;
-    double tolerance = 0;  // of places
+    double tolerance = 0;  // of positions
     int frames = 0;        // 0: nothing moves
 };
 
-/// A vector as the scene has it: in six digits, and where these are off by more than `tolerance`, in as many
-/// as single precision has.
+/// A vector in a scene's notation: in six digits, or in all digits of single precision if those are off by
+/// more than `tolerance`.
 std::string vector_text(const Vector& v, double tolerance = std::numeric_limits<double>::infinity());
 
 std::string scene_text(const Model& model, const Setting& setting);

@@ -1,4 +1,4 @@
-// Vectors of double precision, as models' files have them.
+// Vectors in double precision, for the coordinates of models.
 #pragma once
 
 #include <cmath>
