@@ -7,7 +7,7 @@ namespace view {
 
 namespace {
 
-/// The value of `id="..."` in a tag; empty where it has none.
+/// The value of `id="..."` in a tag; empty if it has none.
 std::string_view id_in(std::string_view tag) {
     constexpr std::string_view k_name = " id=\"";
     const std::size_t name = tag.find(k_name);

@@ -1,4 +1,4 @@
-// A page as a target has written it, and what its script elements hold.
+// A page written by a target, and the contents of its script elements.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace view {
 
-/// Immutable, so that any thread may read it.
+/// Immutable, so any thread may read it.
 class Page {
   public:
     explicit Page(std::string html);
@@ -18,8 +18,8 @@ class Page {
     Page& operator=(const Page&) = delete;
 
     const std::string& html() const noexcept { return html_; }
-    /// The text of the script element of that id. A page that is open asks for it when the scene is another
-    /// one, instead of for everything.
+    /// The text of the script element with that id. When the scene changes, an open page requests such parts
+    /// instead of everything.
     std::optional<std::string_view> part(std::string_view id) const;
 
   private:

@@ -1,4 +1,4 @@
-// What a server shows.
+// The state shown by a server.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace view {
 
-/// A state of the scene as browsers get it. Immutable once published.
+/// A state of the scene as sent to browsers. Immutable once published.
 struct Publication {
-    std::uint64_t generation = 0;      // of the page: 0 until there has been one
-    std::shared_ptr<const Page> page;  // null until there has been one
-    std::string problems;              // what is wrong with the scene as it is now, as a person reads it
+    std::uint64_t generation = 0;      // of the page; 0 before the first one
+    std::shared_ptr<const Page> page;  // null before the first one
+    std::string problems;              // the current errors of the scene, as text
 };
 
 }  // namespace view

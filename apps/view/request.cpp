@@ -13,7 +13,7 @@ namespace view {
 
 namespace {
 
-/// In a time that says nothing about how much of it is right.
+/// In constant time, so that the time reveals nothing about the characters.
 bool are_equal(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;
     unsigned difference = 0;
@@ -22,7 +22,7 @@ bool are_equal(std::string_view a, std::string_view b) {
     return difference == 0;
 }
 
-/// Else a name that somebody has pointed at 127.0.0.1 would do (DNS rebinding).
+/// Otherwise an attacker could use a name that resolves to 127.0.0.1 (DNS rebinding).
 bool is_own_host(std::string_view host, std::uint16_t port) {
     return host == fmt::format("127.0.0.1:{}", port) || host == fmt::format("localhost:{}", port);
 }
@@ -32,7 +32,7 @@ bool is_own_origin(std::string_view origin, std::uint16_t port) {
     return origin.starts_with(k_scheme) && is_own_host(origin.substr(k_scheme.size()), port);
 }
 
-/// As forms encode it, without "+" for a blank.
+/// Decodes the encoding of forms, without "+" for a blank.
 std::optional<std::string> decoded(std::string_view text) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {

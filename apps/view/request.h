@@ -1,5 +1,5 @@
-// Which requests are answered. A page of any web site can make a browser send requests to this machine, so
-// the address has a token that none of them knows, and they say where they come from.
+// Decides which requests are answered. A page of any web site can make a browser send requests to this
+// machine. Our address therefore has a token that no other site knows, and requests must state their origin.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace view {
 
 struct Request {
     std::string_view method;
-    std::string_view target;  // as it was sent, "/token/events?x"
-    std::string_view host;    // the header fields; empty where there is none
+    std::string_view target;  // as sent, "/token/events?x"
+    std::string_view host;    // the header fields; empty if absent
     std::string_view origin;
 };
 
@@ -23,45 +23,45 @@ enum class Resource {
     events,
     reference,
     explanation,  // of one pixel
-    save,         // changes something, so browsers must say that it is this page that asks
-    keep,         // likewise: an edited formula, which is the request's body, as a plugin's project
+    save,         // changes something, so it must come from this page
+    keep,         // like save: writes an edited formula, the request's body, to a plugin project
 };
 
-/// What to do about a request.
+/// How to answer a request.
 struct Route {
-    unsigned status = 404;  // as HTTP has it; 200: `resource` is the answer
+    unsigned status = 404;  // HTTP status; 200: `resource` is the answer
     Resource resource = Resource::none;
-    std::string query = {};  // behind the target's "?"
+    std::string query = {};  // after the target's "?"
 };
 
-/// A name that nobody guesses: 128 random bits in hexadecimal digits.
+/// An unguessable name: 128 random bits in hexadecimal digits.
 std::string random_token();
 
-/// What somebody has changed in the page, as the command line of `candela render` has it; or which pixel is
-/// to be explained, which term of the picture to be shown, or what formula to be kept.
+/// A change made in the page, in terms of the command line of `candela render`; or the pixel to explain, the
+/// term of the picture to show, or the formula to keep.
 struct Change {
     std::string option;  // "--set", "--shading", "--reflection", "--pixel", "--terms", "--model" or "--name"
     std::string value;
 };
 
-/// The changes that a query says ("set=observer.fov%3D20&shading=flat"); nothing where it is not that. A
-/// query for an explanation also has a pixel ("pixel=320%2C240"), exactly one; one for a picture may have a
-/// term ("terms=diffuse"). One to keep something has a model and a name, and nothing else. Any thread.
+/// The changes in a query ("set=observer.fov%3D20&shading=flat"); nothing if it is malformed. A query for an
+/// explanation also has exactly one pixel ("pixel=320%2C240"); one for a picture may have a term
+/// ("terms=diffuse"). A query to keep a formula has a model and a name, and nothing else. Any thread.
 std::optional<std::vector<Change>> changes_of(std::string_view query, Resource resource);
 
-/// Which state of the page a query asks for, and which parts of it: "live=7&part=scene&part=array-1f". None:
-/// all of it.
+/// The page's state in a query, and the requested parts: "live=7&part=scene&part=array-1f". No parts: the
+/// whole page.
 struct PageQuery {
-    std::string_view state;  // "live=7"; whatever comes before the first part
+    std::string_view state;  // "live=7"; everything before the first part
     std::vector<std::string_view> parts;
 };
-/// Any thread. What it returns points into `query`.
+/// Any thread. The result points into `query`.
 PageQuery page_query(std::string_view query);
 
-/// Whether a request for it changes something, and so has to be a POST of the page itself.
+/// Whether a request for it changes something, and so must be a POST from the page itself.
 bool changes_something(Resource resource);
 
-/// Any bytes may be in a request. Any thread.
+/// Requests may contain any bytes. Any thread.
 Route route_of(const Request& request, std::string_view token, std::uint16_t port);
 
 }  // namespace view

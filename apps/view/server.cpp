@@ -51,9 +51,9 @@ namespace {
 
 constexpr std::size_t k_most_connections = 64;
 constexpr std::size_t k_longest_header = 8192;  // bytes
-constexpr std::size_t k_longest_body = 65536;   // likewise: of a kernel's text
+constexpr std::size_t k_longest_body = 65536;   // bytes of a kernel's text
 constexpr std::size_t k_most_refusals_logged = 10;
-constexpr int k_most_waiting = 8;  // for a picture or a file
+constexpr int k_most_waiting = 8;  // requests for a picture or a file
 constexpr seconds k_longest_request{10};
 constexpr seconds k_longest_answer{60};
 constexpr seconds k_heartbeat{15};  // between signs of life to browsers that wait for events
@@ -61,20 +61,19 @@ constexpr seconds k_heartbeat{15};  // between signs of life to browsers that wa
 std::string_view reason_of(unsigned status) {
     switch (status) {
         case 400:
-            return "This is not a request for this server.\n";
+            return "Bad request.\n";
         case 403:
-            return "Requests for other hosts, or from other sites, are not answered.\n";
+            return "Forbidden: requests for other hosts or from other sites are not answered.\n";
         case 503:
-            return "Too much is asked for at once.\n";
+            return "Too many requests at once.\n";
         case 405:
-            return "This is not what can be done with this address.\n";
+            return "Method not allowed.\n";
         default:
-            return "There is nothing here. The address that candela view has printed is complete only with "
-                   "its token.\n";
+            return "Not found. Use the complete address printed by candela view, including its token.\n";
     }
 }
 
-/// As browsers read events (the HTML standard, "Server-sent events").
+/// Formats an event for browsers (the HTML standard, "Server-sent events").
 std::string event_text(std::string_view name, std::string_view data) {
     return fmt::format("event: {}\ndata: {}\n\n", name, data);
 }
@@ -85,11 +84,11 @@ std::string events_of(const Publication& state) {
            event_text("problems", json_text(problems));
 }
 
-/// Programs that are started while a socket is open would keep it, and its port, after this one has closed
-/// it.
+/// Programs started while a socket is open would otherwise inherit it, and keep its port after this process
+/// has closed it.
 void keep_to_this_process(int socket) { ::fcntl(socket, F_SETFD, FD_CLOEXEC); }
 
-/// Those that end a program, to be read; but what the caller ignores (nohup) stays ignored.
+/// A descriptor that reads the signals that end a program, except those that the caller ignores (nohup).
 int ending_signals() {
     sigset_t signals;
     ::sigemptyset(&signals);
@@ -101,7 +100,7 @@ int ending_signals() {
     const int descriptor = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
     if (descriptor < 0) {
         throw candela::Error(candela::ErrorCategory::failure,
-                             fmt::format("signals cannot be waited for: {}", std::strerror(errno)));
+                             fmt::format("cannot wait for signals: {}", std::strerror(errno)));
     }
     return descriptor;
 }
@@ -127,7 +126,7 @@ class Server::Implementation {
     void enter(Connection& connection) { connections_.push_back(&connection); }
     void leave(Connection& connection) { std::erase(connections_, &connection); }
     void refused(unsigned status);
-    /// False if too many wait for one.
+    /// False if too many requests are waiting.
     bool work(Resource resource, std::vector<Change> changes, std::string body, std::stop_token unwanted,
               std::function<void(Outcome)> answer);
 
@@ -141,7 +140,7 @@ class Server::Implementation {
     std::string token_ = random_token();
     Publication state_;
     std::vector<Connection*> connections_;  // the oldest first
-    // Its end is that of the connections, which use all of the above.
+    // Destroyed first: it ends the connections, which use all of the above.
     asio::io_context context_{1};
     asio::steady_timer pause_{context_};
     tcp::acceptor acceptor_{context_};
@@ -151,7 +150,7 @@ class Server::Implementation {
     asio::thread_pool worker_{1};
 };
 
-/// A browser's: one request and its answer, or events until either side ends.
+/// A browser's connection: one request and its answer, or events until either side ends.
 class Server::Implementation::Connection : public std::enable_shared_from_this<Connection> {
   public:
     Connection(tcp::socket socket, Implementation& server)
@@ -180,7 +179,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
         stream_.close();
     }
 
-    /// Sends what the server's state is now, unless an older one is on its way: then after it.
+    /// Sends the server's current state; if an older one is being sent, then after it.
     void send_events() {
         if (!has_events_) return;
         if (is_writing_) {
@@ -232,7 +231,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
         return answer;
     }
 
-    /// The address says which generation the page is of, so that the page knows which events are news to it.
+    /// The address contains the page's generation, so that the page knows which events are new to it.
     Response page(const std::string& query) const {
         const Publication& state = server_.state();
         const PageQuery wanted = page_query(query);
@@ -250,7 +249,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
         return answer;
     }
 
-    /// A line for each.
+    /// One line for each part.
     Response parts(const std::vector<std::string_view>& ids) const {
         Response answer = response(http::status::ok);
         for (const std::string_view id : ids) {
@@ -283,7 +282,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
         notice_leaving();
     }
 
-    /// Nobody reads the answer to a browser that has left.
+    /// Notices that the browser has left, so that nobody reads the answer.
     void notice_leaving() {
         stream_.socket().async_wait(tcp::socket::wait_read, [self = shared_from_this()](error_code problem) {
             if (problem) return;
@@ -330,7 +329,7 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
                           });
     }
 
-    /// A browser that has gone away is noticed when something is written to it.
+    /// Writes to a browser, to notice when it has gone away.
     void beat() {
         heartbeat_.expires_after(k_heartbeat);
         heartbeat_.async_wait([self = shared_from_this()](error_code problem) {
@@ -346,12 +345,12 @@ class Server::Implementation::Connection : public std::enable_shared_from_this<C
     beast::flat_buffer buffer_{2 * k_longest_header};
     http::request_parser<http::string_body> parser_;
     Response response_;
-    std::string text_;  // being written
+    std::string text_;  // currently being written
     std::stop_source unwanted_;
     bool has_asked_ = false;
     bool has_events_ = false;
     bool is_writing_ = false;
-    bool is_outdated_ = false;  // what is being written
+    bool is_outdated_ = false;  // the state being written
 };
 
 Server::Implementation::Implementation(std::uint16_t port, Handlers handlers)
@@ -367,9 +366,9 @@ Server::Implementation::Implementation(std::uint16_t port, Handlers handlers)
     } catch (const boost::system::system_error& problem) {
         throw candela::Error(
             candela::ErrorCategory::failure,
-            fmt::format("port {} of 127.0.0.1 cannot be listened on: {}", port, problem.code().message()));
+            fmt::format("cannot listen on port {} of 127.0.0.1: {}", port, problem.code().message()));
     }
-    // All that have come: else they would come once more when they are no longer blocked.
+    // All pending signals: otherwise they would be delivered again once they are unblocked.
     signals_.async_read_some(asio::buffer(received_), [this](error_code problem, std::size_t) {
         if (!problem) stop();
     });
@@ -384,7 +383,7 @@ void Server::Implementation::accept() {
             std::make_shared<Connection>(std::move(socket), *this)->start();
             return accept();
         }
-        // No more descriptors, perhaps: others wait in the system's queue.
+        // Perhaps out of descriptors: others wait in the system's queue.
         pause_.expires_after(std::chrono::milliseconds(100));
         pause_.async_wait([this](error_code ended) {
             if (!ended) accept();
@@ -412,8 +411,7 @@ bool Server::Implementation::work(Resource resource, std::vector<Change> changes
     return true;
 }
 
-/// Whoever has been connected longest without asking anything is the first to go, then whoever has been
-/// longest at all.
+/// Closes the oldest connection that has not sent a request, otherwise the oldest one.
 void Server::Implementation::make_room() {
     if (connections_.size() < k_most_connections) return;
     const auto silent =
@@ -424,9 +422,10 @@ void Server::Implementation::make_room() {
 void Server::Implementation::refused(unsigned status) {
     ++refused_;
     if (refused_ > k_most_refusals_logged) return;
-    handlers_.log(fmt::format("a request was refused ({} {}){}", status,
-                              std::string(http::obsolete_reason(static_cast<http::status>(status))),
-                              refused_ == k_most_refusals_logged ? "; others will not be mentioned" : ""));
+    handlers_.log(
+        fmt::format("refused a request ({} {}){}", status,
+                    std::string(http::obsolete_reason(static_cast<http::status>(status))),
+                    refused_ == k_most_refusals_logged ? "; no more refusals will be reported" : ""));
 }
 
 void Server::Implementation::publish(Publication publication) {

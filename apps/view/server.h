@@ -1,4 +1,4 @@
-// Serves a scene's page to browsers on this machine, and tells them what changes.
+// Serves a scene's page to browsers on this machine, and notifies them of changes.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,30 @@
 
 namespace view {
 
-/// What becomes of somebody's changes: the bytes of a PNG file, an explanation as JSON, nothing where they
-/// are saved, or what has been made of a formula; or what is wrong.
+/// The result of a request for changes: the bytes of a PNG file, an explanation as JSON, an empty text if the
+/// changes were saved, or a message about a saved formula; or an error.
 struct Outcome {
     bool is_success = false;
     std::string content;
 };
 
-/// Listens on 127.0.0.1 and nowhere else. A request is answered only if it knows the address' token and does
-/// not come from another site; there are limits on its size, its time and how many there are at once.
-/// Browsers that are slow are told the newest state, not all of them, and hold up nobody.
+/// Listens only on 127.0.0.1. Answers a request only if its address has the token and it does not come from
+/// another site; limits the size, the time and the number of requests. Slow browsers receive only the newest
+/// state and delay nobody.
 class Server {
   public:
     struct Handlers {
-        std::function<void(const std::string&)> log;  // what is refused; on the thread that calls run()
-        // On a thread of their own, one call at a time.
-        // `unwanted` is told when whoever has asked for the picture has left.
+        std::function<void(const std::string&)> log;  // refused requests; called on the thread of run()
+        // These run on a thread of their own, one call at a time.
+        // `unwanted` is requested to stop when the browser that wants the picture has left.
         std::function<Outcome(const std::vector<Change>&, std::stop_token unwanted)> render;
         std::function<Outcome(const std::vector<Change>&)> explain;
         std::function<Outcome(const std::vector<Change>&)> save;
         std::function<Outcome(const std::vector<Change>&, const std::string& kernel)> keep;
     };
 
-    /// Port 0: one that is free. Throws candela::Error (failure) where it cannot be listened on. SIGINT,
-    /// SIGTERM and SIGHUP are to be blocked in all threads until run() returns.
+    /// Port 0 selects a free port. Throws candela::Error (failure) if it cannot listen. SIGINT, SIGTERM and
+    /// SIGHUP must be blocked in all threads until run() returns.
     Server(std::uint16_t port, Handlers handlers);
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

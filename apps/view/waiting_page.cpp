@@ -33,7 +33,7 @@ events.addEventListener("problems", (event) => {
     shown.textContent = text;
     shown.hidden = text === "";
     document.getElementById("why").textContent = text === "" ? "The scene is being read."
-        : "The scene has errors. Mend them and save it: this page will show it.";
+        : "The scene has errors. Fix them and save the file; this page will then show the scene.";
 });
 </script>
 </body>

@@ -1,11 +1,11 @@
-// What a browser shows of a scene that has not been right yet.
+// The page shown before a scene has become valid for the first time.
 #pragma once
 
 #include <string_view>
 
 namespace view {
 
-/// HTML. It shows what is wrong and becomes the scene's page as soon as there is one.
+/// HTML. Shows the errors, and reloads as the scene's page as soon as that exists.
 std::string_view waiting_page();
 
 }  // namespace view

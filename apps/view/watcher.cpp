@@ -22,15 +22,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int k_quiet_ms = 4;     // a program that saves several files writes the next within that
-constexpr int k_most_quiet = 50;  // such moments; then a change is a change even if others follow
-// Not IN_CREATE: what has just been made is empty, and closing it is an event of its own.
+constexpr int k_quiet_ms = 4;     // a program that saves several files writes the next one within this time
+constexpr int k_most_quiet = 50;  // intervals; then report a change even if others follow
+// Not IN_CREATE: a newly created file is empty, and closing it is an event of its own.
 constexpr std::uint32_t k_changes = IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_ONLYDIR;
 
 int valid(int descriptor) {
     if (descriptor >= 0) return descriptor;
     throw candela::Error(candela::ErrorCategory::failure,
-                         fmt::format("files cannot be watched: {}", std::strerror(errno)));
+                         fmt::format("cannot watch files: {}", std::strerror(errno)));
 }
 
 }  // namespace
@@ -47,19 +47,19 @@ void Watcher::add(const fs::path& folder, const std::string& name) {
         names_[watch].insert(name);
     } else if (errno == ENOSPC || errno == ENOMEM) {
         throw candela::Error(candela::ErrorCategory::failure,
-                             fmt::format("'{}' cannot be watched: {}", folder.string(),
-                                         errno == ENOSPC ? "the system watches as much as it is allowed to "
+                             fmt::format("cannot watch '{}': {}", folder.string(),
+                                         errno == ENOSPC ? "the system's limit is reached "
                                                            "(fs.inotify.max_user_watches)"
                                                          : std::strerror(errno)));
     }
-    // What is not there cannot change.
+    // A missing folder cannot change.
 }
 
 void Watcher::watch(const std::vector<fs::path>& files, const std::vector<fs::path>& folders) {
     const std::map<int, std::set<std::string>> before = std::exchange(names_, {});
     for (const fs::path& file : files) {
         add(file.parent_path(), file.filename().string());
-        // A link and what it leads to can both be replaced.
+        // Both a link and its target can be replaced.
         std::error_code problem;
         const fs::path target = fs::canonical(file, problem);
         if (!problem && target != file) add(target.parent_path(), target.filename().string());

@@ -1,4 +1,4 @@
-// Notices that files change, by the kernel's word (inotify).
+// Notices changes of files through the kernel (inotify).
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@
 
 namespace view {
 
-/// A file descriptor that is closed with this.
+/// RAII owner of a file descriptor.
 class Descriptor {
   public:
     explicit Descriptor(int number) : number_(number) {}
@@ -24,28 +24,27 @@ class Descriptor {
     int number_;
 };
 
-/// Watches folders, since editors replace files instead of writing to them. stop() is for any thread, all
-/// else for one.
+/// Watches folders, because editors replace files instead of writing to them. stop() may be called on any
+/// thread, everything else only on one.
 class Watcher {
   public:
-    /// Throws candela::Error (failure) where the system allows no more of them.
+    /// Throws candela::Error (failure) if the system allows no more watchers.
     Watcher();
 
-    /// From now on, these files, whether they are there or not, and everything in these folders. What has
-    /// changed since the last wait() is not lost.
+    /// Watches these files, whether they exist or not, and everything in these folders. Changes since the
+    /// last wait() are not lost.
     void watch(const std::vector<std::filesystem::path>& files,
                const std::vector<std::filesystem::path>& folders);
 
-    /// Waits until something watched has changed and for a moment has not changed any more. False after
-    /// stop().
+    /// Waits until something watched has changed and then stayed unchanged for a moment. False after stop().
     bool wait();
-    /// Whether nothing at all happens for so long.
+    /// Whether nothing at all happens during `time`.
     bool is_quiet_for(std::chrono::milliseconds time) const;
     void stop() noexcept;
 
   private:
     void add(const std::filesystem::path& folder, const std::string& name);
-    /// Whether there was something watched among the events that have come.
+    /// Reads the pending events; returns whether something watched was among them.
     bool read_events();
 
     Descriptor events_, stop_;
