@@ -8,8 +8,8 @@ namespace {
 
 constexpr py::ssize_t k_float = sizeof(float);
 
-/// Fetches the rows of the next batch, as many of those that are `left` as this one has, to be in the cache
-/// when the model has done with this one.
+/// Prefetches the rows of the next batch, as many of the `left` rows as this batch has, so that they are in
+/// the cache when the model has finished this one.
 template <bool is_written>
 void prefetch(const float* rows, std::size_t count, std::size_t left) noexcept {
     constexpr std::size_t k_line = 64 / sizeof(float);
@@ -17,7 +17,7 @@ void prefetch(const float* rows, std::size_t count, std::size_t left) noexcept {
         __builtin_prefetch(rows + i, is_written);
 }
 
-/// Rows, the vectors of a C-ordered array, into channels.
+/// Splits rows, the vectors of a C-ordered array, into channels.
 struct TakeApartLoop {
     CANDELA_BATCH_LOOP static void run(const float* rows, std::size_t count, Vec3Span to) {
         CANDELA_VECTORIZE
@@ -29,7 +29,7 @@ struct TakeApartLoop {
     }
 };
 
-/// The reverse, of the sums of terms.
+/// The reverse, for the sums of terms.
 struct PutTogetherLoop {
     template <class... Terms>
     CANDELA_BATCH_LOOP static void run(std::size_t count, float* rows, Terms... terms) {
@@ -54,7 +54,7 @@ struct AddLoop {
 Vectors::Vectors(const Floats& array, const char* name)
     : data_(reinterpret_cast<const char*>(array.data())), count_(0), step_(0), channel_(0) {
     if (array.ndim() != 2 || array.shape(1) != 3)
-        throw py::value_error(fmt::format("{} has to have the shape (N, 3)", name));
+        throw py::value_error(fmt::format("{} must have the shape (N, 3)", name));
     count_ = static_cast<std::size_t>(array.shape(0));
     step_ = array.strides(0);
     channel_ = array.strides(1);

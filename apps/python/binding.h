@@ -1,5 +1,5 @@
-// pybind11, and whatever else is included here, before anything is imported: clang 19 takes a template of the
-// standard library that it reads after an import for another one than the module's.
+// Include pybind11 and all other headers before importing anything: clang 19 treats a standard library
+// template that it reads after an import as different from the module's.
 #pragma once
 
 #include <fmt/format.h>

@@ -10,9 +10,9 @@ namespace {
 std::string after_message(const Help& help) {
     switch (help.topic) {
         case Help::Topic::all_plugins:
-            return "; candela.models() has all";
+            return "; candela.models() lists all";
         case Help::Topic::plugin_conformance:
-            return "; the command 'candela plugin test' tells more";
+            return "; the command 'candela plugin test' shows details";
         default:
             return {};
     }
@@ -40,7 +40,7 @@ std::string text_of(const Diagnostics& diagnostics) {
     return text;
 }
 
-/// An exception of the package's own, with what was found.
+/// Raises an exception of the package's own, with its diagnostics.
 void raise(const char* type, const std::string& message, const std::vector<Problem>& problems) {
     const py::object exception = py::module_::import("candela.errors").attr(type)(message, problems);
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
@@ -82,7 +82,7 @@ std::string python_message(const Error& error) {
 }
 
 void add_errors(py::module_& module) {
-    py::class_<Problem>(module, "Problem", "What was found, and where; candela.Diagnostic is made of it.")
+    py::class_<Problem>(module, "Problem", "A problem and its position; the source of candela.Diagnostic.")
         .def_readonly("severity", &Problem::severity)
         .def_readonly("file", &Problem::file)
         .def_readonly("line", &Problem::line)

@@ -1,4 +1,4 @@
-// The core's errors as exceptions of Python.
+// Converts the core's errors to Python exceptions.
 #pragma once
 
 #include "binding.h"
@@ -16,7 +16,7 @@ struct Problem {
 
 std::vector<Problem> problems_of(const Diagnostics& diagnostics);
 
-/// Something is wrong with what Python has said: a scene, or the values of a model.
+/// Input from Python is invalid: a scene, or the values of a model.
 class InvalidInput : public std::runtime_error {
   public:
     enum class What { scene, request };
@@ -29,7 +29,7 @@ class InvalidInput : public std::runtime_error {
     std::vector<Problem> problems_;
 };
 
-/// For somebody who writes Python.
+/// The message for Python users.
 std::string python_message(const Error& error);
 
 }  // namespace candela::python

@@ -1,4 +1,4 @@
-// What a pixel gets its colour from, and what a picture is the sum of.
+// Explains pixels, and provides the terms of a picture.
 #include "binding.h"
 
 #include "explanation/explanation.h"
@@ -11,18 +11,18 @@ namespace candela::python {
 
 namespace {
 
-/// Explains pixels of a scene, whose kernels it compiles once. Any thread, one pixel at a time.
+/// Explains pixels of a scene and compiles its kernels once. Any thread, one pixel at a time.
 class SceneExplainer {
   public:
     explicit SceneExplainer(ScenePointer scene)
         : scene_(std::move(scene)),
           kernels_(plugins_explained_in(scene_->scene(), scene_->registry()->registry()), {}) {}
 
-    /// As JSON, and for a person.
+    /// As JSON, and as text.
     std::pair<std::string, std::string> explain(int x, int y) {
         const ImageSettings& image = scene_->compiled().image;
         if (x < 0 || y < 0 || x >= image.width || y >= image.height)
-            throw py::index_error(fmt::format("the pixel is {}, {}; the picture's are 0, 0 to {}, {}", x, y,
+            throw py::index_error(fmt::format("the pixel is {}, {}; expected 0, 0 to {}, {}", x, y,
                                               image.width - 1, image.height - 1));
         const std::lock_guard lock(mutex_);
         const Explanation explanation(scene_->scene(), scene_->compiled(), scene_->registry()->registry(), x,
@@ -36,7 +36,7 @@ class SceneExplainer {
     KernelRunner kernels_;
 };
 
-/// The named terms, or all there are.
+/// The named terms, or all of them.
 py::dict terms_of(const ReadScene& scene, const std::vector<std::string>& names) {
     std::vector<NamedTerm> terms;
     std::vector<Film> films;

@@ -58,7 +58,7 @@ ColorEncoding encoding_named(const std::string& name) {
     if (name == "srgb") return ColorEncoding::srgb;
     if (name == "none") return ColorEncoding::none;
     throw Error(ErrorCategory::bad_request,
-                fmt::format("color_management is '{}'; it is 'srgb' or 'none'", name));
+                fmt::format("color_management is '{}'; expected 'srgb' or 'none'", name));
 }
 
 }  // namespace candela::python

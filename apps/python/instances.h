@@ -1,4 +1,4 @@
-// Models with values, made by Python.
+// Models with values, made from Python.
 #pragma once
 
 #include "binding.h"
@@ -10,18 +10,18 @@ import candela.registry;
 
 namespace candela::python {
 
-/// A model's values: `given`, by parameter, and its defaults. Throws InvalidInput, with all that is wrong, as
-/// a scene has it.
+/// A model's values: `given`, by parameter, and its defaults. Throws InvalidInput with all errors, as a scene
+/// does.
 ParamSet values_from(SharedRegistry& registry, PluginKind kind, const std::string& name,
                      const py::dict& given);
 
-/// By parameter.
+/// A dictionary by parameter.
 py::dict dictionary_of(const ParamSet& values);
 
 /// "srgb", "none". Throws Error (bad_request).
 ColorEncoding encoding_named(const std::string& name);
 
-/// One instance of a model, and where it comes from. Immutable; any thread.
+/// One instance of a model, and its origin. Immutable; any thread.
 template <class Interface>
 class ModelInstance {
   public:
@@ -39,7 +39,7 @@ class ModelInstance {
     py::dict values() const { return dictionary_of(values_); }
     const Interface& instance() const noexcept { return *instance_; }
 
-    /// Calls it; what a plugin throws becomes an Error that names it.
+    /// Calls it; exceptions of a plugin become an Error with its name.
     template <class Call>
     void guarded(const Call& call) const {
         try {
@@ -50,7 +50,7 @@ class ModelInstance {
     }
 
   private:
-    RegistryPointer registry_;  // outlives what its plugins have made
+    RegistryPointer registry_;  // outlives the objects made by its plugins
     std::string name_;
     ParamSet values_;
     std::unique_ptr<Interface> instance_;

@@ -1,4 +1,4 @@
-// Plugins that are compiled on the spot.
+// Compiles plugins at run time.
 #include "binding.h"
 
 #include "candela/kernel_language/language.h"
@@ -27,7 +27,7 @@ std::vector<std::string> options_for(const std::string& name, const fs::path& fo
         "-fvisibility=hidden",
         "-fno-math-errno",
         "-fno-trapping-math",
-        "-fwrapv",  // no kernel's integers leave anything open
+        "-fwrapv",  // defines integer overflow in kernels
         "-fstack-clash-protection",
 #ifdef __x86_64__
         "-mprefer-vector-width=512",
@@ -47,7 +47,7 @@ std::vector<std::string> options_for(const std::string& name, const fs::path& fo
     return options;
 }
 
-/// A compiler's message about a file of a folder that nobody knows of.
+/// Removes the temporary folder, which users do not know, from a compiler's message.
 std::string without(const fs::path& folder, std::string message) {
     const std::string path = folder.string() + "/";
     for (std::size_t at = message.find(path); at != std::string::npos; at = message.find(path, at))
@@ -55,13 +55,13 @@ std::string without(const fs::path& folder, std::string message) {
     return message;
 }
 
-/// Compiles <folder>/<name>.cpp, with <folder>/plugin.map for what it exports, to a plugin in that folder,
-/// and writes its manifest.
+/// Compiles <folder>/<name>.cpp to a plugin in that folder, with the exports in <folder>/plugin.map, and
+/// writes its manifest.
 void compile_plugin(const std::string& name, const fs::path& folder) {
     const auto compiler = cxx_compiler();
     if (!compiler)
         throw Error(ErrorCategory::failure,
-                    "a kernel needs a C++ compiler, and there is none here (packages g++ or clang)");
+                    "a kernel needs a C++ compiler, and none is installed (packages g++ or clang)");
     std::error_code problem;
     if (!fs::exists(kernel_headers() / "candela/reflection_plugin.h", problem))
         throw Error(ErrorCategory::failure,
@@ -69,7 +69,7 @@ void compile_plugin(const std::string& name, const fs::path& folder) {
     const ProgramOutput compiled = run_kernel_compiler(*compiler, options_for(name, folder), folder);
     if (compiled.exit_code != 0) {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("{} does not compile the kernel: {}", compiler->filename().string(),
+                    fmt::format("{} could not compile the kernel: {}", compiler->filename().string(),
                                 without(folder, first_error(compiled.err))));
     }
     const fs::path library = folder / fmt::format("reflection-{}.so", name);
@@ -79,7 +79,7 @@ void compile_plugin(const std::string& name, const fs::path& folder) {
     file.finish();
 }
 
-/// A kernel as the C++ that is compiled of it; Error where it is not in the kernel language.
+/// Translates a kernel to C++; throws Error if it is not in the kernel language.
 std::string kernel_as_cpp(const std::string& source, const std::string& file) {
     try {
         return kernel_language::emitted(kernel_language::read_kernel({file, source}),
@@ -93,9 +93,9 @@ std::string kernel_as_cpp(const std::string& source, const std::string& file) {
 
 void add_kernel(py::module_& module) {
     module.def("compile_plugin", &compile_plugin, py::arg("name"), py::arg("folder"),
-               py::call_guard<py::gil_scoped_release>(), "Makes a plugin of what is in a folder.");
+               py::call_guard<py::gil_scoped_release>(), "Makes a plugin from the files in a folder.");
     module.def("kernel_as_cpp", &kernel_as_cpp, py::arg("source"), py::arg("file"),
-               "What is compiled of a kernel, which has to be in the kernel language.");
+               "Translates a kernel, which must be in the kernel language, to C++.");
 }
 
 }  // namespace candela::python

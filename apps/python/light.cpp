@@ -20,7 +20,7 @@ void require_sample(const LightInstance& light, int sample) {
     const int count = light.instance().sample_count();
     if (sample < 0 || sample >= count)
         throw py::index_error(
-            fmt::format("light/{} has no sample {}; it has {}", light.name(), sample, count));
+            fmt::format("light/{} has no sample {}; its sample count is {}", light.name(), sample, count));
 }
 
 std::tuple<Floats, Floats, Floats> illuminate(const LightInstance& light, const Floats& points,

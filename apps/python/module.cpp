@@ -1,12 +1,11 @@
-// candela._candela: what the package `candela` is made of. It is the package that people import; its modules
-// have the documentation, give arrays the shapes that the functions here expect, and are where the names come
-// from.
+// candela._candela: the core of the package `candela`, which people import. The package's modules have the
+// documentation, give arrays the shapes that these functions expect, and define the public names.
 #include "module.h"
 
 namespace candela::python {
 
 PYBIND11_MODULE(_candela, module) {
-    module.doc() = "Candela's core for the package candela, which is what to import.";
+    module.doc() = "Candela's core for the package candela; import that instead.";
     module.attr("__version__") = CANDELA_VERSION;
     add_errors(module);
     add_registry(module);

@@ -11,7 +11,7 @@ namespace candela::python {
 
 namespace {
 
-/// What an image plugin writes, in memory.
+/// Collects the output of an image plugin in memory.
 class StringSink final : public ByteSink {
   public:
     void write(std::span<const std::byte> bytes) override {
@@ -25,12 +25,12 @@ class StringSink final : public ByteSink {
 
 void require_color(const py::array& pixels) {
     if (pixels.ndim() != 3 || pixels.shape(2) != 3)
-        throw py::value_error("a picture has the shape (height, width, 3)");
+        throw py::value_error("a picture must have the shape (height, width, 3)");
 }
 
 using Bytes = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
 
-/// Bytes are encoded as they are to be shown.
+/// The bytes are encoded for display already.
 py::bytes png_of(const RegistryPointer& shared, const Bytes& pixels) {
     require_color(pixels);
     const PictureView view{.width = static_cast<int>(pixels.shape(1)),
@@ -90,7 +90,7 @@ py::array array_of(Film&& film, int channels) {
 
 void add_pictures(py::module_& module) {
     module.def("encode", &encoded, py::arg("pixels"), py::arg("is_srgb"),
-               "The (height, width, 3) bytes that show an array of as many intensities.");
+               "Encodes an array of intensities as bytes of shape (height, width, 3).");
     module.def("png", &png_of, py::arg("registry"), py::arg("pixels"),
                "The PNG file of a (height, width, 3) array of bytes.");
 }

@@ -1,4 +1,4 @@
-// Pictures as arrays of NumPy.
+// Pictures as NumPy arrays.
 #pragma once
 
 #include "binding.h"
@@ -7,11 +7,11 @@ import candela.film;
 
 namespace candela::python {
 
-/// (height, width, 3), of bytes or of floats as the film has them: the film's own memory, which lives as long
-/// as the array.
+/// An array of shape (height, width, 3), of bytes or floats like the film's: the film's own memory, which
+/// lives as long as the array.
 py::array array_of(Film&& film);
 
-/// The memory of a film of floats with `channels` of its three: (height, width) for one.
+/// The memory of a film of floats with `channels` of its three; (height, width) for one channel.
 py::array array_of(Film&& film, int channels);
 
 }  // namespace candela::python

@@ -16,11 +16,12 @@ using Reflection = ModelInstance<ReflectionModel>;
 struct Surfaces {
     Vectors normals, to_observer, color, tangents, positions, uv;
 
-    /// Of results: that of the normals, or, where there is one for all, of the directions.
+    /// The layout for results: that of the normals or, if there is one normal for all points, of the
+    /// directions.
     Layout layout() const noexcept { return (normals.is_uniform() ? to_observer : normals).layout(); }
 };
 
-/// Points of a batch, where their channels are apart.
+/// The points of a batch, with their channels apart.
 struct SurfaceBuffers {
     BatchVectors normals, to_observer, color, tangents, positions, uv;
 };
@@ -61,7 +62,7 @@ Surfaces surfaces_from(const Reflection& model, const Floats& normals, const Flo
             .uv = Vectors(uv, "uv")};
 }
 
-/// Calls `write(first, count, diffuse, specular)` for each batch of what is reflected.
+/// Calls `write(first, count, diffuse, specular)` with the reflected light of each batch.
 template <class Write>
 void reflect(const Reflection& model, const Surfaces& surfaces, const Vectors& to_light, const Vectors& light,
              int threads, const Write& write) {

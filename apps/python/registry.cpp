@@ -15,7 +15,7 @@ PluginKind kind_named(const std::string& name) {
     for (const PluginKind kind : k_plugin_kinds)
         all += fmt::format("{}'{}'", all.empty() ? "" : ", ", name_of(kind));
     throw Error(ErrorCategory::bad_request,
-                fmt::format("'{}' is no kind of plugin; those are {}", name, all));
+                fmt::format("unknown kind of plugin '{}'; the kinds are {}", name, all));
 }
 
 std::string manifests(SharedRegistry& registry, const std::string& kind) {
@@ -48,7 +48,7 @@ SharedRegistry::SharedRegistry(const std::vector<std::filesystem::path>& folders
                         {.severity = "warning",
                          .file = refusal.file.string(),
                          .message = refusal.reason,
-                         .suggestion = fmt::format("'{}' is used instead", refusal.used_instead.string()),
+                         .suggestion = fmt::format("using '{}' instead", refusal.used_instead.string()),
                          .text = {}});
                 }) {}
 
@@ -63,8 +63,9 @@ void add_registry(py::module_& module) {
         .def(py::init<const std::vector<std::filesystem::path>&>(), py::arg("folders"), Unlocked())
         .def_property_readonly("search_path", &search_path)
         .def_property_readonly("replaced", &SharedRegistry::replaced)
-        .def("manifests", &manifests, py::arg("kind"), Unlocked(), "Those of a kind, or all (''), as JSON.")
-        .def("manifest", &manifest, py::arg("kind"), py::arg("name"), Unlocked(), "One, as JSON.")
+        .def("manifests", &manifests, py::arg("kind"), Unlocked(),
+             "The manifests of a kind, or all (''), as JSON.")
+        .def("manifest", &manifest, py::arg("kind"), py::arg("name"), Unlocked(), "One manifest, as JSON.")
         .def("library", &library, py::arg("kind"), py::arg("name"), Unlocked());
 }
 

@@ -1,4 +1,4 @@
-// The plugins that Python uses.
+// The plugins available to Python.
 #pragma once
 
 #include "binding.h"
@@ -9,18 +9,18 @@ import candela.registry;
 
 namespace candela::python {
 
-/// A registry, and what it had to say about plugins that it has used instead of others. Any thread, without
-/// Python's lock, which may be needed for what another thread does with the registry.
+/// A registry, and its reports of plugins used instead of others. Any thread; releases Python's lock, which
+/// another thread may need while it uses the registry.
 class SharedRegistry {
   public:
     explicit SharedRegistry(const std::vector<std::filesystem::path>& folders);
 
     Registry& registry() noexcept { return registry_; }
-    /// All so far.
+    /// All reports so far.
     std::vector<Problem> replaced() const;
 
   private:
-    mutable std::mutex mutex_;  // of what follows
+    mutable std::mutex mutex_;  // guards what follows
     std::vector<Problem> replaced_;
     Registry registry_;
 };

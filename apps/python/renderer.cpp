@@ -1,4 +1,4 @@
-// Pictures of one scene again and again, with changes between them.
+// Renders one scene repeatedly, with changes between the pictures.
 
 #include "module.h"
 #include "pictures.h"
@@ -12,7 +12,7 @@ namespace candela::python {
 
 namespace {
 
-/// Keeps what a change leaves as it is: triangles, and what is visible where. Any thread, one at a time.
+/// Keeps what a change does not affect: triangles and visibility. Any thread, one at a time.
 class KeepingRenderer {
   public:
     KeepingRenderer(const ReadScene& scene, int threads)
@@ -32,7 +32,7 @@ class KeepingRenderer {
 
     Film render(bool floats) {
         const std::lock_guard lock(mutex_);
-        if (compiled_ == nullptr) compile(request_);  // the latest change was refused
+        if (compiled_ == nullptr) compile(request_);  // the latest change was rejected
         const ImageSettings& image = compiled_->image;
         Film film(image.width, image.height, floats ? PixelType::real : PixelType::byte,
                   image.color_management);
@@ -49,7 +49,7 @@ class KeepingRenderer {
     void compile(const SceneRequest& request) {
         Diagnostics diagnostics;
         const SceneDraft draft = valid_draft(request, registry_->registry(), diagnostics);
-        // What it returned before is gone from here on.
+        // Invalidates what it returned before.
         compiled_ = nullptr;
         const CompiledScene* const compiled = compiler_.compile(draft, diagnostics, threads_);
         if (compiled == nullptr || !compiler_.has_kept_triangles()) renderer_.forget();

@@ -11,10 +11,10 @@ namespace candela::python {
 
 namespace {
 
-/// What a scene is read from: files, or one text that a name stands for.
+/// The source of a scene: files, or one text with a name.
 struct Source {
     std::vector<std::filesystem::path> files;
-    std::optional<std::pair<std::string, std::string>> text;  // its name, and it
+    std::optional<std::pair<std::string, std::string>> text;  // its name and the text
 };
 
 SceneRequest request_of(const Source& source, const Settings& settings,
@@ -138,7 +138,7 @@ void add_scene(py::module_& module) {
                "A dictionary as the text of a scene file.");
     module.def(
         "value_text", [](py::handle value) { return toml_text(node_of(value, "")); }, py::arg("value"),
-        "A value as it would be written in a scene file.");
+        "A value as written in a scene file.");
 }
 
 }  // namespace candela::python

@@ -38,10 +38,10 @@ class ReadScene {
 
 using ScenePointer = std::shared_ptr<const ReadScene>;
 
-/// The request with more settings; a new one replaces that of the same path.
+/// The request with more settings; a setting replaces an earlier one of the same path.
 SceneRequest with_settings(SceneRequest request, const Settings& settings);
 
-/// The scene as far as it was understood. Throws InvalidInput if it has errors.
+/// The scene, as far as it could be read. Throws InvalidInput if it has errors.
 SceneDraft valid_draft(const SceneRequest& request, Registry& registry, Diagnostics& diagnostics);
 
 }  // namespace candela::python

@@ -31,7 +31,7 @@ TriangleBatch triangle_of(const Corners& positions, const Corners& normals, std:
     return triangle;
 }
 
-/// What follows from the triangles of a batch.
+/// Interpolates the values at the points of a batch from their triangles.
 void interpolate(const TriangleBatch& triangle, ConstVec3Span barycentric, std::size_t count,
                  Vec3Span face_normal, Vec3Span vertex_normal) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -97,15 +97,16 @@ Floats normals_at(const Shading& model, const std::array<Floats, 3>& triangles,
 
 using Indices = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
 
-/// Of a mesh in which each vertex has a normal of its own.
+/// The normals of a mesh in which each vertex has a normal of its own.
 Floats vertex_normals_of(const Shading& model, const Floats& vertices, const Indices& triangles) {
     const Vectors given(vertices, "positions");
     if (triangles.ndim() != 2 || triangles.shape(1) != 3)
-        throw py::value_error("triangles has to have the shape (N, 3)");
+        throw py::value_error("triangles must have the shape (N, 3)");
     const std::size_t count = given.count();
     const std::span indices(triangles.data(), static_cast<std::size_t>(triangles.size()));
     if (std::ranges::any_of(indices, [&](std::uint32_t index) { return index >= count; }))
-        throw py::index_error(fmt::format("a triangle has a vertex that there is not: there are {}", count));
+        throw py::index_error(
+            fmt::format("a triangle has a vertex index out of range; there are {} vertices", count));
     const std::size_t faces = indices.size() / 3;
     std::vector<float> numbers(6 * count + 3 * faces);
     const auto part = [&](std::size_t first, std::size_t size) {

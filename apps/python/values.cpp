@@ -6,7 +6,7 @@ namespace candela::python {
 
 namespace {
 
-/// Numbers of NumPy and whole arrays become those of Python.
+/// Converts NumPy numbers and arrays to Python's.
 py::object plain(py::handle value) {
     if (py::hasattr(value, "tolist")) return value.attr("tolist")();
     if (py::hasattr(value, "__fspath__")) return value.attr("__fspath__")();
@@ -53,7 +53,7 @@ Node node_of(py::handle given, const std::string& file) {
         return {place, std::move(array)};
     }
     throw py::type_error(
-        fmt::format("{} is no value of a scene: those are numbers, texts, True and False, and lists and "
+        fmt::format("{} is not a value for a scene; expected numbers, strings, True and False, and lists and "
                     "dictionaries of them",
                     py::str(py::repr(value)).cast<std::string>()));
 }

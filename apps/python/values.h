@@ -1,4 +1,4 @@
-// Values of Python as those of a scene file.
+// Converts Python values to values of a scene file.
 #pragma once
 
 #include "binding.h"
@@ -7,7 +7,7 @@ import candela.toml;
 
 namespace candela::python {
 
-/// None of its places is known but `file`, which stands for the value in messages. Throws TypeError for what
+/// Only `file`, which stands for the value in messages, is set in its place. Throws TypeError for values that
 /// TOML does not have.
 Node node_of(py::handle value, const std::string& file);
 

@@ -13,7 +13,7 @@ from .registry import Registry, default_registry
 
 
 class Check(NamedTuple):
-    """What one of the kit's checks found."""
+    """The result of one of the kit's checks."""
 
     name: str
     outcome: str
@@ -22,21 +22,21 @@ class Check(NamedTuple):
 
 
 def conformance(name: str, /, *, registry: Registry | None = None, **values: Any) -> list[Check]:
-    """Has the conformance kit check an installed model, by its id, ``"reflection/ggx"``: all that Candela relies on, and what the model
-    declares of itself. It does so in a process of its own, as ``candela plugin test`` does.
+    """Checks an installed model, by its id, such as ``"reflection/ggx"``, with the conformance kit: everything that Candela relies on, and
+    the properties that the model declares. Runs in a process of its own, like ``candela plugin test``.
 
-    `values` are for parameters that have no default, or that are to be tried. Raises Error if there is no such model, or if the kit, which
-    is in the package candela-dev, is not installed.
+    `values` set parameters, in particular those without a default. Raises Error if there is no such model, or if the kit, which is in the
+    package candela-dev, is not installed.
     """
     registry = registry or default_registry()
     kind, _, plain = name.partition("/")
     library = registry.core.library(kind, plain)
     kit = pathlib.Path(registry.search_path[-1]).parent / "candela-conformance"
     if not kit.exists():
-        raise Error(f"the conformance kit is not installed: there is no '{kit}' (package candela-dev, or a build with tests)")
+        raise Error(f"the conformance kit is not installed: '{kit}' does not exist (package candela-dev, or a build with tests)")
     settings = [f"--set={key}={_candela.value_text(value)}" for key, value in values.items()]
     ended = subprocess.run([kit, "--json", *settings, library], capture_output=True, text=True)
     if ended.returncode not in (0, 4):
-        raise Error(ended.stderr.strip() or f"the conformance kit has ended with {ended.returncode}")
+        raise Error(ended.stderr.strip() or f"the conformance kit exited with code {ended.returncode}")
     report, = json.loads(ended.stdout)
     return [Check(check["check"], check["outcome"], check["messages"]) for check in report["checks"]]

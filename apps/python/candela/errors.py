@@ -1,4 +1,4 @@
-"""What can go wrong, with what was found and where."""
+"""Errors, with their diagnostics."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from . import _candela
 
 
 class Diagnostic(NamedTuple):
-    """One thing that was found in a scene, or among the values of a model."""
+    """One problem in a scene, or in the values of a model."""
 
     severity: str
     """``"error"`` or ``"warning"``."""
     file: str
-    """The file, or what stands for it."""
+    """The file, or a name that stands for it."""
     line: int
-    """From 1; 0: the file as a whole."""
+    """Counted from 1; 0: the file as a whole."""
     column: int
-    """From 1."""
+    """Counted from 1."""
     length: int
-    """How many characters are concerned; 0: not known."""
+    """The number of characters; 0: unknown."""
     message: str
     suggestion: str
-    """What to do about it; may be empty."""
+    """Advice; may be empty."""
     text: str
     """The line in the file; may be empty."""
 
@@ -37,10 +37,10 @@ def diagnostics_from(problems: Sequence[_candela.Problem]) -> list[Diagnostic]:
 
 
 class Error(Exception):
-    """Something could not be done: a file that cannot be read or written, a plugin that fails, no memory."""
+    """An operation failed: a file cannot be read or written, a plugin fails, or memory runs out."""
 
     diagnostics: list[Diagnostic]
-    """All that was found; empty where it is no scene and no value that is wrong."""
+    """All problems found; empty unless a scene or a value is invalid."""
 
     def __init__(self, message: str, problems: Sequence[_candela.Problem] = ()) -> None:
         super().__init__(message)
@@ -48,8 +48,8 @@ class Error(Exception):
 
 
 class SceneError(Error, ValueError):
-    """A scene is wrong. All that is wrong with it is among the `diagnostics`."""
+    """A scene is invalid. The `diagnostics` list everything that is wrong with it."""
 
 
 class RequestError(Error, ValueError):
-    """What was asked for does not exist or is not possible: a model that nobody has, a value out of its range."""
+    """The request is invalid: an unknown model, or a value out of range."""

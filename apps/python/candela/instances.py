@@ -1,8 +1,8 @@
 """Lights, reflection and shading models, called on arrays.
 
-Points, directions and intensities are the last axis of arrays, of length 3; whatever axes stand before it are broadcast against one
-another, as NumPy does. So ``normals`` of shape (480, 640, 3) go with one ``to_light`` of shape (3,). Computed is in ``float32``; arrays
-of another type are converted, and those whose channels are contiguous, as of ``np.empty((3, n), np.float32).T``, are read where they are.
+Points, directions and intensities are the last axis of arrays, of length 3. The axes before it are broadcast against one another by
+NumPy's rules, so ``normals`` of shape (480, 640, 3) can be combined with one ``to_light`` of shape (3,). Computations use ``float32``;
+arrays of other types are converted. Arrays with contiguous channels, such as ``np.empty((3, n), np.float32).T``, are read in place.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .registry import Model, Registry, default_registry
 
 
 class _Points:
-    """Arrays of vectors with the same leading axes, each as the (N, 3) that the module takes."""
+    """Arrays of vectors with the same leading axes, each in the shape (N, 3) that the module expects."""
 
     def __init__(self, **arrays: ArrayLike | None) -> None:
         vectors = {}
@@ -28,7 +28,7 @@ class _Points:
             if array.ndim == 0:
                 array = np.broadcast_to(array, 3)
             if array.shape[-1] != 3:
-                raise ValueError(f"{name} has the shape {array.shape}; the last axis of an array of vectors has length 3")
+                raise ValueError(f"{name} has the shape {array.shape}; the last axis of an array of vectors must have length 3")
             vectors[name] = array
         try:
             self.axes = np.broadcast_shapes(*(array.shape[:-1] for array in vectors.values()))
@@ -54,7 +54,7 @@ def _with_third(pairs: ArrayLike | None, name: str) -> np.ndarray | None:
         return None
     array = np.asarray(pairs, np.float32)
     if array.ndim == 0 or array.shape[-1] != 2:
-        raise ValueError(f"{name} has the shape {array.shape}; the last axis of texture coordinates has length 2")
+        raise ValueError(f"{name} has the shape {array.shape}; the last axis of texture coordinates must have length 2")
     return np.concatenate([array, np.zeros((*array.shape[:-1], 1), np.float32)], axis=-1)
 
 
@@ -71,22 +71,22 @@ class _Instance:
 
     @property
     def name(self) -> str:
-        """The model's."""
+        """The model's name."""
         return self._core.name
 
     @property
     def registry(self) -> Registry:
-        """Where it comes from."""
+        """The registry that it comes from."""
         return self._registry
 
     @property
     def values(self) -> dict[str, Any]:
-        """All values of its parameters, as in a scene file: what was given, and defaults."""
+        """The values of all its parameters, as in a scene file: those given, and defaults for the others."""
         return self._core.values
 
     @property
     def model(self) -> Model:
-        """What the plugin says about itself."""
+        """The plugin's description of itself."""
         return self._registry.model(f"{self._kind}/{self.name}")
 
     def __repr__(self) -> str:
@@ -94,7 +94,7 @@ class _Instance:
 
 
 class Reflected(NamedTuple):
-    """What a surface reflects, in parts; each of shape (..., 3)."""
+    """The light reflected by a surface, in parts; each has shape (..., 3)."""
 
     diffuse: np.ndarray
     specular: np.ndarray
@@ -117,7 +117,7 @@ class Reflection(_Instance):
 
     @property
     def shows_surroundings(self) -> bool:
-        """Whether it also mirrors or refracts what is around, which only scenes have."""
+        """Whether it also mirrors or refracts its surroundings, which exist only in scenes."""
         return self._core.shows_surroundings
 
     def evaluate(self, normals: ArrayLike, to_observer: ArrayLike, to_light: ArrayLike, *, color: ArrayLike = 1.0,
@@ -130,18 +130,17 @@ class Reflection(_Instance):
         color
             C_o, the object's colour: linear, 0 to 1; a number, or of shape (..., 3).
         light
-            I_L, the intensity that arrives: a number, or of shape (..., 3).
+            I_L, the arriving intensity: a number, or of shape (..., 3).
         tangents
-            Unit vectors along dp/du, orthogonal to N, for models that `reads_tangents`.
+            Unit vectors along dp/du, orthogonal to N, for models with `reads_tangents`.
         positions
-            Metres, for models of procedural textures.
+            In metres, for models with procedural textures.
         uv
-            Texture coordinates, shape (..., 2), for models that `reads_uv`.
+            Texture coordinates, shape (..., 2), for models with `reads_uv`.
         threads
-            0: all cores, where that pays.
+            0: all cores, if that pays off.
 
-        The cosine N.L is part of it, and 1/pi is not: a BRDF in the sense of radiometry, times N.L, is this over pi for
-        ``light=1``.
+        The result includes the cosine N.L, but not 1/pi: with ``light=1``, dividing it by pi gives the radiometric BRDF times N.L.
         """
         points = self._points(normals, to_observer, color, tangents, positions, uv, to_light=to_light, light=light)
         return points.shaped(self._core.evaluate(*self._arguments(points, "to_light", "light"), threads))
@@ -151,7 +150,7 @@ class Reflection(_Instance):
     def evaluate_parts(self, normals: ArrayLike, to_observer: ArrayLike, to_light: ArrayLike, *, color: ArrayLike = 1.0,
                        light: ArrayLike = 1.0, tangents: ArrayLike | None = None, positions: ArrayLike = 0.0,
                        uv: ArrayLike | None = None, threads: int = 0) -> Reflected:
-        """As `evaluate`, with I_d and I_s apart."""
+        """Like `evaluate`, with separate I_d and I_s."""
         points = self._points(normals, to_observer, color, tangents, positions, uv, to_light=to_light, light=light)
         diffuse, specular = self._core.evaluate_parts(*self._arguments(points, "to_light", "light"), threads)
         return Reflected(points.shaped(diffuse), points.shaped(specular))
@@ -159,7 +158,7 @@ class Reflection(_Instance):
     def ambient(self, normals: ArrayLike, to_observer: ArrayLike, *, color: ArrayLike = 1.0, ambient: ArrayLike = 1.0,
                 tangents: ArrayLike | None = None, positions: ArrayLike = 0.0, uv: ArrayLike | None = None,
                 threads: int = 0) -> np.ndarray:
-        """I_a, what is reflected of light that comes from everywhere with the intensity `ambient`; arguments as of `evaluate`."""
+        """I_a, the reflection of light that comes from everywhere with the intensity `ambient`; otherwise the arguments of `evaluate`."""
         points = self._points(normals, to_observer, color, tangents, positions, uv, ambient=ambient)
         return points.shaped(self._core.ambient(
             points["normals"], points["to_observer"], points["color"], points["ambient"], points.get("tangents"),
@@ -178,14 +177,14 @@ class Reflection(_Instance):
 
 
 class Incident(NamedTuple):
-    """What one sample of a light sends to points; each of shape (..., 3)."""
+    """The light of one sample that arrives at points; each array has shape (..., 3)."""
 
     to_light: np.ndarray
     """L: unit vectors from the point to the light."""
     diffuse: np.ndarray
     """I_L: linear intensity per channel, attenuated."""
     specular: np.ndarray
-    """The same for highlights."""
+    """Like `diffuse`, for highlights."""
 
 
 class Light(_Instance):
@@ -195,7 +194,7 @@ class Light(_Instance):
 
     @property
     def sample_count(self) -> int:
-        """From how many directions it reaches a point: 1 for a point light, 0 for ambient light, more for one that has a size."""
+        """The number of directions from which it reaches a point: 1 for a point light, 0 for ambient light, more for a light with a size."""
         return self._core.sample_count
 
     @property
@@ -205,14 +204,14 @@ class Light(_Instance):
 
     def illuminate(self, points: ArrayLike, normals: ArrayLike = (0.0, 1.0, 0.0), *, sample: int = 0,
                    threads: int = 0) -> Incident:
-        """What a sample of the light sends to points; what all of them send adds up.
+        """The light of one sample that arrives at points; the samples add up.
 
         points
             World space, metres, shape (..., 3).
         normals
             Unit vectors, shape (..., 3), for lights that depend on them.
         sample
-            0 to `sample_count` - 1; IndexError for another.
+            0 to `sample_count` - 1; otherwise raises IndexError.
         """
         given = _Points(points=points, normals=normals)
         return Incident(*map(given.shaped, self._core.illuminate(given["points"], given["normals"], sample, threads)))
@@ -226,7 +225,7 @@ class Light(_Instance):
 
 
 class Shading(_Instance):
-    """A shading model with values: how normals are found. Made by `shading`. Immutable; any thread."""
+    """A shading model with values, which determines normals. Made by `shading`. Immutable; any thread."""
 
     _kind = "shading"
 
@@ -238,10 +237,10 @@ class Shading(_Instance):
     def normals(self, triangles: ArrayLike, barycentrics: ArrayLike, *, vertex_normals: ArrayLike | None = None,
                 uv: ArrayLike | None = None, dpdu: ArrayLike | None = None, dpdv: ArrayLike | None = None,
                 threads: int = 0) -> np.ndarray:
-        """The unit normals, of shape (..., 3), with which points on triangles are lit.
+        """The unit normals, of shape (..., 3), for lighting points on triangles.
 
         triangles
-            The corners' positions, shape (..., 3, 3): corner by corner, counter-clockwise seen from outside.
+            The corners' positions, shape (..., 3, 3): corner by corner, counter-clockwise as seen from outside.
         barycentrics
             The corners' weights at the point, shape (..., 3).
         vertex_normals
@@ -251,14 +250,14 @@ class Shading(_Instance):
         """
         corners = np.asarray(triangles, np.float32)
         if corners.shape[-2:] != (3, 3):
-            raise ValueError(f"triangles has the shape {corners.shape}; its last two axes are three corners of three numbers")
+            raise ValueError(f"triangles has the shape {corners.shape}; its last two axes must be three corners of three numbers")
         if vertex_normals is None:
             across = np.cross(corners[..., 1, :] - corners[..., 0, :], corners[..., 2, :] - corners[..., 0, :])
             size = np.linalg.norm(across, axis=-1, keepdims=True)
             vertex_normals = np.repeat((across / np.where(size > 0, size, 1))[..., np.newaxis, :], 3, axis=-2)
         at_corners = np.asarray(vertex_normals, np.float32)
         if at_corners.shape[-2:] != (3, 3):
-            raise ValueError(f"vertex_normals has the shape {at_corners.shape}; its last two axes are as those of triangles")
+            raise ValueError(f"vertex_normals has the shape {at_corners.shape}; its last two axes must be like those of triangles")
         points = _Points(**{f"corner {i}": corners[..., i, :] for i in range(3)},
                          **{f"normal {i}": at_corners[..., i, :] for i in range(3)},
                          barycentrics=barycentrics, uv=_with_third(uv, "uv"), dpdu=dpdu, dpdv=dpdv)
@@ -270,9 +269,9 @@ class Shading(_Instance):
         """The unit normals of a mesh's vertices, shape (V, 3).
 
         positions
-            Of the vertices, shape (V, 3), metres.
+            The vertices' positions in metres, shape (V, 3).
         triangles
-            Indices of vertices, shape (T, 3), counter-clockwise seen from outside; IndexError for one that there is not.
+            Indices of vertices, shape (T, 3), counter-clockwise as seen from outside; raises IndexError if one is out of range.
         """
         return self._core.vertex_normals(positions, triangles)
 
@@ -280,21 +279,21 @@ class Shading(_Instance):
 def reflection(name: str, /, *, color_management: str = "srgb", registry: Registry | None = None, **values: Any) -> Reflection:
     """A reflection model by its name, with values for its parameters as in a scene file: ``reflection("ggx", roughness=0.2)``.
 
-    Raises RequestError, with all that is wrong with them, and Error if there is no such model. `color_management` is how parameters
-    that are colours (0 to 255) are encoded: ``"srgb"``, or ``"none"``.
+    Raises RequestError, listing all invalid values, or Error if there is no such model. `color_management` is the encoding of parameters
+    that are colours (0 to 255): ``"srgb"`` or ``"none"``.
     """
     registry = registry or default_registry()
     return Reflection(_candela.Reflection(registry.core, name, values, color_management), registry)
 
 
 def light(name: str, /, *, color_management: str = "srgb", registry: Registry | None = None, **values: Any) -> Light:
-    """A light by the name of its type, with values as in a scene file: ``light("point", position=(0, 2, 0), intensity=20)``. Raises as
-    `reflection` does."""
+    """A light by the name of its type, with values as in a scene file: ``light("point", position=(0, 2, 0), intensity=20)``. Raises like
+    `reflection`."""
     registry = registry or default_registry()
     return Light(_candela.Light(registry.core, name, values, color_management), registry)
 
 
 def shading(name: str, /, *, color_management: str = "srgb", registry: Registry | None = None, **values: Any) -> Shading:
-    """A shading model by its name, with values as in a scene file: ``shading("phong")``. Raises as `reflection` does."""
+    """A shading model by its name, with values as in a scene file: ``shading("phong")``. Raises like `reflection`."""
     registry = registry or default_registry()
     return Shading(_candela.Shading(registry.core, name, values, color_management), registry)

@@ -1,4 +1,4 @@
-"""Reflection models from the text of a kernel, compiled on the spot."""
+"""Reflection models compiled at run time from the text of a kernel."""
 
 from __future__ import annotations
 
@@ -24,27 +24,27 @@ def _without_comments(source: str) -> str:
 
 
 class _Kernel:
-    """What the text of a kernel declares."""
+    """The declarations in the text of a kernel."""
 
     def __init__(self, source: str) -> None:
         text = _without_comments(source)
         reflect = re.search(r"\bKERNEL\s+Reflected\s+(\w+?)_reflect\s*\(\s*(?:(\w+)\s+\w+\s*,\s*)?Surface\s", text)
         if not reflect:
-            raise RequestError("a kernel of a reflection model has a function 'KERNEL Reflected NAME_reflect(Material m, Surface s, "
-                               "vec3 to_light)', where Material is its struct of parameters; without parameters, the first "
-                               "argument is left out")
+            raise RequestError("the kernel of a reflection model needs a function 'KERNEL Reflected NAME_reflect(Material m, Surface s, "
+                               "vec3 to_light)', where Material is its struct of parameters; without parameters, omit the first "
+                               "argument")
         self.prefix, self.struct = reflect[1], reflect[2]
         if not re.fullmatch(r"[a-z][a-z0-9_]*", self.prefix):
-            raise RequestError(f"the name '{self.prefix}' of '{self.prefix}_reflect' is not of lower-case letters, digits and _")
+            raise RequestError(f"the name '{self.prefix}' of '{self.prefix}_reflect' is invalid; expected lower-case letters, digits and _")
         self.members: list[tuple[str, str]] = []
         if self.struct:
             body = re.search(rf"\bstruct\s+{self.struct}\s*\{{(.*?)\}}", text, re.DOTALL)
             if not body:
-                raise RequestError(f"{self.prefix}_reflect takes a '{self.struct}', which is no struct of the kernel")
+                raise RequestError(f"{self.prefix}_reflect takes a '{self.struct}', which is not a struct in the kernel")
             self.members = _MEMBER.findall(body[1])
             rest = _MEMBER.sub("", body[1]).strip()
             if rest:
-                raise RequestError(f"'{rest.splitlines()[0].strip()}' in struct {self.struct}: members are float, int or vec3, each in "
+                raise RequestError(f"'{rest.splitlines()[0].strip()}' in struct {self.struct}: expected members of type float, int or vec3, each on "
                                    "a line of its own")
         self.has_ambient = re.search(rf"\b{self.prefix}_reflect_ambient\s*\(", text) is not None
         self.reads = [flag for member, flag in _READS.items() if re.search(rf"\.{member}\b", text)]
@@ -60,7 +60,7 @@ class _Kernel:
         return f'{"real" if kind == "float" else "integer"}({member}"{name}", 0, "of the kernel").required()'
 
     def kernel(self, source: str) -> str:
-        """With what it may leave out."""
+        """The kernel with its optional functions added."""
         if self.has_ambient:
             return source
         material = f"{self.struct} m, " if self.struct else ""
@@ -80,13 +80,13 @@ class _Kernel:
 
 @functools.lru_cache(maxsize=64)
 def _compiled(source: str) -> tuple[str, Registry]:
-    """The name of a kernel's model, and a registry that has it."""
+    """The name of a kernel's model, and a registry that contains it."""
     named = re.search(r"\b(\w+?)_reflect\b", source)
     file = f"{named[1].replace('_', '-')}.kernel" if named else "kernel"
-    _candela.kernel_as_cpp(source, file)  # refuses what is not in the language, or too long to look at
+    _candela.kernel_as_cpp(source, file)  # rejects text that is not in the language, or too long to parse
     kernel = _Kernel(source)
     text = kernel.kernel(source)
-    # What was understood of the text is compiled. The text is what programs are generated from.
+    # The translated text is compiled; programs are generated from the original text.
     compiled = _candela.kernel_as_cpp(text, file)
     folder = pathlib.Path(tempfile.mkdtemp(prefix="candela-kernel-"))
     try:
@@ -104,18 +104,18 @@ def _compiled(source: str) -> tuple[str, Registry]:
 
 
 def kernel_reflection(source: str, **values: Any) -> Reflection:
-    """A reflection model from the text of a kernel, compiled at once by a compiler of this machine.
+    """A reflection model from the text of a kernel, compiled by a compiler on this machine.
 
     source
         A struct of parameters (``float``, ``int``, ``vec3``), a function ``KERNEL Reflected NAME_reflect(Material m, Surface s, vec3
         to_light)``, and, if it reflects ambient light, ``KERNEL vec3 NAME_reflect_ambient(Material m, Surface s)``, in the language of
-        docs/kernel-language.md. It is what the ``.kernel`` file of a plugin has.
+        docs/kernel-language.md, like the ``.kernel`` file of a plugin.
     values
-        Of all parameters.
+        The values of all parameters.
 
-    It is as fast as an installed model, and its `registry` is for scenes that name it. Raises RequestError, with the place, for
-    what is not in the kernel language, and Error where there is no compiler, or where Candela's headers (the package candela-dev) are
-    not installed. Texts that were compiled before are not compiled again. What is compiled can compute and nothing else, and ends.
+    The model is as fast as an installed one; pass its `registry` to scenes that name it. Raises RequestError, with the position, if the
+    text is not in the kernel language, and Error if no compiler or no headers of Candela (package candela-dev) are installed. A text
+    is compiled only once. The compiled code can only compute, and always ends.
     """
     name, registry = _compiled(source)
     return reflection(name, registry=registry, **values)

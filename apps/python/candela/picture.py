@@ -18,13 +18,13 @@ def _in_color(pixels: np.ndarray) -> np.ndarray:
 class Picture(np.ndarray):
     """A picture: a NumPy array of shape (height, width, 3), rows from the top, red, green, blue.
 
-    Of ``uint8``, values are clamped and encoded as in the files that the command writes; of ``float32``, they are
-    intensities: linear (unless the scene's ``image.color_management`` is ``"none"``), 1 being what a byte shows as 255, and not
-    clamped. In a notebook it shows itself.
+    Values of type ``uint8`` are clamped and encoded as in the files that the command writes. Values of type ``float32`` are
+    intensities: linear (unless the scene's ``image.color_management`` is ``"none"``), not clamped, and with 1 for a byte of 255.
+    A notebook displays the picture.
     """
 
     is_srgb: bool
-    """Whether bytes are encoded as sRGB, and floats linear."""
+    """Whether bytes are encoded as sRGB and floats are linear."""
 
     def __new__(cls, values: Any, is_srgb: bool = True) -> Picture:
         picture = np.asarray(values).view(cls)
@@ -35,7 +35,7 @@ class Picture(np.ndarray):
         self.is_srgb = getattr(source, "is_srgb", True)
 
     def to_bytes(self) -> Picture:
-        """The same as ``uint8``: floats are clamped to 0 to 1 and encoded. A grey picture, of shape (height, width), gets three
+        """The picture as ``uint8``: floats are clamped to 0 to 1 and encoded. A grey picture, of shape (height, width), gets three
         equal channels."""
         if self.dtype == np.uint8:
             return self
@@ -43,7 +43,7 @@ class Picture(np.ndarray):
         return Picture(_candela.encode(_in_color(values), self.is_srgb), self.is_srgb)
 
     def png(self) -> bytes:
-        """The picture as a PNG file, of what `to_bytes` makes of it."""
+        """The contents of a PNG file of the picture, after `to_bytes`."""
         return _candela.png(default_registry().core, _in_color(np.asarray(self.to_bytes())))
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -1,4 +1,4 @@
-"""The plugins that are installed, and what they say about themselves."""
+"""The installed plugins and their descriptions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .errors import RequestError, diagnostics_from
 
 
 class Parameter(NamedTuple):
-    """A parameter of a model, as its manifest declares it."""
+    """A parameter of a model, as declared in its manifest."""
 
     name: str
     type: str
@@ -23,7 +23,7 @@ class Parameter(NamedTuple):
     unit: str
     """``"m"``, ``"deg"``, or empty."""
     default: Any
-    """None: it has to be given."""
+    """None: a value is required."""
     minimum: float | None
     maximum: float | None
     choices: tuple[str, ...]
@@ -31,7 +31,7 @@ class Parameter(NamedTuple):
 
 
 class Model(NamedTuple):
-    """What a plugin says about itself: a light, a reflection or shading model, a shape, a picture format, a target."""
+    """The description of a plugin: a light, a reflection or shading model, a shape, a picture format or a target."""
 
     kind: str
     name: str
@@ -44,7 +44,7 @@ class Model(NamedTuple):
     properties: dict[str, str]
     """Declared facts, such as ``{"reciprocal": "true"}``."""
     presets: dict[str, dict[str, Any]]
-    """Values that belong together, such as those of a material, by name."""
+    """Named sets of values, such as those of a material."""
 
     @property
     def id(self) -> str:
@@ -69,7 +69,7 @@ def _model(manifest: dict[str, Any]) -> Model:
 class Registry:
     """The plugins of a search path: `folders`, then ``CANDELA_PLUGIN_PATH``, the user's own and the installed ones.
 
-    Functions that take a registry use one for all without it. Any thread.
+    Functions that take a registry share a default one if none is given. Any thread.
     """
 
     core: _candela.Registry
@@ -81,12 +81,12 @@ class Registry:
 
     @property
     def search_path(self) -> list[str]:
-        """Folders, in the order in which they are searched."""
+        """The folders, in search order."""
         return [str(folder) for folder in self.core.search_path]
 
     def models(self, kind: str | None = None) -> list[Model]:
         """All models of a kind (``"light"``, ``"reflection"``, ``"shading"``, ``"shape"``, ``"image"``, ``"target"``),
-        or of all kinds, by kind and name. Loads no plugin."""
+        or of all kinds, sorted by kind and name. Does not load any plugin."""
         found = json.loads(self.core.manifests(kind or ""))
         self.warn_of_replaced()
         return [_model(manifest) for manifest in found]
@@ -95,13 +95,13 @@ class Registry:
         """One model, by its id: ``"reflection/ggx"``. Raises Error, with a suggestion, if there is none."""
         kind, slash, plain = name.partition("/")
         if not slash:
-            raise RequestError(f"'{name}' is no model's id; one is 'reflection/ggx'")
+            raise RequestError(f"'{name}' is not a model's id; expected KIND/NAME, such as 'reflection/ggx'")
         found = _model(json.loads(self.core.manifest(kind, plain)))
         self.warn_of_replaced()
         return found
 
     def warn_of_replaced(self) -> None:
-        """Warns, once, of plugins that are used instead of refused ones."""
+        """Warns, once each, about plugins that are used instead of refused ones."""
         replaced = diagnostics_from(self.core.replaced)
         for diagnostic in replaced[self._warned:]:
             warnings.warn(f"{diagnostic.message}; {diagnostic.suggestion}", stacklevel=3)
@@ -110,7 +110,7 @@ class Registry:
 
 @functools.lru_cache(maxsize=None)
 def default_registry() -> Registry:
-    """The one that is used where none is given."""
+    """The registry that is used if none is given."""
     return Registry()
 
 
