@@ -1,4 +1,4 @@
-// candela animate: an animated scene becomes its frames, or a film.
+// candela animate: renders an animated scene to frames or a film.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -36,7 +36,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// Renders frames, one after the other.
+/// Renders frames one after another.
 class FrameRenderer {
   public:
     FrameRenderer(candela::SceneFrames& frames, candela::Registry& registry,
@@ -48,9 +48,9 @@ class FrameRenderer {
           fingerprints_(registry, format),
           writer_(registry, format, threads) {}
 
-    /// Whether the frame had to be rendered: it is not there, or not up to date, or `is_forced`.
+    /// Renders the frame if it is missing, out of date or `is_forced`. Returns whether it did.
     bool render(int frame, const fs::path& file, bool is_forced) {
-        candela::Diagnostics known;  // reported when all frames were checked
+        candela::Diagnostics known;  // already reported when all frames were checked
         const candela::SceneDraft draft = frames_.draft(frame, known);
         require_no_scene_file(file.string(), candela::input_files(draft), "the frames");
         const std::string inputs = fingerprints_.of(draft);
@@ -60,7 +60,7 @@ class FrameRenderer {
             report(known);
             throw Error(
                 ErrorCategory::failure,
-                fmt::format("frame {} cannot be rendered any more: a file of the scene has changed", frame));
+                fmt::format("frame {} can no longer be rendered: a file of the scene has changed", frame));
         }
         if (!compiler_.has_kept_triangles()) renderer_.forget();
         candela::Film& film = film_for(*scene);
@@ -117,9 +117,10 @@ int animate(const CommandLine& line) {
     auto frames =
         candela::SceneFrames::read(scene_request_from(line, registry, Models::moving), registry, diagnostics);
     if (frames && !frames->animation() && !frames->is_broken()) {
-        throw Error(ErrorCategory::bad_request,
-                    "the scene has no [animation]: candela render draws it; candela new --animation writes a "
-                    "scene that has one");
+        throw Error(
+            ErrorCategory::bad_request,
+            "the scene has no [animation]; render it with candela render, or write an animated scene with "
+            "candela new --animation");
     }
     std::vector<int> numbers;
     if (frames) numbers = checked_frames_from(line, *frames, registry, diagnostics, threads);
@@ -154,7 +155,7 @@ int animate(const CommandLine& line) {
         for (const fs::path& film : outputs.films) names += (names.empty() ? "" : ", ") + film.string();
         const std::size_t left = files.size() - rendered;
         return fmt::format("{}: {} frame{}{}, {}\n", names, files.size(), files.size() == 1 ? "" : "s",
-                           left > 0 ? fmt::format(", {} of them left as they were", left) : "",
+                           left > 0 ? fmt::format(", {} of them already up to date", left) : "",
                            duration_text(total.milliseconds()));
     });
     return 0;
@@ -165,12 +166,11 @@ int animate(const CommandLine& line) {
 int run_animate(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela animate SCENE... [options]",
-        "Renders the frames of an animated scene: to numbered pictures, to a film, or both. All frames "
-        "are checked\nbefore the first is rendered. Frames that are there and were made from the same "
-        "scene, files and plugins are\nleft alone, so whatever ended early is carried on by the same "
-        "command.");
+        "Render the frames of an animated scene to numbered pictures, a film, or both. All frames are "
+        "checked before the first is rendered. Frames made from the same scene, files and plugins are kept, "
+        "so running the same command again finishes an interrupted run.");
     add_frames_options(line);
-    line.options()("resume", "leave alone frames that are up to date (the default)")(
+    line.options()("resume", "keep frames that are up to date (the default)")(
         "force", "render all frames again")("threads", po::value<int>()->value_name("N"),
                                             "threads to use; default: all cores");
     add_scene_options(line);

@@ -13,11 +13,12 @@ using candela::Error;
 using candela::ErrorCategory;
 
 void add_frames_options(CommandLine& line) {
-    line.options()("output,o", po::value<std::vector<std::string>>()->value_name("FILE"),
-                   "frames, such as frames/%04d.png (the default), or a film: .mp4, .webm or .gif, made by "
-                   "ffmpeg; may be repeated for both")("frames", po::value<std::string>()->value_name("A..B"),
-                                                       "only these; default: all")(
-        "step", po::value<int>()->value_name("N")->default_value(1), "every N-th frame");
+    line.options()(
+        "output,o", po::value<std::vector<std::string>>()->value_name("FILE"),
+        "frames, such as frames/%04d.png (the default), or a film (.mp4, .webm or .gif, made by ffmpeg); "
+        "repeat it for both")("frames", po::value<std::string>()->value_name("A..B"),
+                              "render only these frames; default: all")(
+        "step", po::value<int>()->value_name("N")->default_value(1), "render every N-th frame");
     add_format_option(line);
 }
 
@@ -27,9 +28,10 @@ AnimationOutputs animation_outputs_from(const CommandLine& line) {
         if (is_film(output) && output.find('%') == std::string::npos) {
             outputs.films.emplace_back(output);
         } else if (outputs.frames) {
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("-o names frames twice: '{}' and '{}'; only films may be added",
-                                    outputs.frames->text(), output));
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("-o names frames twice: '{}' and '{}'; expected one frame pattern, and films",
+                            outputs.frames->text(), output));
         } else {
             outputs.frames.emplace(output);
         }
@@ -46,12 +48,11 @@ candela::PictureFormat format_of_frames(const CommandLine& line, const Animation
                                         candela::Registry& registry) {
     candela::PictureFormat format =
         picture_format_from(line, outputs.frames ? outputs.frames->file_of(0) : fs::path("0.png"), registry);
-    // ffmpeg reads 8-bit pictures as people see them.
+    // ffmpeg reads 8-bit pictures as display-encoded.
     if (outputs.frames && !outputs.films.empty() && format.pixels != candela::PixelType::byte) {
-        throw Error(
-            ErrorCategory::bad_request,
-            fmt::format("a film is made of 8-bit frames, and '{}' holds floats; write -o frames/%04d.png",
-                        outputs.frames->text()));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("a film needs 8-bit frames, but '{}' holds floats; use -o frames/%04d.png",
+                                outputs.frames->text()));
     }
     return format;
 }

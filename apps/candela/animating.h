@@ -1,4 +1,4 @@
-// What animate does, and submit has done by others: which frames become which files.
+// Shared by animate and submit: the frames to render, and their files.
 #pragma once
 
 #include <filesystem>
@@ -14,30 +14,31 @@ import candela.film;
 import candela.registry;
 import candela.scene;
 
-/// Where the frames go, and what films are made of them.
+/// The files for the frames and the films made from them.
 struct AnimationOutputs {
-    std::optional<FramePattern> frames;  // nothing: they are kept no longer than the films take
+    std::optional<FramePattern> frames;  // nothing: deleted once the films are made
     std::vector<std::filesystem::path> films;
 };
 
 /// Adds --output, --frames and --step.
 void add_frames_options(CommandLine& line);
 
-/// What --output says; frames/%04d.png where it is not given. Throws candela::Error (bad_request) for what
-/// cannot be, and (failure) where a film needs a program that is not there.
+/// Reads --output; its default is frames/%04d.png. Throws candela::Error: bad_request for unusable names,
+/// failure if a film needs a program that is not installed.
 AnimationOutputs animation_outputs_from(const CommandLine& line);
 
-/// The format of the frames. Throws candela::Error (bad_request) if they cannot become a film and should.
+/// The format of the frames. Throws candela::Error (bad_request) if a film is wanted and cannot be made from
+/// them.
 candela::PictureFormat format_of_frames(const CommandLine& line, const AnimationOutputs& outputs,
                                         candela::Registry& registry);
 
-/// The frames that --frames and --step choose, all validated; none if the scene is not animated, which is
-/// reported with what else is wrong. Throws candela::Error (bad_request).
+/// The frames that --frames and --step choose, all validated. Empty if the scene is not animated; that is
+/// reported with the scene's other errors. Throws candela::Error (bad_request).
 std::vector<int> checked_frames_from(const CommandLine& line, candela::SceneFrames& frames,
                                      candela::Registry& registry, candela::Diagnostics& diagnostics,
                                      int threads);
 
-/// Throws candela::Error (bad_request) where a film, or one of these frames, would replace a file that the
-/// scene is made from.
+/// Throws candela::Error (bad_request) if a film or one of these frames would overwrite a file that the scene
+/// is made from.
 void require_no_input_among(const AnimationOutputs& outputs, candela::SceneFrames& frames,
                             const std::vector<int>& numbers);

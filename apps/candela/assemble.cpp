@@ -1,4 +1,4 @@
-// candela assemble: parts become a picture.
+// candela assemble: puts the parts of a picture together.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -36,7 +36,7 @@ using candela::Links;
 
 namespace {
 
-/// The rows of all parts, one after the other.
+/// The rows of all parts, part after part.
 class PartRows final : public candela::PictureRows {
   public:
     PartRows(const fs::path& picture, const PartedPicture& parted, ProgressBar& bar)
@@ -53,7 +53,7 @@ class PartRows final : public candela::PictureRows {
             rows.bytes = bytes_;
         } else {
             reals_.resize(size / sizeof(float));
-            read({reinterpret_cast<char*>(reals_.data()), size});  // NOLINT: so they were written
+            read({reinterpret_cast<char*>(reals_.data()), size});  // NOLINT: written the same way
             rows.reals = reals_;
         }
         done_ += rows.height;
@@ -76,9 +76,10 @@ class PartRows final : public candela::PictureRows {
         const PartNumber part{++number_, parted_.parts};
         const fs::path file = file_of_part(picture_, part);
         if (!is_up_to_date(file, parted_.inputs_of_parts(), Links::not_followed)) {
-            throw Error(ErrorCategory::failure,
-                        fmt::format("'{}' is not as it was rendered; render --part {}/{} makes it again",
-                                    file.string(), part.number, part.of));
+            throw Error(
+                ErrorCategory::failure,
+                fmt::format("'{}' has changed since it was rendered; render it again with --part {}/{}",
+                            file.string(), part.number, part.of));
         }
         file_.emplace(file, Links::not_followed);
         if (!file_->is_open()) fail();
@@ -102,7 +103,7 @@ class PartRows final : public candela::PictureRows {
     std::vector<float> reals_;
 };
 
-/// "1, 4-6", of numbers in rising order.
+/// Rising numbers as ranges: "1, 4-6".
 std::string ranges_of(const std::vector<int>& numbers) {
     std::vector<std::string> ranges;
     for (std::size_t i = 0; i < numbers.size();) {
@@ -127,21 +128,21 @@ void require_all_parts(const fs::path& picture, const PartedPicture& parted) {
     std::string problem;
     if (!missing.empty()) problem = fmt::format("missing: {}", ranges_of(missing));
     if (!other.empty())
-        problem += fmt::format("{}made from something else than the part that was rendered last: {}",
+        problem += fmt::format("{}made from other inputs than the part rendered last: {}",
                                problem.empty() ? "" : "; ", ranges_of(other));
-    throw Error(ErrorCategory::failure, fmt::format("'{}' is not complete; of its {} parts are {}",
-                                                    picture.string(), parted.parts, problem));
+    throw Error(ErrorCategory::failure,
+                fmt::format("'{}' is incomplete ({} parts): {}", picture.string(), parted.parts, problem));
 }
 
 int assemble(const CommandLine& line) {
     if (!line.has("picture"))
         throw Error(ErrorCategory::bad_request,
-                    "candela assemble needs the picture's name, as candela render --part was given it");
+                    "candela assemble needs the picture's name, the same as for candela render --part");
     const Stopwatch total;
     const fs::path picture = line.all("picture").front();
     std::error_code problem;
     if (!fs::exists(folder_of_parts(picture), problem) && is_recorded(picture)) {
-        say(fmt::format("{} is complete; there are no parts\n", picture.string()));
+        say(fmt::format("{} is already complete; it has no parts left\n", picture.string()));
         return 0;
     }
     candela::Registry registry = registry_from(line);
@@ -149,8 +150,7 @@ int assemble(const CommandLine& line) {
     const PartedPicture parted = read_description(picture);
     if (format.pixels != parted.whole.pixels)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("the parts of '{}' have pixels of another type than the format has",
-                                picture.string()));
+                    fmt::format("the parts of '{}' and the format differ in pixel type", picture.string()));
     require_all_parts(picture, parted);
     try {
         ProgressBar bar("assembling", !is_quiet());
@@ -159,7 +159,7 @@ int assemble(const CommandLine& line) {
                               [&] { candela::write_rows(parted.whole, rows, format, picture, registry); });
         record(picture, parted.inputs, Links::followed);
     } catch (const Error&) {
-        // Somebody else has assembled it meanwhile, and removed the parts.
+        // Another process has assembled it and removed the parts.
         if (recorded(picture, parted.inputs, Links::followed) != Recorded::made) throw;
     }
     if (!line.has("keep-parts")) fs::remove_all(folder_of_parts(picture), problem);
@@ -176,10 +176,8 @@ int assemble(const CommandLine& line) {
 int run_assemble(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela assemble PICTURE [options]",
-        "Puts together a picture of which candela render --part has made the parts, says which are "
-        "missing, and removes\nthem. The result has the bytes of the picture rendered in one go. PICTURE is "
-        "the name that "
-        "-o gave.");
+        "Put together the parts of a picture made by candela render --part, and remove them. Report missing "
+        "parts. The picture is byte-identical to one rendered in one go. PICTURE is the name given to -o.");
     line.positional("picture", 1);
     line.options()("keep-parts", "do not remove the parts")("threads", po::value<int>()->value_name("N"),
                                                             "threads to use; default: all cores");

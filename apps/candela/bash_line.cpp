@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view k_special_in_double_quotes = "$`\"\\";
 
-/// Behind an opening one.
+/// `word` inside an opened single quote.
 std::string in_single_quotes(std::string_view word) {
     std::string result;
     for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -27,7 +27,7 @@ std::string in_double_quotes(std::string_view word) {
     std::string result;
     for (const char c : word) {
         if (c == '!') {
-            // It recalls an earlier command within them, too, and a backslash before it would stay.
+            // Bash also expands history inside double quotes, and would keep a backslash before the '!'.
             result += "\"'!'\"";
             continue;
         }
@@ -61,7 +61,7 @@ class BashLine::Reader {
 
     Quotes quotes() const { return quotes_; }
     bool is_escaped() const { return is_escaped_; }
-    /// Whether the shell makes something else of the last word.
+    /// Whether the shell expands the last word.
     bool is_expanded() const { return is_expanded_; }
     const std::string& word() const { return word_; }
     std::vector<std::string> words() {
@@ -82,7 +82,7 @@ class BashLine::Reader {
 
     void read_escaped(char c) {
         is_escaped_ = false;
-        if (c == '\n') return;  // a line that goes on
+        if (c == '\n') return;  // a continued line
         const bool is_special = k_special_in_double_quotes.find(c) != std::string_view::npos;
         if (quotes_ == Quotes::twofold && !is_special) add('\\');
         add(c);
@@ -153,7 +153,7 @@ std::string BashLine::quoted(std::string_view part) const {
                                        : in_double_quotes(part);
 }
 
-/// The same, but for one character in quotation marks of its own.
+/// Like quoted(), but puts one character in quotation marks of its own.
 std::string BashLine::quoted_otherwise(std::string_view part, std::size_t at) const {
     const std::string character(1, part[at]);
     const std::string mark = character == "'" ? "\"" : "'";
@@ -162,8 +162,8 @@ std::string BashLine::quoted_otherwise(std::string_view part, std::size_t at) co
            quoted(part.substr(at + 1));
 }
 
-/// Readline closes the quotation marks behind a whole word, but not where the last character is one: it takes
-/// them for closed then.
+/// Readline closes the quotation marks after a whole word, unless its last character is a quotation mark: it
+/// then takes them for closed.
 std::string BashLine::closed(std::string text) const {
     const char mark = quotes_ == Quotes::single ? '\'' : '"';
     if (quotes_ != Quotes::none && text.ends_with(mark)) text += mark;
@@ -178,7 +178,7 @@ std::vector<std::string> BashLine::replacements_for(std::vector<std::string> wor
     for (const std::string& word : words) replacements.push_back(quoted(word));
     if (words.size() > 1) {
         const std::string common = common_beginning(words), inserted = common_beginning(replacements);
-        // Else they differ behind a backslash, which would stay without a character.
+        // Otherwise they differ after a backslash, which would be left without a character.
         if (inserted != quoted(common) && inserted.ends_with('\\') && words.front().size() > common.size())
             replacements.front() = quoted_otherwise(words.front(), common.size());
     }

@@ -1,4 +1,4 @@
-// A command line that is being typed in bash, up to the cursor.
+// A command line being typed in bash, up to the cursor.
 #pragma once
 
 #include <cstddef>
@@ -7,21 +7,21 @@
 #include <string_view>
 #include <vector>
 
-/// Readline replaces a part of the line, which begins behind the last quotation mark or character such as '='
-/// and ends at the cursor, by what a completion function says, as it is: so that has to be quoted for where
-/// it stands.
+/// Readline replaces part of the line, from after the last quotation mark or character such as '=' to the
+/// cursor, with the output of a completion function, verbatim. That output must therefore be quoted for its
+/// place.
 class BashLine {
   public:
-    /// `replaced`: the part of the line that is replaced, which is its end.
+    /// `replaced`: the part of the line that is replaced; the line ends with it.
     BashLine(std::string_view line, std::string_view replaced);
 
-    /// The words as a program is given them, without expansions; the last one is the one that is being typed,
-    /// and may be empty.
+    /// The words as a program receives them, without expansions. The last one is being typed and may be
+    /// empty.
     const std::vector<std::string>& words() const { return words_; }
 
-    /// What has to stand in place of the replaced part for the last word to become each of `words`. Without
-    /// those that it cannot become: what stands before it is something else, or is expanded by the shell. Of
-    /// several, readline inserts what they have in common, so that none shares half of an escaped character.
+    /// The replacements that turn the last word into each of `words`. Omits words that cannot be reached
+    /// because the text before the replaced part is different or expanded by the shell. Given several,
+    /// readline inserts their common prefix, so no prefix ends within an escaped character.
     std::vector<std::string> replacements_for(std::vector<std::string> words) const;
 
   private:
@@ -34,5 +34,5 @@ class BashLine {
 
     std::vector<std::string> words_;
     Quotes quotes_ = Quotes::none;     // where the replaced part begins
-    std::optional<std::string> kept_;  // of the last word, before that; nothing if the shell expands it
+    std::optional<std::string> kept_;  // the last word up to there; nothing if the shell expands it
 };

@@ -1,4 +1,4 @@
-// candela bench: how long a scene takes, stage by stage, once everything is warm.
+// candela bench: measures each stage of rendering a scene, once everything is warm.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,14 +35,14 @@ int count_from(const CommandLine& line, const char* flag, int least, int most) {
     const int count = line.get<int>(flag);
     if (count < least || count > most)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--{} is {}; it can be {} to {}", flag, count, least, most));
+                    fmt::format("--{} is {}; expected {} to {}", flag, count, least, most));
     return count;
 }
 
-/// Milliseconds of each frame, by stage.
+/// Milliseconds per frame, by stage.
 struct Times {
     std::vector<double> projection, tiles, frame;
-    std::vector<double> relit;  // frames of which nothing but the light is new
+    std::vector<double> relit;  // frames in which only the light changes
 };
 
 struct Plan {
@@ -88,7 +88,7 @@ void print_text(const Json& f) {
                              number("projection_ms"), number("tiles_ms"))
               << fmt::format("  frame        {:9.3f} ms  median of {}, fastest {:.3f}\n", number("frame_ms"),
                              f.at("frames").get<int>(), number("fastest_frame_ms"))
-              << fmt::format("  relit        {:9.3f} ms  where only lights or materials have changed\n",
+              << fmt::format("  relit        {:9.3f} ms  if only lights or materials change\n",
                              number("relit_frame_ms"))
               << fmt::format(
                      "  {:.4g} Mpixel/s, {:.4g} Msample/s, {:.4g} M points lit/s, {:.4g} Mtriangle/s\n",
@@ -101,11 +101,12 @@ void print_text(const Json& f) {
 int run_bench(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela bench [SCENE...] [options]",
-        "Renders a scene again and again within one process, and prints the median times of its stages\n"
-        "and the rates they amount to. The scene is read, and its triangles are made, once.");
+        "Render a scene again and again within one process, and print the median times of its stages and the "
+        "rates they amount to. The scene is read, and its triangles are made, once.");
     line.options()("frames", po::value<int>()->value_name("N")->default_value(50),
-                   "frames to measure, 1 to 100000")(
-        "warm-up", po::value<int>()->value_name("N")->default_value(5), "frames before that, 0 to 100000")(
+                   "frames to measure, 1 to 100000")("warm-up",
+                                                     po::value<int>()->value_name("N")->default_value(5),
+                                                     "frames to render first, 0 to 100000")(
         "threads", po::value<int>()->value_name("N")->default_value(0), "threads to use; 0: all cores")(
         "json", "print the results as JSON");
     add_scene_options(line);

@@ -1,4 +1,4 @@
-// candela check: what is wrong with a scene, and what was read.
+// candela check: reports a scene's errors, or a summary of it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ std::size_t triangles_of(const CompiledScene& compiled) {
     return all;
 }
 
-/// A line, if the scene is animated.
+/// A line if the scene is animated; otherwise empty.
 std::string animation_text(const Scene& scene) {
     if (!scene.animation) return "";
     const candela::Animation& animation = *scene.animation;
@@ -139,32 +139,31 @@ void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene
 }  // namespace
 
 int run_check(const std::vector<std::string>& arguments) {
-    CommandLine line(
-        "candela check SCENE... [options]",
-        "Reads a scene from one file or several, and reports every error in it, or a summary of what was\n"
-        "read.");
+    CommandLine line("candela check SCENE... [options]",
+                     "Read a scene from one or more files, and report all its errors, or a summary of it.");
     add_scene_options(line);
     add_frame_option(line);
-    line.options()("json", "the diagnostics and the summary as JSON, on standard output")(
-        "print", "print the scene as one file: with includes, --set and all defaults filled in");
+    line.options()("json", "print the diagnostics and the summary as JSON")(
+        "print", "print the scene as one file, with includes, --set and all defaults filled in");
     if (!line.parse(arguments)) return 0;
     if (line.has("json") && line.has("print"))
         throw candela::Error(candela::ErrorCategory::bad_request,
-                             "--json and --print both want standard output; choose one");
+                             "--json and --print both use standard output; choose one");
     if (!line.has("scene"))
         throw candela::Error(candela::ErrorCategory::bad_request, "candela check needs a scene file");
 
     candela::Registry registry = registry_from(line);
     Diagnostics diagnostics;
     candela::SceneRequest request = scene_request_from(line, registry);
-    // A check says the same wherever it runs, and never waits: where `render` would ask, it says what is
+    // The report is the same everywhere, and a check never waits: where `render` would ask, it reports what
+    // is missing.
     // missing.
     request.ask = nullptr;
     auto frames = candela::SceneFrames::read(request, registry, diagnostics);
     std::optional<candela::SceneDraft> draft;
     std::optional<CompiledScene> compiled;
     if (frames && frames->animation()) {
-        // What is wrong with this frame is found with all others.
+        // Errors of this frame are found with those of all others.
         Diagnostics ignored;
         draft = frames->draft(request.frame, ignored);
         check_all_frames(*frames, frames_from(std::nullopt, 1, frames->count()), registry, diagnostics);

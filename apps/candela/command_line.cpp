@@ -35,7 +35,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// A flag that says the same however often it is given: once by a person, and once by a program for them.
+/// A flag that may be repeated, because a program may add it to what a person typed.
 class RepeatableFlag : public po::untyped_value {
   public:
     RepeatableFlag() : untyped_value(true) {}
@@ -79,12 +79,12 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
     std::vector<std::string> known;
     for (const auto& option : visible_.options()) known.push_back("--" + option->long_name());
     if (means_height(arguments) && std::ranges::find(known, "--height") != known.end())
-        throw Error(ErrorCategory::bad_request, "-h is --help; did you mean '--height'?");
+        throw Error(ErrorCategory::bad_request, "-h means --help; did you mean '--height'?");
     try {
         read(arguments, Unknown::refused);
         po::notify(values_);
     } catch (const po::unknown_option& problem) {
-        // --widht=100 is given with its value.
+        // For --widht=100, the name includes the value.
         const std::string given = problem.get_option_name();
         const bool is_short = given.size() > 1 && given[0] == '-' && given[1] != '-';
         const std::string name = is_short ? given.substr(0, 2) : given.substr(0, given.find('='));
@@ -115,13 +115,13 @@ std::vector<std::string> CommandLine::all(const std::string& name) const {
 
 void add_plugin_options(CommandLine& line) {
     line.options()("plugin-dir", po::value<std::vector<std::string>>()->value_name("DIR"),
-                   "look for plugins here first; may be repeated")(
+                   "look for plugins here first; can be repeated")(
         "allow-untrusted-plugins", "also load plugins that other users can modify");
 }
 
 namespace {
 
-/// A folder that is not there may come to be, but a file among them is a mistake.
+/// A missing folder may still be created, but a file in the list is a mistake.
 void require_folders_in_path() {
     const char* const list = std::getenv("CANDELA_PLUGIN_PATH");
     for (std::string_view rest = list != nullptr ? list : ""; !rest.empty();) {
@@ -132,8 +132,8 @@ void require_folders_in_path() {
         const auto status = std::filesystem::status(folder, problem);
         if (!std::filesystem::exists(status) || std::filesystem::is_directory(status)) continue;
         throw Error(ErrorCategory::failure,
-                    fmt::format("CANDELA_PLUGIN_PATH names '{}', which is not a folder; it lists folders of "
-                                "plugins, separated by colons",
+                    fmt::format("CANDELA_PLUGIN_PATH names '{}', which is not a folder; expected a list of "
+                                "folders, separated by colons",
                                 folder.string()));
     }
 }
@@ -161,13 +161,14 @@ candela::Registry registry_from(const CommandLine& line) {
 
 namespace {
 
-/// Standard input, or a descriptor that a shell has opened (<(program)): it can be read once.
+/// Standard input, or a descriptor opened by a shell (<(program)), which can be read only once.
 bool is_stream(const std::string& file) {
     return file == "-" || file == "/dev/stdin" || file.starts_with("/dev/fd/") ||
            file.starts_with("/proc/self/fd/");
 }
 
-/// What a stream holds; read when asked for first. A little more than a scene may have, if there is more.
+/// The contents of a stream, read on first use. Reads slightly more than the largest scene, to detect an
+/// overlong one.
 const std::string& contents_of(const std::string& stream) {
     static std::map<std::string, std::string> known;
     const auto [text, is_new] = known.try_emplace(stream);
@@ -178,7 +179,7 @@ const std::string& contents_of(const std::string& stream) {
     };
     const int descriptor = stream == "-" ? STDIN_FILENO : ::open(stream.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) fail();
-    std::vector<char> part(65536);  // on the stack it would cost whoever has no stream its pages, too
+    std::vector<char> part(65536);  // on the stack it would cost pages even without a stream
     while (text->second.size() <= candela::ReadingLimits::k_most_bytes) {
         const ssize_t count = ::read(descriptor, part.data(), part.size());
         if (count < 0 && errno == EINTR) continue;
@@ -190,14 +191,14 @@ const std::string& contents_of(const std::string& stream) {
     return text->second;
 }
 
-/// What reads models' triangles only once. Never destroyed: plugins are gone by then.
+/// Readers that read each model's triangles only once. Never destroyed: the plugins are gone by then.
 std::vector<std::shared_ptr<const void>>& triangles_of_models() {
     static auto& all =
         *new std::vector<std::shared_ptr<const void>>;  // NOLINT(cppcoreguidelines-owning-memory)
     return all;
 }
 
-/// The scene that shows a model; made once, and so are the files of pictures that the model contains, which
+/// The scene that shows a model. It is made once; so are the files of pictures embedded in the model, which
 /// live as long as the command.
 const std::string& scene_of_model(const std::string& file, bool allow_outside, bool with_animation,
                                   candela::Registry& registry) {
@@ -238,7 +239,7 @@ void add_scene_options(CommandLine& line) {
         "height", po::value<std::string>()->value_name("N"), "pixels from top to bottom")(
         "samples", po::value<std::string>()->value_name("N"), "samples per pixel: 1, 4, 8 or 16")(
         "set", po::value<std::vector<std::string>>()->value_name("PATH=VALUE"),
-        "override one value, such as light.lamp.intensity=3 or object.0.color=[255,0,0]; may be repeated")(
+        "override one value, such as light.lamp.intensity=3 or object.0.color=[255,0,0]; can be repeated")(
         "allow-outside", "let a model name files outside its own folder, such as ../textures/wood.png")(
         "defaults", "if the scene names no shading or reflection model, use Phong without asking");
     add_plugin_options(line);
@@ -252,7 +253,7 @@ int count_from(const CommandLine& line, const std::string& option, int most) {
     const int count = line.get<int>(option);
     if (count < 1 || count > most) {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--{} is {}; it can be 1 to {}", option, count, most));
+                    fmt::format("--{} is {}; expected 1 to {}", option, count, most));
     }
     return count;
 }
@@ -266,8 +267,10 @@ std::vector<candela::Setting> settings_from(const CommandLine& line, const std::
     for (const std::string& setting : line.all(option)) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) {
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("--{0} '{1}' has no '='; write --{0} image.width=640", option, setting));
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("--{0} '{1}' has no '='; expected PATH=VALUE, such as --{0} image.width=640",
+                            option, setting));
         }
         const std::string path = setting.substr(0, equals);
         settings.push_back({fmt::format("--{} {}", option, path), path, setting.substr(equals + 1)});
@@ -280,7 +283,7 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
     candela::SceneRequest request;
     const std::vector<std::string> files = line.all("scene");
     for (const std::string& file : files) {
-        if (file.empty()) throw Error(ErrorCategory::bad_request, "the name of a scene is empty");
+        if (file.empty()) throw Error(ErrorCategory::bad_request, "a scene's file name is empty");
         request.files.emplace_back(file);
         if (is_stream(file)) {
             request.streams.emplace(file, contents_of(file));
@@ -288,9 +291,10 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
             if (files.size() > 1)
                 throw Error(
                     ErrorCategory::bad_request,
-                    fmt::format("'{}' is a model, which is shown on its own; candela import makes a scene of "
-                                "it that can be combined with others",
-                                file));
+                    fmt::format(
+                        "'{}' is a model, which is shown on its own; make a scene of it with candela import "
+                        "to combine it with others",
+                        file));
             const bool with_animation = models == Models::moving || line.has("frame");
             request.streams.emplace(
                 file, scene_of_model(file, line.has("allow-outside"), with_animation, registry));
@@ -298,9 +302,10 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
     }
     if (line.has("allow-outside") &&
         std::ranges::none_of(files, [](const std::string& file) { return importing::is_model(file); }))
-        throw Error(ErrorCategory::bad_request,
-                    "--allow-outside is for a model in place of a scene; in a scene, give the object "
-                    "allow_outside = true");
+        throw Error(
+            ErrorCategory::bad_request,
+            "--allow-outside applies to a model given instead of a scene; in a scene, give the object "
+            "allow_outside = true");
     for (const char* const flag : {"width", "height", "samples"}) {
         if (!line.has(flag)) continue;
         request.settings.push_back(
@@ -312,7 +317,7 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
     if (line.has("reflection")) request.reflection = {line.get<std::string>("reflection"), "--reflection"};
     request.use_defaults = line.has("defaults");
     if (line.has("frame")) request.frame = line.get<int>("frame");
-    // Who answers types on standard input, which a scene may have used up.
+    // Answers are typed on standard input, which a scene may have used up.
     if (can_ask() && request.streams.empty()) request.ask = ask;
     return request;
 }

@@ -1,4 +1,4 @@
-// The parts of a command line that several verbs share.
+// Parts of a command line that several verbs share.
 #pragma once
 
 #include <boost/program_options.hpp>
@@ -10,36 +10,36 @@ import candela.diagnostics;
 import candela.registry;
 import candela.scene;
 
-/// A verb's options, its positional arguments and its help. Throws candela::Error (usage) with a suggestion
-/// for what it does not know.
+/// A verb's options, positional arguments and help. Throws candela::Error (usage), with a suggestion, for
+/// unknown arguments.
 class CommandLine {
   public:
     /// `usage`: "candela render [SCENE...] [options]".
     CommandLine(std::string usage, std::string explanation);
 
-    /// To add the verb's own options to.
+    /// Use this to add the verb's own options.
     boost::program_options::options_description_easy_init options() { return visible_.add_options(); }
-    /// Takes all arguments that are no options.
+    /// Takes all arguments that are not options.
     void positional(const std::string& name, int how_many);
 
-    /// False where help or completions were asked for (and printed): the verb is done.
+    /// False if help or completions were requested (and printed), so the verb is done.
     bool parse(const std::vector<std::string>& arguments);
 
     bool has(const std::string& name) const { return values_.count(name) > 0; }
-    /// Whether a person has given it; an option with a default value is there in any case.
+    /// Whether the user gave it; has() is always true for an option with a default value.
     bool is_given(const std::string& name) const { return has(name) && !values_[name].defaulted(); }
     template <class T>
     T get(const std::string& name) const {
         return values_[name].as<T>();
     }
-    /// All values of a repeated option; none where it was not given.
+    /// All values of a repeated option; none if it was not given.
     std::vector<std::string> all(const std::string& name) const;
 
   private:
     enum class Unknown : bool { refused, allowed };
 
     void read(const std::vector<std::string>& arguments, Unknown unknown);
-    /// Prints what the last word may become (completion.h).
+    /// Prints the completions of the last word (completion.h).
     void complete(const std::vector<std::string>& words);
     void complete_value(const boost::program_options::option_description& option, const std::string& given,
                         const std::string& typed) const;
@@ -55,34 +55,34 @@ class CommandLine {
 
 /// Adds --plugin-dir.
 void add_plugin_options(CommandLine& line);
-/// The installed plugins. What is refused in a folder that --plugin-dir names is not replaced; elsewhere a
-/// warning says what is used instead.
+/// The installed plugins. Throws for a plugin refused in a folder named by --plugin-dir; elsewhere, warns
+/// which plugin is used instead.
 candela::Registry registry_from(const CommandLine& line);
 
-/// Adds what says how a scene is read: SCENE..., --shading, --set and so on.
+/// Adds the options that say how a scene is read: SCENE..., --shading, --set and so on.
 void add_scene_options(CommandLine& line);
-/// How models are shown: at rest, unless --frame asks for a frame, or with their animation.
+/// How models are shown: at rest (unless --frame selects a frame), or with their animation.
 enum class Models { at_rest, moving };
-/// A model's file in place of a scene is imported, once, and what is lost is said.
+/// Imports a model given in place of a scene, once, and reports what is lost.
 candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry,
                                          Models models = Models::at_rest);
-/// To be called once the scene of a model has been compiled: until then its triangles are kept, so that the
-/// file is read only once.
+/// Call this once the scene of a model has been compiled. Until then its triangles are kept, so that the file
+/// is read only once.
 void forget_triangles_of_models();
-/// The words that say the same to another command, in this folder.
+/// The arguments that give another command, run in this folder, the same scene.
 std::vector<std::string> scene_words_from(const CommandLine& line);
 
 /// Adds --frame, for scene_request_from().
 void add_frame_option(CommandLine& line);
 
-/// The PATH=VALUE pairs of an option that may be repeated.
+/// The PATH=VALUE pairs of a repeatable option.
 std::vector<candela::Setting> settings_from(const CommandLine& line, const std::string& option);
 
-/// What stands between the commas of a list; empty words too.
+/// The words between the commas of a list, empty ones included.
 std::vector<std::string> words_of(const std::string& list);
 
 /// A number from 1 to `most`. Throws Error (bad_request).
 int count_from(const CommandLine& line, const std::string& option, int most);
 
-/// What --threads says; 0 where it is not given. Throws Error (bad_request).
+/// The value of --threads; 0 if it is not given. Throws Error (bad_request).
 int threads_from(const CommandLine& line);

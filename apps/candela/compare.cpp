@@ -45,20 +45,20 @@ struct Pane {
     std::string label;
     std::vector<Variant> variants;
     candela::Film film;
-    std::optional<DifferenceStatistics> difference{};  // from the first
+    std::optional<DifferenceStatistics> difference{};  // from the first pane
 };
 
-/// What --columns says; nothing where it is not given.
+/// The value of --columns, if given.
 std::optional<int> columns_from(const CommandLine& line, std::size_t panes) {
     if (!line.has("columns")) return std::nullopt;
     const int columns = line.get<int>("columns");
     if (columns >= 1 && static_cast<std::size_t>(columns) <= panes) return columns;
     throw Error(ErrorCategory::bad_request,
-                fmt::format("--columns is {}; it can be 1 to {}, the number of pictures", columns, panes));
+                fmt::format("--columns is {}; expected 1 to {}, the number of pictures", columns, panes));
 }
 
-/// As many columns as the first side has variants; one side alone is broken into rows, so that the sheet is
-/// about one and a half times as wide as it is high, with two pictures side by side at least.
+/// As many columns as the first axis has variants. A single axis is broken into rows so that the sheet is
+/// about one and a half times as wide as it is high, with at least two pictures side by side.
 int columns_for(const std::vector<Axis>& axes, std::size_t panes, const candela::Film& picture) {
     std::vector<std::size_t> sides;
     for (const Axis& axis : axes) {
@@ -71,7 +71,7 @@ int columns_for(const std::vector<Axis>& axes, std::size_t panes, const candela:
     return std::clamp(static_cast<int>(std::lround(ideal)), 2, static_cast<int>(panes));
 }
 
-/// The film's pixels, to be compared.
+/// The film's pixels, for a comparison.
 Picture picture_of(const candela::Film& film) {
     const candela::PictureView view = film.view();
     Picture picture;
@@ -84,7 +84,7 @@ Picture picture_of(const candela::Film& film) {
     return picture;
 }
 
-/// The largest difference of each pixel's channels, white being `maximum` levels.
+/// The largest difference among each pixel's channels; white stands for `maximum` levels.
 candela::Film difference_film(const Picture& a, const Picture& b, double maximum, candela::PixelType pixels) {
     candela::Film film(a.width, a.height, pixels, candela::ColorEncoding::none);
     std::vector<float> grey(a.pixels());
@@ -94,7 +94,7 @@ candela::Film difference_film(const Picture& a, const Picture& b, double maximum
     return film;
 }
 
-/// Instead of every picture but the first: where, and how much, it differs from the first.
+/// Replaces every picture but the first with its difference from the first.
 void show_differences(std::vector<Pane>& panes, candela::PixelType pixels) {
     const Picture first = picture_of(panes.front().film);
     std::vector<Picture> others;
@@ -137,17 +137,17 @@ bool has_several_terms(const std::vector<Axis>& axes) {
         axes, [](const Axis& axis) { return axis.size() > 1 && axis.front().option == "--terms"; });
 }
 
-/// A word of --terms that is a single term.
+/// The single term that a word of --terms names.
 NamedTerm one_term(const std::string& word, const candela::Scene& scene) {
     std::vector<NamedTerm> terms = terms_from({word}, scene, "--terms");
     if (terms.size() == 1) return terms.front();
     throw Error(ErrorCategory::bad_request,
                 fmt::format("--terms: '{}' is {}; each picture shows one term, such as {}", word,
-                            terms.empty() ? "no term of this scene" : "several terms",
+                            terms.empty() ? "not a term of this scene" : "several terms",
                             terms.empty() ? "diffuse" : terms.front().name));
 }
 
-/// Renders one scene again and again.
+/// Renders one scene repeatedly.
 class PaneRenderer {
   public:
     PaneRenderer(const CommandLine& line, const std::string& output, candela::Registry& registry,
@@ -159,7 +159,7 @@ class PaneRenderer {
         request_.reflection.reset();
         request_.shading.reset();
         if (!request_.ask) return;
-        // One answer holds for all pictures.
+        // One answer applies to all pictures.
         request_.ask = [ask = request_.ask, answers = std::make_shared<std::map<std::string, bool>>()](
                            const std::string& question) {
             const auto known = answers->find(question);
@@ -167,8 +167,8 @@ class PaneRenderer {
         };
     }
 
-    /// The picture with those variants, or nothing: what is wrong has been said then, and exit_code() tells
-    /// what to end with. What is to be said of several pictures is said once.
+    /// The picture with these variants, or nothing after reporting an error; exit_code() then returns the
+    /// exit code. Diagnostics that several pictures share are reported once.
     std::optional<candela::Film> film(const std::vector<Variant>& variants, const std::string& label) {
         candela::Diagnostics diagnostics;
         const auto draft = candela::draft_scene(varied(request_, variants), registry_, diagnostics);
@@ -178,7 +178,7 @@ class PaneRenderer {
         if (!compiled) {
             exit_code_ =
                 fail(exit_code_of(diagnostics),
-                     fmt::format("no sheet is made: the errors above are those of the picture '{}'", label));
+                     fmt::format("no sheet written: the errors above are in the picture '{}'", label));
             return std::nullopt;
         }
         encoding_ = compiled->image.color_management;
@@ -218,16 +218,15 @@ class PaneRenderer {
 int run_compare(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela compare [SCENE...] [options]",
-        "Renders a scene with different models or values, and puts the pictures on one sheet, each with a\n"
-        "label: candela compare scene.toml --reflection lambert,phong,ggx --shading flat,phong. One or two "
-        "of\n"
-        "--reflection, --shading, --vary and --terms take several values, between commas.");
+        "Render a scene with different models or values, and put the labelled pictures on one sheet: candela "
+        "compare scene.toml --reflection lambert,phong,ggx --shading flat,phong. Give one or two of "
+        "--reflection, --shading, --vary and --terms several values, separated by commas.");
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("comparison.png"),
                    "the sheet; the format follows its extension");
     add_variant_options(line);
-    line.options()("difference", "show how the other pictures differ from the first, in levels of 1/255")(
+    line.options()("difference", "show how the other pictures differ from the first, in levels (1/255)")(
         "columns", po::value<int>()->value_name("N"), "pictures side by side")(
-        "json", "print on standard output what is where, and the differences");
+        "json", "print the sheet's layout and the differences as JSON");
     add_scene_options(line);
     add_format_option(line);
     add_no_clobber_option(line);
@@ -236,21 +235,21 @@ int run_compare(const std::vector<std::string>& arguments) {
     const std::vector<Axis> axes = axes_from(line);
     const auto all = combinations(axes);
     if (all.size() < 2) {
-        throw Error(
-            ErrorCategory::bad_request,
-            "there is nothing to compare; name several models or values, as in --reflection phong,ggx");
+        throw Error(ErrorCategory::bad_request,
+                    "nothing to compare; name several models or values, as in --reflection phong,ggx");
     }
     if (all.size() > k_most_pictures) {
         throw Error(
             ErrorCategory::bad_request,
-            fmt::format("the sheet would have {} pictures; {} is the most", all.size(), k_most_pictures));
+            fmt::format("the sheet would have {} pictures; the maximum is {}", all.size(), k_most_pictures));
     }
     if (line.has("difference") && has_several_terms(axes))
-        throw Error(ErrorCategory::bad_request, "--difference is between pictures of one term");
+        throw Error(ErrorCategory::bad_request,
+                    "--difference compares pictures of the same term; give --terms only one");
     const auto output = line.get<std::string>("output");
     require_no_default_link(line, "output", output);
     if (output == "-" && line.has("json"))
-        throw Error(ErrorCategory::bad_request, "standard output is either the sheet or JSON");
+        throw Error(ErrorCategory::bad_request, "-o - and --json both use standard output; choose one");
     require_no_terminal(output);
     const candela::Existing existing = existing_from(line);
     require_free(output, existing);
@@ -269,7 +268,7 @@ int run_compare(const std::vector<std::string>& arguments) {
             if (!panes.empty() &&
                 (film->width() != panes[0].film.width() || film->height() != panes[0].film.height()))
                 throw Error(ErrorCategory::bad_request,
-                            "the pictures on a sheet have one size, and these have not");
+                            "the pictures differ in size; a sheet needs pictures of one size");
             panes.push_back({label, variants, *std::move(film)});
             bar.update(panes.size(), all.size());
         }

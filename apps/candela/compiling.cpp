@@ -13,8 +13,7 @@ std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& d
                                                     candela::Registry& registry,
                                                     candela::Diagnostics& diagnostics, int threads) {
     ProgressBar bar("reading", !is_quiet());
-    // Placing the shapes is the first of three steps. From then on what models were read from only takes up
-    // memory.
+    // Placing the shapes is the first of three steps. After it, the models' source data only takes up memory.
     std::atomic<bool> are_placed{false};
     const auto tell = [&](std::size_t done, std::size_t all) {
         if (done >= all / 3 && !are_placed.exchange(true)) forget_triangles_of_models();

@@ -1,4 +1,4 @@
-// Scenes are compiled while a person watches.
+// Compiling scenes while a person watches.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@ import candela.registry;
 import candela.render;
 import candela.scene;
 
-/// candela::compile(), with a progress bar where it takes long.
+/// candela::compile() with a progress bar if it takes long.
 std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& draft,
                                                     candela::Registry& registry,
                                                     candela::Diagnostics& diagnostics, int threads = 0);
 
-/// candela::check_frames(), likewise.
+/// candela::check_frames() with a progress bar if it takes long.
 void check_all_frames(candela::SceneFrames& frames, const std::vector<int>& numbers,
                       candela::Registry& registry, candela::Diagnostics& diagnostics, int threads = 0);

@@ -26,7 +26,7 @@ std::string_view shell_to_complete_for() {
     return wanted != nullptr ? wanted : "";
 }
 
-/// Where it is bash's.
+/// The line, if the shell is bash.
 std::optional<BashLine>& bash_line() {
     static std::optional<BashLine> line;
     return line;
@@ -62,7 +62,7 @@ void print_completions(std::string_view typed, std::span<const Completion> compl
     }
     for (const Completion* const completion : chosen) {
         std::cout << completion->word;
-        // One line: what is behind a line break is a detail.
+        // One line: the rest of a meaning is detail.
         const std::string_view meaning = completion->meaning;
         if (!meaning.empty()) std::cout << '\t' << meaning.substr(0, meaning.find_first_of("\n\t"));
         std::cout << '\n';
@@ -100,7 +100,7 @@ std::vector<Completion> all_plugins(candela::Registry& registry) {
     return result;
 }
 
-/// "ggx", and behind its name "ggx:roughness=0.3,f0=": what `candela plot` takes.
+/// "ggx", and after its name "ggx:roughness=0.3,f0=": the arguments of `candela plot`.
 std::vector<Completion> models_with_values(std::string_view typed, candela::Registry& registry) {
     const std::size_t colon = typed.find(':');
     if (colon == std::string_view::npos) {
@@ -127,7 +127,7 @@ std::vector<Completion> parameters_of(candela::Registry& registry, PluginKind ki
     return result;
 }
 
-/// The options whose values are known.
+/// The options with known values.
 struct OptionValues {
     std::string_view option;
     std::vector<Completion> (*values)(candela::Registry&);
@@ -138,7 +138,7 @@ constexpr OptionValues k_values_of_options[] = {
     {"target", [](candela::Registry& r) { return plugins(r, PluginKind::target); }},
     {"models",
      [](candela::Registry& r) {
-         std::vector<Completion> result{{"all", "all that fit the scene"}};
+         std::vector<Completion> result{{"all", "all that suit the scene"}};
          append(result, plugins(r, PluginKind::shading));
          append(result, plugins(r, PluginKind::reflection));
          return result;
@@ -156,13 +156,13 @@ constexpr OptionValues k_values_of_options[] = {
 
 bool takes_value(const po::option_description& option) { return option.semantic()->max_tokens() > 0; }
 
-/// Prints those that are not taken for options.
+/// Prints the completions that would not be taken for options.
 void print_arguments(std::string_view typed, std::vector<Completion> completions) {
     std::erase_if(completions, [](const Completion& completion) { return completion.word.starts_with('-'); });
     print_completions(typed, completions);
 }
 
-/// What help calls the value: "FILE".
+/// The value's name in the help: "FILE".
 std::string value_name_of(const po::option_description& option) {
     const std::string name = option.format_parameter();
     return name.substr(0, name.find(' '));
@@ -189,7 +189,7 @@ void CommandLine::complete(const std::vector<std::string>& words) {
     try {
         read(before, Unknown::allowed);
     } catch (const po::error&) {
-        values_.clear();  // unfinished or wrong: completed without knowing it
+        values_.clear();  // unfinished or wrong: complete without the values
     }
 
     if (option != nullptr) return complete_value(*option, "", typed);
@@ -220,7 +220,7 @@ void CommandLine::complete_value(const po::option_description& option, const std
     } else if (const auto* const known = std::ranges::find(k_values_of_options, name, &OptionValues::option);
                known != std::end(k_values_of_options)) {
         values = known->values(registry);
-        // Several verbs take lists.
+        // Several verbs accept lists.
         kept += typed.substr(0, typed.rfind(',') + 1);
     }
     for (Completion& value : values) value.word.insert(0, kept);

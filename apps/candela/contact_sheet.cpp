@@ -19,7 +19,7 @@ constexpr candela::Rgb k_paper{0.8f, 0.8f, 0.8f}, k_ink{0.01f, 0.01f, 0.01f};
 constexpr int k_margin = 4;  // times the letters' scale
 constexpr int k_line = 10;
 
-/// One for pictures of up to 500 pixels, and so on.
+/// 1 for pictures up to 500 pixels wide, and so on.
 int scale_for(int width) { return std::max(1, (width + 250) / 500); }
 
 candela::Film blank(const ContactSheet::Layout& layout, int scale, candela::PixelType pixels,
@@ -32,7 +32,7 @@ candela::Film blank(const ContactSheet::Layout& layout, int scale, candela::Pixe
     if (std::max(width, height) > k_longest) {
         throw Error(
             ErrorCategory::bad_request,
-            fmt::format("the sheet would have {} x {} pixels; {} is the most: make its pictures smaller",
+            fmt::format("the sheet would have {} x {} pixels; the maximum is {}: make its pictures smaller",
                         width, height, k_longest));
     }
     candela::Film film(static_cast<int>(width), static_cast<int>(height), pixels, encoding);

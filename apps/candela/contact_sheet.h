@@ -13,16 +13,16 @@ class ContactSheet {
         int width, height;  // of each picture, in pixels
     };
 
-    /// Throws candela::Error where the sheet is larger than a picture can be, or than there is memory.
+    /// Throws candela::Error if the sheet would exceed the largest picture or the memory.
     ContactSheet(const Layout& layout, candela::PixelType pixels, candela::ColorEncoding encoding);
 
-    /// `number`: row by row from the top. The picture's pixels are copied as they are.
+    /// `number` counts row by row from the top. The picture's pixels are copied unchanged.
     void put(int number, const candela::Film& picture, const std::string& label);
 
     const candela::Film& film() const noexcept { return film_; }
 
   private:
     Layout layout_;
-    int scale_;  // of the letters
+    int scale_;  // of the lettering
     candela::Film film_;
 };

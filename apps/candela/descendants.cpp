@@ -20,7 +20,7 @@ namespace {
 
 constinit std::atomic<bool> are_to_end{false}, are_ending{false};
 
-/// A path under /proc, put together without memory of its own.
+/// A path under /proc, built without allocating.
 class ProcPath {
   public:
     ProcPath& add(const char* text) noexcept {
@@ -47,7 +47,7 @@ class ProcPath {
     std::size_t size_ = 6;
 };
 
-/// Calls visit(pid) for those that a thread has started.
+/// Calls visit(pid) for each process that a thread has started.
 template <class Visit>
 void for_each_child_of_thread(pid_t process, const char* thread, const Visit& visit) noexcept {
     const int file = ::open(ProcPath().add(process).add("/task/").add(thread).add("/children").c_str(),
@@ -75,9 +75,9 @@ void for_each_child(pid_t process, const Visit& visit) noexcept {
     ::close(threads);
 }
 
-/// `levels`: as deep as the stack of a signal handler should go.
+/// `levels`: the recursion limit, to spare a signal handler's stack.
 void kill_tree(pid_t process, int levels) noexcept {
-    ::kill(process, SIGSTOP);  // or it would start others meanwhile
+    ::kill(process, SIGSTOP);  // so that it starts no others
     if (levels > 0) for_each_child(process, [&](pid_t child) { kill_tree(child, levels - 1); });
     ::kill(process, SIGKILL);
 }
@@ -91,7 +91,7 @@ void let_descendants_end() noexcept {
     constexpr timespec k_pause{.tv_sec = 0, .tv_nsec = 10'000'000};
     const pid_t self = ::getpid();
     are_ending = true;
-    // Another thread may be about to start one, which is then seen in the next round.
+    // Another thread may be about to start a process; the next round sees it.
     for (int i = 0, empty = 0; i < k_rounds && empty < k_empty_rounds; ++i) {
         ++empty;
         for_each_child(self, [&](pid_t child) {
@@ -108,9 +108,9 @@ void end_descendants() noexcept {
     constexpr int k_levels = 12, k_generations = 20;
     const pid_t self = ::getpid();
     are_ending = true;
-    // Those that are orphaned by this are children then.
+    // Processes orphaned by this have become children.
     for (int i = 0; i < k_generations; ++i) {
-        // Not for any child: one that another thread starts meanwhile may never end by itself.
+        // Does not wait for any child: one that another thread starts meanwhile may never end.
         std::array<pid_t, 64> killed{};
         std::size_t count = 0;
         for_each_child(self, [&](pid_t child) {

@@ -1,22 +1,23 @@
-// The programs that this one has started, and those that they have started.
+// The programs that this one has started, and their descendants.
 #pragma once
 
-/// From here on, programs whose parents have ended become children of this one, so that they are found.
+/// From now on, descendants whose parents have ended become children of this program, so that it can find
+/// them.
 void inherit_orphans() noexcept;
 
-/// Asks the programs that this one has started to end, and waits for that, up to five seconds. They end what
-/// they have started themselves, and clean up. Like end_descendants() otherwise.
+/// Asks the programs that this one has started to end, and waits up to five seconds. They clean up and end
+/// what they have started. Otherwise like end_descendants().
 void let_descendants_end() noexcept;
 
-/// Kills them all. To be called on the thread that starts programs; async-signal-safe. Without /proc, it
-/// kills none.
+/// Kills all descendants. Call it on the thread that starts programs. Async-signal-safe. Does nothing without
+/// /proc.
 void end_descendants() noexcept;
 
-/// From here on, a signal that ends this program ends them too, for programs that work for it alone; they can
-/// clean up before.
+/// From now on, a signal that ends this program also ends its descendants, after a chance to clean up. For
+/// programs that work only for this one.
 void end_descendants_on_signals() noexcept;
 bool are_descendants_ended_on_signals() noexcept;
 
-/// Whether one of these two was called: who has waited for one of them on another thread learns nothing from
-/// its end, and should start no other.
+/// Whether one of these two was called. A thread that waited for a child then learns nothing from its end,
+/// and should start no other.
 bool are_descendants_ending() noexcept;

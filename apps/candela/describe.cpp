@@ -1,4 +1,4 @@
-// candela describe: a plugin, as its manifest tells it.
+// candela describe: shows a plugin's manifest.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -20,7 +20,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// "reflection/phong"; a name alone where only one kind has it.
+/// The plugin "reflection/phong"; a name alone suffices if only one kind has it.
 const candela::PluginFile& plugin_called(const std::string& id, candela::Registry& registry) {
     const auto slash = id.find('/');
     if (slash != std::string::npos) {
@@ -41,11 +41,11 @@ const candela::PluginFile& plugin_called(const std::string& id, candela::Registr
                     fmt::format("'{}' may be {}", id, fmt::join(possible, " or ")));
     }
     const std::string meant = candela::suggestion(id, ids);
-    throw Error(ErrorCategory::bad_request, fmt::format("no plugin is called '{}'; {}", id,
-                                                        meant.empty() ? "candela list shows all" : meant));
+    throw Error(ErrorCategory::bad_request,
+                fmt::format("unknown plugin '{}'; {}", id, meant.empty() ? "candela list shows all" : meant));
 }
 
-/// Lines stay lines: a formula is laid out.
+/// Keeps line breaks: a formula is laid out.
 std::string indented(const std::string& text) {
     std::string result;
     std::istringstream lines(text);
@@ -78,7 +78,7 @@ std::string text_of(const candela::Preset& preset) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Each once, in the order of the presets.
+/// Each source once, in the order of the presets.
 std::vector<std::string> sources_of(const std::vector<candela::Preset>& presets) {
     std::vector<std::string> sources;
     for (const candela::Preset& p : presets) {
@@ -124,9 +124,9 @@ void print(const candela::PluginFile& file) {
 
 int run_describe(const std::vector<std::string>& arguments) {
     CommandLine line("candela describe KIND/NAME [options]",
-                     "Explains a plugin: its formula, its paper, its parameters.");
+                     "Explain a plugin: its formula, its paper, its parameters.");
     line.positional("plugin", 1);
-    line.options()("json", "as JSON");
+    line.options()("json", "print the manifest as JSON");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     if (!line.has("plugin"))

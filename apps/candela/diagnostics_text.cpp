@@ -23,7 +23,7 @@ using candela::SourcePlace;
 
 namespace {
 
-/// What a scene that an importer made says on some line, nobody can look up.
+/// Hides the place in a scene that an importer made: nobody can look it up.
 SourcePlace visible(SourcePlace place) {
     return importing::is_model(place.file) ? SourcePlace{.file = std::move(place.file)} : place;
 }
@@ -44,11 +44,11 @@ std::vector<std::string> characters_of(std::string_view line) {
     return result;
 }
 
-/// How wide a mark below a printed character is.
+/// The width of a mark below a printed character.
 std::size_t width_of(const std::string& printed) { return candela::character_count(printed); }
 
-/// A sentence that may quote user input: on one line, without terminal control sequences, and no longer than
-/// anybody reads.
+/// A sentence that may quote user input: on one line, without terminal control sequences, and of readable
+/// length.
 std::string sentence(std::string_view text) {
     constexpr std::size_t k_longest = 1000;
     std::string result;
@@ -61,8 +61,8 @@ std::string sentence(std::string_view text) {
     return result;
 }
 
-/// A line, or as much of it as is readable, and marks below the position. Tabs stay tabs, so that the marks
-/// line up whatever the width of a tab.
+/// A line, or the readable part of it, and marks below the position. Tabs stay tabs, so that the marks line
+/// up whatever the tab width.
 std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& place) {
     constexpr std::size_t k_widest = 160;
     constexpr std::size_t k_before = 60;
@@ -96,7 +96,7 @@ std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& pla
 
 std::string_view word(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
 
-/// What follows a message.
+/// The text to append to a message.
 std::string remedy(const Help& help) {
     switch (help.topic) {
         case Help::Topic::all_plugins:
@@ -104,13 +104,13 @@ std::string remedy(const Help& help) {
         case Help::Topic::plugin_trust:
             return ", or use --allow-untrusted-plugins";
         case Help::Topic::plugin_conformance:
-            return "; candela plugin test tells more";
+            return "; candela plugin test shows details";
         default:
             return {};
     }
 }
 
-/// What stands beside a message as a hint.
+/// The hint to show next to a message.
 std::string pointer(const Help& help) {
     switch (help.topic) {
         case Help::Topic::plugin:

@@ -11,7 +11,7 @@ import candela.text;
 
 namespace {
 
-/// Okabe and Ito (2008), "Color universal design": told apart without seeing all colours, and by their
+/// Okabe and Ito (2008), "Color universal design": distinguishable with colour blindness, and by their
 /// dashes.
 constexpr std::array<std::string_view, 6> k_colors = {"#0072b2", "#d55e00", "#009e73",
                                                       "#cc79a7", "#e69f00", "#56b4e9"};
@@ -26,7 +26,7 @@ double luminance(const candela::Vec3& rgb) {
 
 std::string in_xml(const std::string& text) { return candela::target::html_text(candela::printable(text)); }
 
-/// As RFC 4180 has it.
+/// A CSV cell as in RFC 4180.
 std::string in_csv(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string result = "\"";

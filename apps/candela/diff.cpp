@@ -1,4 +1,4 @@
-// candela diff: figures of how two pictures differ, by the program candela-diff.
+// candela diff: measures how two pictures differ, with the program candela-diff.
 #include <string>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Directories as a signal handler reads them: by system calls, without memory of its own.
+// Reads directories in a signal handler: by system calls, without allocating.
 #pragma once
 
 #include <dirent.h>
@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <cstring>
 
-/// Calls visit(name) for the entries of an open directory, "." and ".." apart. Async-signal-safe where
-/// `visit` is.
+/// Calls visit(name) for the entries of an open directory, except "." and "..". Async-signal-safe if `visit`
+/// is.
 template <class Visit>
 void for_each_entry(int directory, const Visit& visit) noexcept {
-    // dirent64 is how glibc, too, reads what the kernel writes.
+    // glibc also reads the kernel's data as dirent64.
     alignas(dirent64) char buffer[2048];
     for (;;) {
         const long size = ::syscall(SYS_getdents64, directory, buffer, sizeof buffer);

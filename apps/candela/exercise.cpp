@@ -1,4 +1,4 @@
-// candela exercise new|grade: a formula to be found, and how near answers come.
+// candela exercise new|grade: fill-in-the-formula exercises and their grading.
 #include <string>
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 int run_exercise(const std::vector<std::string>& arguments) {
     static constexpr Verb k_exercise_verbs[] = {
-        {"new", "make a page in which a model's formula is to be found", run_exercise_new},
-        {"grade", "say how far answers are off", run_exercise_grade},
+        {"new", "create a fill-in-the-formula exercise", run_exercise_new},
+        {"grade", "grade saved answers", run_exercise_grade},
     };
     return run_subverb("exercise", k_exercise_verbs, arguments);
 }

@@ -1,4 +1,4 @@
-// candela exercise grade: answers against what the models give.
+// candela exercise grade: compares answers with the models' own results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ namespace {
 
 enum class Result { matches, differs, does_not_compile, hangs, crashes, is_no_answer };
 
-/// As the JSON has them.
+/// The name of the result in JSON.
 const char* name_of(Result result) {
     switch (result) {
         case Result::matches:
@@ -56,17 +56,17 @@ const char* name_of(Result result) {
 
 struct Grade {
     fs::path file;
-    std::string model, function;  // as the answer says
+    std::string model, function;  // as named in the answer
     Result result = Result::is_no_answer;
-    std::string message;         // what is wrong, where it is not in the numbers
-    std::size_t line = 0;        // of the answer, where the message is about one
-    std::size_t column = 0;      // likewise
-    Json terms = Json::array();  // as the conformance kit says them
+    std::string message;         // what is wrong, other than the numbers
+    std::size_t line = 0;        // of the answer, if the message is about one
+    std::size_t column = 0;      // like `line`
+    Json terms = Json::array();  // as the conformance kit reports them
 };
 
-constexpr const char* k_answer = "answer";  // what messages call its text
+constexpr const char* k_answer = "answer";  // the name of its text in messages
 
-/// What the compiler says about the first error in the answer: a name that a header has a macro of, say.
+/// Takes the compiler's first error in the answer, such as a name that a header defines as a macro.
 void take_refusal(Grade& grade, const std::string& log) {
     grade.result = Result::does_not_compile;
     static const std::regex k_error(fmt::format(R"(\b{}:(\d+):(\d+): (?:fatal )?error: ([^\n]*))", k_answer));
@@ -85,7 +85,8 @@ void take_refusal(Grade& grade, const std::string& log) {
     grade.column = std::stoul(found[2]);
 }
 
-/// The exercise's kernel with an answer in it, as C++; or nothing, and what is wrong with the answer.
+/// The exercise's kernel with the answer in it, as C++; or nothing, after storing what is wrong with the
+/// answer.
 std::optional<std::string> compilable(const Exercise& exercise, const std::string& answer, Grade& grade) try {
     return kl::emitted(kl::read_kernel(exercise.kernel, kl::Body{exercise.function, {k_answer, answer}}),
                        kl::Emission::guarded_cpp);
@@ -99,7 +100,7 @@ std::optional<std::string> compilable(const Exercise& exercise, const std::strin
     return std::nullopt;
 }
 
-/// What the kit says of the kernel in `text`, with an answer in it.
+/// The conformance kit's verdict on the kernel in `text`, which contains an answer.
 Json judged_by_kit(const fs::path& kit, const Exercise& exercise, const fs::path& text, double seconds) {
     const candela::ProgramOutput output =
         candela::run_program({kit.string(), exercise.plugin->library.string(), "--answer", text.string(),
@@ -150,10 +151,10 @@ class Grader {
             take_refusal(grade, found["refused"]);
         } else if (found.contains("hangs")) {
             grade.result = Result::hangs;
-            grade.message = "it does not come to an end";
+            grade.message = "it does not finish";
         } else if (found.contains("signal")) {
             grade.result = Result::crashes;
-            grade.message = fmt::format("it ends with SIG{}", found["signal"].get<std::string>());
+            grade.message = fmt::format("it was killed by SIG{}", found["signal"].get<std::string>());
         } else {
             grade.result = found["matches"] ? Result::matches : Result::differs;
             grade.terms = found["terms"];
@@ -173,7 +174,7 @@ std::string percent(double share) {
     return value > 0 && value < 0.1 ? "< 0.1 %" : fmt::format("{:.{}f} %", value, value < 10 ? 1 : 0);
 }
 
-/// Of another value: "by up to 40 % of", "by more than 1000 times".
+/// A share of another value: "by up to 40 % of", "by more than 1000 times".
 std::string multiple(double share) {
     if (share < 10) return fmt::format("by up to {} of", percent(share));
     return share < 1000 ? fmt::format("by up to {:.0f} times", share) : "by more than 1000 times";
@@ -187,7 +188,7 @@ std::string term_text(const Json& term) {
     return text + fmt::format(", {} the largest value", multiple(term["largest"].get<double>()));
 }
 
-/// What became of it, in a line.
+/// The result of grading, in a line.
 std::string summary_of(const Grade& grade) {
     std::string text = grade.result == Result::does_not_compile ? "does not compile" : name_of(grade.result);
     if (grade.result == Result::is_no_answer) return grade.message;
@@ -196,7 +197,7 @@ std::string summary_of(const Grade& grade) {
     return text;
 }
 
-/// A row per answer, and under those that differ how.
+/// A row per answer; differing ones are followed by how they differ.
 std::string table(const std::vector<Grade>& grades) {
     std::vector<std::array<std::string, 2>> cells;
     std::array<std::size_t, 2> widths{};
@@ -239,25 +240,25 @@ Json json_of(const Grade& grade) {
 }  // namespace
 
 int run_exercise_grade(const std::vector<std::string>& arguments) {
-    CommandLine line(
-        "candela exercise grade FILE|FOLDER... [options]",
-        "Grades answers that the pages of `candela exercise new` have saved: whether the formula gives the "
-        "model's own\nnumbers, as the conformance kit compares them, and if not, how far it is off in which "
-        "term. Of a folder, the\nfiles named *.answer are graded. An answer is compiled and run in a process "
-        "of its own that can do nothing but\ncompute.");
+    CommandLine line("candela exercise grade FILE|FOLDER... [options]",
+                     "Grade answers saved by the pages of `candela exercise new`: check whether the formula "
+                     "gives the model's own numbers, as the conformance kit compares them, and if not, show "
+                     "how far off each term is. In folders, grade the files named *.answer. Each answer is "
+                     "compiled and run in a process of its own that can do nothing but compute.");
     line.positional("answer", -1);
-    line.options()("json", "as JSON, with the point at which each term differs most")(
-        "time-limit", po::value<double>()->value_name("SECONDS")->default_value(30, "30"), "for each answer");
+    line.options()("json", "print JSON, with the point at which each term differs most")(
+        "time-limit", po::value<double>()->value_name("SECONDS")->default_value(30, "30"),
+        "time limit for each answer");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     const auto seconds = line.get<double>("time-limit");
     if (!(seconds > 0))
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--time-limit is {}; it has to be above 0", seconds));
+                    fmt::format("--time-limit is {}; expected more than 0", seconds));
     const std::vector<std::string> named = line.all("answer");
     if (named.empty())
         throw Error(ErrorCategory::bad_request,
-                    "candela exercise grade needs answers: files, or folders with *.answer in them");
+                    "candela exercise grade needs answers: files, or folders with *.answer files");
     const std::vector<fs::path> files = answers_in(named);
     candela::Registry registry = registry_from(line);
     Grader grader(registry, seconds);

@@ -1,4 +1,4 @@
-// candela exercise new: a page in which a model's formula is to be found.
+// candela exercise new: creates a fill-in-the-formula exercise.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,12 +41,12 @@ using candela::Vec3;
 
 namespace {
 
-constexpr std::size_t k_size = 80;         // of the picture, in pixels
-constexpr double k_edge = 0.98;            // of the ball, in radii, squared: beyond, it is seen too flatly
-constexpr std::size_t k_batch = 256;       // points that a model is asked for at once
+constexpr std::size_t k_size = 80;    // of the picture, in pixels
+constexpr double k_edge = 0.98;       // of the ball, in radii, squared: beyond it the view is too grazing
+constexpr std::size_t k_batch = 256;  // points evaluated at once
 constexpr Vec3 k_color{0.8f, 0.5f, 0.2f};  // C_o
 
-/// The points of a ball that is seen from far away along z, as the kernel's Surface has them.
+/// The points of a ball seen from far away along z, as in the kernel's Surface.
 struct Ball {
     std::vector<std::size_t> pixels;
     std::vector<float> nx, ny, nz, tx, ty, tz;
@@ -76,8 +76,8 @@ std::vector<float> interleaved(const std::vector<float>& x, const std::vector<fl
     return candela::target::interleaved(candela::ConstVec3Span{x.data(), y.data(), z.data()}, x.size());
 }
 
-/// What the model gives for light from one direction: three numbers per point and term, for light of
-/// intensity 1.
+/// The model's results for light from one direction: three numbers per point and term, for light of intensity
+/// 1.
 void evaluate(const candela::ReflectionModel& model, const Ball& ball, exercise::Case& to) {
     for (std::size_t first = 0; first < ball.pixels.size(); first += k_batch) {
         const std::size_t count = std::min(k_batch, ball.pixels.size() - first);
@@ -137,7 +137,7 @@ exercise::Uniform uniform_of(const candela::ParamSpec& parameter, const candela:
     }
 }
 
-/// The model with other values than its defaults, so that no answer can do without the parameters.
+/// The model with values other than its defaults, so that every answer needs the parameters.
 NamedModel varied(const NamedModel& model, const candela::Manifest& manifest) {
     constexpr double k_factor = 0.6;
     NamedModel result = model;
@@ -186,7 +186,7 @@ exercise::Case case_of(const Setup& setup, const Ball& ball, const candela::Plug
     return result;
 }
 
-/// The shader of a scene that has the model, without comments.
+/// The shader of a scene with the model, without comments.
 std::string shader_of(const NamedModel& model, candela::Registry& registry) {
     const candela::Scene scene = scene_with(model, registry);
     const candela::SceneExport exported(scene, {.title = "exercise", .abilities = {}}, registry);
@@ -199,7 +199,7 @@ void require_no_table(const Exercise& exercise) {
     for (const candela::ParamSpec& parameter : exercise.plugin->descriptor->parameters) {
         if (parameter.type == ParamType::numbers || parameter.type == ParamType::file)
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("{} reads a table ({}), which the page of an exercise does not have",
+                        fmt::format("{} reads a table ({}), which an exercise's page cannot provide",
                                     exercise.model, parameter.name));
     }
 }
@@ -238,16 +238,13 @@ std::string page_for(const Exercise& exercise, candela::Registry& registry) {
 
 int run_exercise_new(const std::vector<std::string>& arguments) {
     CommandLine line("candela exercise new MODEL --blank FUNCTION [options]",
-                     "Makes a page in which the body of a function of a reflection model's kernel is blank: "
-                     "whoever writes it "
-                     "sees how\nfar it is off from the model, where, and in which term. The page holds "
-                     "numbers that the model "
-                     "gives, not its\nformula, and needs no other file. Answers are saved in it, and graded "
-                     "by `candela exercise "
-                     "grade`.");
+                     "Create a page in which the body of one function of a reflection model's kernel is left "
+                     "blank. While the reader writes it, the page shows how far off it is from the model, "
+                     "where, and in which term. The page holds numbers from the model, not its formula, and "
+                     "needs no other file. It saves answers for `candela exercise grade`.");
     line.positional("model", 1);
     line.options()("blank", po::value<std::string>()->value_name("FUNCTION"),
-                   "the function of the kernel: reflect, reflect_ambient, or any other")(
+                   "the function of the kernel to leave blank: reflect, reflect_ambient, or any other")(
         "output,o", po::value<std::string>()->value_name("FILE"), "the page; default: MODEL-FUNCTION.html");
     add_no_clobber_option(line);
     add_plugin_options(line);
@@ -258,7 +255,7 @@ int run_exercise_new(const std::vector<std::string>& arguments) {
                     "candela exercise new needs a model, as in candela exercise new reflection/phong --blank "
                     "reflect");
     candela::Registry registry = registry_from(line);
-    // What there is to be left blank is said by the first that is asked for.
+    // The first request lists the functions that can be left blank.
     const Exercise exercise =
         exercise_about(models.front(), line.has("blank") ? line.get<std::string>("blank") : "", registry);
     require_no_table(exercise);
@@ -268,7 +265,7 @@ int run_exercise_new(const std::vector<std::string>& arguments) {
             : fmt::format("{}-{}.html", exercise.plugin->manifest.name,
                           exercise.function.substr(
                               std::string(exercise.plugin->descriptor->kernel.prefix).size() + 1));
-    // Not over a scene, say, because the name was completed too far.
+    // Protects a scene, say, if the name was completed too far.
     if (const std::string extension = candela::extension_of(output);
         output != "-" && extension != "html" && extension != "htm")
         throw Error(ErrorCategory::bad_request,

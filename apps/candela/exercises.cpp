@@ -27,7 +27,7 @@ constexpr int k_version = 1;
 constexpr std::size_t k_largest_file = 100'000;  // bytes
 constexpr std::size_t k_most_files = 10'000;
 
-/// The names of the functions that a kernel defines.
+/// The names of the functions defined by a kernel.
 std::vector<std::string> functions_of(const std::string& text) {
     static const std::regex k_function(R"(\bKERNEL\s+\w+\s+(\w+)\s*\()");
     std::vector<std::string> names;
@@ -39,7 +39,7 @@ std::vector<std::string> functions_of(const std::string& text) {
 
 Error no_answer(const fs::path& file, const std::string& why) {
     return {ErrorCategory::bad_request,
-            fmt::format("'{}' is no answer to an exercise: {}", file.string(), why)};
+            fmt::format("'{}' is not an answer to an exercise: {}", file.string(), why)};
 }
 
 }  // namespace
@@ -49,14 +49,13 @@ const candela::PluginFile& loaded_model(const std::string& model, candela::Regis
     const std::string kind = slash == std::string::npos ? "reflection" : model.substr(0, slash);
     const std::string name = slash == std::string::npos ? model : model.substr(slash + 1);
     if (kind != "reflection") {
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' is no reflection model; those are what this is about", model));
+        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is not a reflection model", model));
     }
     const candela::PluginFile& file = registry.require(candela::PluginKind::reflection, name);
     for (const candela::Parameter& parameter : file.manifest.parameters) {
         if (parameter.type == candela::ParamType::file && !parameter.default_value)
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("reflection/{} needs a file ({}), which there is none of here", name,
+                        fmt::format("reflection/{} needs a file ({}), which exercises cannot provide", name,
                                     parameter.name));
     }
     // Creating an instance loads the library.
@@ -71,9 +70,8 @@ TextAroundBody text_around_body(const std::string& text, const std::string& func
     const std::regex defined(fmt::format(R"(\bKERNEL\s+\w+\s+{}\s*\([^)]*\)\s*\{{)", function));
     std::smatch found;
     if (!std::regex_search(text, found, defined))
-        throw Error(
-            ErrorCategory::bad_request,
-            fmt::format("the kernel declares {}() in a way that no exercise can be made of", function));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("the kernel declares {}() in a way that exercises do not support", function));
     const auto begin = static_cast<std::size_t>(found.position() + found.length());
     std::size_t end = begin;
     for (std::size_t depth = 1; end < text.size(); ++end) {
@@ -131,20 +129,21 @@ Answer answer_from(const fs::path& file) {
     if (text->size() > k_largest_file)
         throw no_answer(file, fmt::format("it is larger than {} bytes", k_largest_file));
     const Json json = json_or_discarded(*text);
-    if (!json.is_object()) throw no_answer(file, "it is no JSON object, as the exercise's page saves it");
+    if (!json.is_object())
+        throw no_answer(file, "it is not a JSON object; expected a file saved by the exercise's page");
     const auto text_of = [&](const char* key) {
         if (!json.contains(key) || !json[key].is_string())
-            throw no_answer(file, fmt::format("'{}' is missing, a string", key));
+            throw no_answer(file, fmt::format("'{}' is missing; expected a string", key));
         return json[key].get<std::string>();
     };
     if (!json.contains("candela_exercise") || json["candela_exercise"] != k_version)
-        throw no_answer(file, fmt::format("'candela_exercise' is missing, or not {}", k_version));
+        throw no_answer(file, fmt::format("'candela_exercise' is missing or not {}", k_version));
     Answer answer{.file = file, .model = text_of("model"), .function = text_of("function"), .body = {}};
     if (!json.contains("answer") || !json["answer"].is_array())
-        throw no_answer(file, "'answer' is missing, an array of lines");
+        throw no_answer(file, "'answer' is missing; expected an array of lines");
     for (const Json& line : json["answer"]) {
         if (!line.is_string() || line.get_ref<const std::string&>().find('\n') != std::string::npos)
-            throw no_answer(file, "'answer' holds something that is not a line of text");
+            throw no_answer(file, "'answer' contains something that is not a line of text");
         answer.body += (answer.body.empty() ? "" : "\n") + line.get<std::string>();
     }
     return answer;
@@ -167,7 +166,8 @@ std::vector<fs::path> answers_in(const std::vector<std::string>& files_and_folde
         for (const std::string& name : *names)
             if (name.ends_with(".answer")) files.push_back(fs::path(named) / name);
         if (files.size() == before)
-            throw Error(ErrorCategory::failure, fmt::format("there is no answer (*.answer) in '{}'", named));
+            throw Error(ErrorCategory::failure,
+                        fmt::format("there are no answers (*.answer) in '{}'", named));
     }
     return files;
 }

@@ -15,39 +15,39 @@ import candela.registry;
 struct TextAroundBody {
     std::string before, after;
 };
-/// Of a text without comments. Throws candela::Error (bad_request) where it has no such function.
+/// Splits a text without comments. Throws candela::Error (bad_request) if it does not define the function.
 TextAroundBody text_around_body(const std::string& text, const std::string& function);
 
-/// A kernel whose function `function` has no body.
+/// A kernel whose `function` has no body.
 struct Exercise {
     std::string model;                            // "reflection/phong"
     std::string function;                         // "phong_reflect"
-    const candela::PluginFile* plugin = nullptr;  // loaded; the registry's
+    const candela::PluginFile* plugin = nullptr;  // loaded; owned by the registry
     TextAroundBody text;                          // the kernel's, without comments
-    candela::kernel_language::Source kernel;      // the whole kernel, as messages call it
+    candela::kernel_language::Source kernel;      // the whole kernel, and its name in messages
 };
 
-/// The plugin of a reflection model ("reflection/phong", "phong"), loaded, with kernel text. Throws
-/// candela::Error (bad_request) for what is none.
+/// The plugin of a reflection model ("reflection/phong", "phong"), loaded, with its kernel text. Throws
+/// candela::Error (bad_request) if `model` is not a reflection model.
 const candela::PluginFile& loaded_model(const std::string& model, candela::Registry& registry);
 
 /// The exercise about a model (reflection/phong) and a function of its kernel (reflect or phong_reflect).
-/// Throws candela::Error (bad_request), with what is possible, for what there is no such exercise about, and
-/// for a kernel that is not in the kernel language.
+/// Throws candela::Error (bad_request), listing the possible functions, if there is no such exercise, or if
+/// the kernel is not in the kernel language.
 Exercise exercise_about(const std::string& model, const std::string& function, candela::Registry& registry);
 
-/// Somebody's answer to an exercise.
+/// An answer to an exercise.
 struct Answer {
     std::filesystem::path file;
-    std::string model;  // as written in the file: not to be trusted, like the rest
+    std::string model;  // as written in the file: untrusted, like the rest
     std::string function;
     std::string body;
 };
 
-/// The file of an answer: JSON with candela_exercise (1), model, function and answer (its lines). Throws
-/// candela::Error (bad_request) for what is no such file, and (failure) for what cannot be read.
+/// Reads an answer file: JSON with candela_exercise (1), model, function and answer (its lines). Throws
+/// candela::Error: bad_request if it is not such a file, failure if it cannot be read.
 Answer answer_from(const std::filesystem::path& file);
 
-/// What is asked for by files and folders; of a folder, the files in it whose names end in ".answer", by
-/// name. Throws candela::Error for what is neither.
+/// Expands files and folders to files: a folder stands for the files in it whose names end in ".answer",
+/// sorted by name. Throws candela::Error for a name that is neither.
 std::vector<std::filesystem::path> answers_in(const std::vector<std::string>& files_and_folders);

@@ -1,4 +1,4 @@
-// Exit codes of the command and of the programs beside it.
+// Exit codes of the command and of its companion programs.
 #pragma once
 
 import candela.diagnostics;

@@ -1,4 +1,4 @@
-// candela explain: how a pixel gets its colour.
+// candela explain: shows how a pixel gets its colour.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -43,22 +43,22 @@ std::optional<Pixel> pixel_from(std::string_view text) {
 
 Error no_pixel(const std::string& written) {
     return {ErrorCategory::bad_request,
-            fmt::format("--pixel is '{}'; it is two whole numbers, as in --pixel 320,240", written)};
+            fmt::format("--pixel is '{}'; expected two whole numbers, as in --pixel 320,240", written)};
 }
 
-/// Throws candela::Error (bad_request) where it is none of the picture's.
+/// Throws candela::Error (bad_request) if the pixel is not in the picture.
 Pixel pixel_of(const std::string& written, const candela::ImageSettings& image) {
     const auto pixel = pixel_from(written);
     if (!pixel) throw no_pixel(written);
     if (pixel->x < 0 || pixel->y < 0 || pixel->x >= image.width || pixel->y >= image.height) {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--pixel is {}; the picture's pixels are 0,0 to {},{}", written,
+                    fmt::format("--pixel is {}; expected 0,0 to {},{}, the picture's pixels", written,
                                 image.width - 1, image.height - 1));
     }
     return *pixel;
 }
 
-/// Explains what standard input asks for, a pixel per line. What is no pixel is no end: the next may be one.
+/// Explains the pixels requested on standard input, one per line. An invalid line does not end it.
 template <class Explain>
 int explain_all(const candela::ImageSettings& image, bool is_json, const Explain& explain) {
     std::cin.exceptions(std::ios::badbit);
@@ -74,7 +74,7 @@ int explain_all(const candela::ImageSettings& image, bool is_json, const Explain
                 fail(exit_code_of(problem.category()), problem.what());
             }
         }
-        std::cout << std::flush;  // somebody may be waiting for it
+        std::cout << std::flush;  // the reader may be waiting
     }
     return code;
 }
@@ -84,19 +84,18 @@ int explain_all(const candela::ImageSettings& image, bool is_json, const Explain
 int run_explain(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela explain [SCENE...] --pixel X,Y [options]",
-        "Explains a pixel of a scene's picture: which triangle is seen there, N and V, each light's L, R "
-        "and\n"
-        "H, what arrives and what is reflected, every value that the models' formulas name on the way, the\n"
-        "sum, its encoding, and the byte. Without a scene: the default scene.");
+        "Explain a pixel of a scene's picture: which triangle is visible there, N and V, each light's L, R "
+        "and H, the arriving and the reflected light, every value that the models' formulas name on the way, "
+        "the sum, its encoding, and the byte. Without a scene, use the default scene.");
     line.options()(
         "pixel", po::value<std::string>()->value_name("X,Y"),
-        "the pixel, counted from the top left one, 0,0; -: pixels are read from standard input, one "
+        "the pixel to explain, counted from the top left one, 0,0; -: read pixels from standard input, one "
         "per line, until it ends");
     add_scene_options(line);
     add_frame_option(line);
     line.options()("json", "print the explanation as JSON")(
         "keep", po::value<std::string>()->value_name("FOLDER"),
-        "keep the compiled kernels there, for the next pixels");
+        "keep the compiled kernels there for the next pixels");
     if (!line.parse(arguments)) return 0;
     if (!line.has("pixel"))
         throw Error(ErrorCategory::bad_request, "candela explain needs a pixel: --pixel X,Y");
@@ -112,8 +111,7 @@ int run_explain(const std::vector<std::string>& arguments) {
     if (!compiled) return static_cast<int>(exit_code_of(diagnostics));
     const fs::path kept = line.has("keep") ? line.get<std::string>("keep") : "";
     if (!kept.empty() && !fs::is_directory(kept)) {
-        throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' is no folder, in which compiled kernels could be kept", kept.string()));
+        throw Error(ErrorCategory::failure, fmt::format("--keep '{}' is not a folder", kept.string()));
     }
     KernelRunner kernels(plugins_explained_in(draft->scene, registry), kept);
     const bool is_json = line.has("json");
@@ -128,7 +126,7 @@ int run_explain(const std::vector<std::string>& arguments) {
         }
     };
     if (is_for_many) {
-        kernels.prepare();  // while nobody has asked
+        kernels.prepare();  // before the first request
         return explain_all(compiled->image, is_json, explain);
     }
     explain(pixel_of(written, compiled->image));

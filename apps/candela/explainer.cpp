@@ -11,9 +11,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Long enough for the picture to be drawn first, and for a burst of saves to be over.
+// Long enough for the picture to be drawn first and for a burst of saves to be over.
 constexpr milliseconds k_quiet{200};
-// A scene in memory is of no use to somebody who explains nothing.
+// A scene in memory is a waste if no pixels are being explained.
 constexpr std::chrono::minutes k_longest_idle{10};
 constexpr std::chrono::minutes k_patience{1};
 
@@ -69,7 +69,7 @@ void Explainer::get_ready() {
                 else
                     program_.reset();
             } catch (const std::exception&) {
-                program_.reset();  // who asks for a pixel tries again, and is told
+                program_.reset();  // the next request tries again, and gets the error
             }
         }
         waiting.lock();
@@ -85,7 +85,7 @@ view::Outcome Explainer::explain(const std::vector<view::Change>& changes) try {
         else
             options.push_back(change.option + "=" + change.value);
     }
-    std::ranges::replace(pixel, '\n', ' ');  // or it would be two questions
+    std::ranges::replace(pixel, '\n', ' ');  // so that it stays one request
     const std::lock_guard lock(using_);
     {
         const std::lock_guard waiting(waiting_);
@@ -99,7 +99,7 @@ view::Outcome Explainer::explain(const std::vector<view::Change>& changes) try {
         return program_->answer(pixel, std::chrono::duration_cast<milliseconds>(end - Clock::now()));
     };
     std::optional<std::string> answer = answered();
-    if (!answer && !is_new && Clock::now() < end) {  // something has ended it while it waited
+    if (!answer && !is_new && Clock::now() < end) {  // something killed the idle program
         start(options);
         answer = answered();
     }
@@ -107,8 +107,8 @@ view::Outcome Explainer::explain(const std::vector<view::Change>& changes) try {
         std::string why = program_->errors();
         program_.reset();
         if (why.empty()) {
-            why = Clock::now() < end ? "The pixel is not explained: the program that does it has ended.\n"
-                                     : "The pixel is not explained: it has taken more than a minute.\n";
+            why = Clock::now() < end ? "The pixel cannot be explained: candela explain ended unexpectedly.\n"
+                                     : "The pixel cannot be explained: it took more than a minute.\n";
         }
         return failed(std::move(why));
     }

@@ -23,13 +23,13 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// How ffmpeg makes a film of a kind.
+/// How ffmpeg encodes one kind of film.
 struct Encoding {
     std::string_view extension;
     std::vector<std::string> options;
 };
 
-/// Most players only show H.264 with chroma at half the size, for which width and height must be even.
+/// Most players show H.264 only with chroma at half the size, which needs an even width and height.
 const std::vector<Encoding>& encodings() {
     static const std::string k_even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
     static const std::vector<Encoding> k_all = {
@@ -38,7 +38,7 @@ const std::vector<Encoding>& encodings() {
         {".webm",
          {"-vf", k_even, "-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "24", "-b:v", "0", "-row-mt",
           "1"}},
-        // 256 colours, those of this film.
+        // The 256 colours that suit this film best.
         {".gif", {"-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse", "-loop", "0"}},
     };
     return k_all;
@@ -58,17 +58,17 @@ bool is_film(const fs::path& file) { return encoding_of(file) != nullptr; }
 
 void require_encoder(const fs::path& film) {
     if (candela::program_called("ffmpeg")) return;
-    throw Error(
-        ErrorCategory::failure,
-        fmt::format("'{}' is made by ffmpeg, which is not installed (Debian, Ubuntu: apt install ffmpeg); "
-                    "-o frames/%04d.png writes the frames without it",
-                    film.string()));
+    throw Error(ErrorCategory::failure,
+                fmt::format("'{}' needs ffmpeg, which is not installed (Debian, Ubuntu: apt install ffmpeg); "
+                            "-o frames/%04d.png writes the frames without it",
+                            film.string()));
 }
 
 void encode(const std::vector<fs::path>& pictures, double frames_per_second, const fs::path& film) {
     const Encoding* const encoding = encoding_of(film);
     if (encoding == nullptr || pictures.empty())
-        throw Error(ErrorCategory::bad_request, fmt::format("'{}' cannot be a film", film.string()));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' cannot be written as a film", film.string()));
     OutputFolder output(folder_of(film));
     // ffmpeg counts files without gaps.
     const fs::path links = output.draft() / "frames";
@@ -88,14 +88,14 @@ void encode(const std::vector<fs::path>& pictures, double frames_per_second, con
         "-framerate", fmt::format("{}", frames_per_second),
         "-i",         escaped_for_pattern(links.string()) + "/%08d" + extension};
     words.insert(words.end(), encoding->options.begin(), encoding->options.end());
-    // Nothing of the machine or the hour is in the film.
+    // Keeps the film reproducible: no trace of the machine or the time.
     words.insert(words.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact"});
     words.push_back((output.draft() / film.filename()).string());
     const candela::ProgramOutput done = candela::run_program(words);
     fs::remove_all(links, problem);
     if (done.exit_code != 0) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("ffmpeg cannot make '{}':\n{}", film.string(), done.err));
+                    fmt::format("ffmpeg could not make '{}':\n{}", film.string(), done.err));
     }
     output.finish();
 }

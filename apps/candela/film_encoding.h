@@ -1,17 +1,17 @@
-// Frames become a film, by ffmpeg.
+// Makes films from frames, with ffmpeg.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-/// Whether the file's name is that of a film: .mp4, .webm or .gif.
+/// Whether the file name has a film's extension: .mp4, .webm or .gif.
 bool is_film(const std::filesystem::path& file);
 
-/// Throws candela::Error (failure) where ffmpeg is not installed.
+/// Throws candela::Error (failure) if ffmpeg is not installed.
 void require_encoder(const std::filesystem::path& film);
 
-/// Writes a film of these pictures, in this order; it is there when it is whole. Throws candela::Error
-/// (failure).
+/// Writes a film of these pictures, in this order. The file appears only when it is complete. Throws
+/// candela::Error (failure).
 void encode(const std::vector<std::filesystem::path>& pictures, double frames_per_second,
             const std::filesystem::path& film);

@@ -18,7 +18,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 [[noreturn]] void reject(const std::string& message) { throw Error(ErrorCategory::bad_request, message); }
 
-/// "frames.png" with a place for a number.
+/// "frames.png" with a placeholder for the number.
 std::string with_place(const std::filesystem::path& file) {
     return (file.parent_path() / (file.stem().string() + "%04d" + file.extension().string())).string();
 }
@@ -34,8 +34,7 @@ std::optional<int> number_from(std::string_view text) {
 }  // namespace
 
 FramePattern::FramePattern(const std::string& pattern) : text_(pattern) {
-    if (pattern == "-")
-        reject("frames are files, and cannot go to standard output; write -o frames/%04d.png");
+    if (pattern == "-") reject("frames cannot be written to standard output; use -o frames/%04d.png");
     constexpr int k_most_digits = 20;
     bool is_found = false;
     for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -55,22 +54,25 @@ FramePattern::FramePattern(const std::string& pattern) : text_(pattern) {
         const bool is_plain = width.empty() || (width.size() <= 3 && width.front() == '0');
         if (end == pattern.size() || pattern[end] != 'd' || !is_plain) {
             reject(fmt::format(
-                "'{}' in '{}' is no place for a frame's number; write %04d, or %% for a percent sign",
+                "'{}' in '{}' is not a placeholder for a frame's number; use %04d, or %% for a percent sign",
                 pattern.substr(i, end - i + 1), pattern));
         }
-        if (is_found) reject(fmt::format("'{}' has two places for a frame's number; one is enough", pattern));
+        if (is_found)
+            reject(fmt::format("'{}' has more than one placeholder for a frame's number; expected one",
+                               pattern));
         is_found = true;
         digits_ = number_from(width).value_or(0);
         if (digits_ > k_most_digits)
-            reject(fmt::format("'{}' asks for {} digits; {} are the most", pattern, digits_, k_most_digits));
+            reject(
+                fmt::format("'{}' asks for {} digits; the maximum is {}", pattern, digits_, k_most_digits));
         i = end;
     }
     if (!is_found) {
-        reject(fmt::format("'{}' is one file, and frames are many; write where their numbers go: {}", pattern,
-                           with_place(pattern)));
+        reject(fmt::format("'{}' names one file for all frames; expected a placeholder for their numbers: {}",
+                           pattern, with_place(pattern)));
     }
     if (after_.find('/') != std::string::npos)
-        reject(fmt::format("'{}' has the frame's number in the name of a folder; it belongs in the file's",
+        reject(fmt::format("'{}' has the frame's number in a folder name; expected it in the file name",
                            pattern));
 }
 
@@ -88,7 +90,7 @@ std::string escaped_for_pattern(const std::string& text) {
 }
 
 std::vector<int> frames_from(const std::optional<std::string>& range, int step, int count) {
-    if (step < 1) reject(fmt::format("--step is {}; it is 1 or more", step));
+    if (step < 1) reject(fmt::format("--step is {}; expected at least 1", step));
     int first = 0, last = count - 1;
     if (range) {
         const std::size_t dots = range->find("..");
@@ -96,11 +98,11 @@ std::vector<int> frames_from(const std::optional<std::string>& range, int step, 
         const auto to =
             dots == std::string::npos ? from : number_from(std::string_view(*range).substr(dots + 2));
         if (!from || !to)
-            reject(fmt::format("--frames '{}' is neither a frame nor a range of frames such as 10..200",
-                               *range));
-        if (*to < *from) reject(fmt::format("--frames {} is empty: {} comes after {}", *range, *from, *to));
+            reject(fmt::format("--frames is '{}'; expected a frame or a range such as 10..200", *range));
+        if (*to < *from)
+            reject(fmt::format("--frames {} is empty: {} is greater than {}", *range, *from, *to));
         if (*to > last)
-            reject(fmt::format("--frames {}: there is no frame {}; the animation has the frames 0 to {}",
+            reject(fmt::format("--frames {}: frame {} does not exist; the animation has frames 0 to {}",
                                *range, *to, last));
         first = *from;
         last = *to;

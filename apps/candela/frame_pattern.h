@@ -1,4 +1,4 @@
-// Which frames of a film are wanted, and what their files are called.
+// Which frames of a film to render, and their file names.
 #pragma once
 
 #include <filesystem>
@@ -6,25 +6,25 @@
 #include <string>
 #include <vector>
 
-/// A file name with a place for a frame's number, such as frames/%04d.png.
+/// A file name with a placeholder for a frame's number, such as frames/%04d.png.
 class FramePattern {
   public:
-    /// Throws candela::Error (bad_request) unless there is exactly one place, in the file's name.
+    /// Throws candela::Error (bad_request) unless there is exactly one placeholder, in the file's name.
     explicit FramePattern(const std::string& pattern);
 
     std::filesystem::path file_of(int frame) const;
-    /// As it was given.
+    /// The pattern as given.
     const std::string& text() const { return text_; }
 
   private:
     std::string text_;
     std::string before_, after_;
-    int digits_ = 0;  // at least
+    int digits_ = 0;  // the minimum
 };
 
-/// Text in which no percent sign has a meaning any more, for a pattern of printf's kind.
+/// Escapes the percent signs of a text for a printf-like pattern.
 std::string escaped_for_pattern(const std::string& text);
 
-/// The frames that "10..200" or "10" names, or all of them; every `step`-th. Throws candela::Error
-/// (bad_request) for what is no range, and for frames that there are not.
+/// The frames named by "10..200" or "10", or all of them; every `step`-th. Throws candela::Error
+/// (bad_request) for an invalid range or frames out of range.
 std::vector<int> frames_from(const std::optional<std::string>& range, int step, int count);

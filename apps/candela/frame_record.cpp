@@ -37,7 +37,7 @@ std::string fingerprint(std::string_view bytes) {
     return boost::uuids::to_string(k_generator(bytes.data(), bytes.size()));
 }
 
-/// The library that Candela itself is.
+/// The library that contains Candela itself.
 fs::path core_library() {
     Dl_info info{};
     // The address of a function of the core.
@@ -51,7 +51,7 @@ fs::path record_of(const fs::path& picture) {
     return picture.parent_path() / ".candela" / picture.filename();
 }
 
-/// The fingerprints of a file's pieces, so that it need not fit into memory.
+/// The fingerprints of a file's pieces, so that the file need not fit into memory.
 std::string fingerprint_of(candela::RegularFile& file, const fs::path& name) {
     constexpr std::uint64_t k_piece = std::uint64_t{1} << 24;
     std::string piece(static_cast<std::size_t>(std::min(file.size(), k_piece)), '\0'), all;
@@ -70,7 +70,7 @@ std::optional<std::string> record_text_of(const fs::path& picture) {
     return read_owned_file(record_of(picture), k_most);
 }
 
-/// Whether the picture has the size that its record says.
+/// Whether the picture has the size that its record gives.
 bool has_recorded_size(const fs::path& picture, const std::string& record, Links links) {
     std::error_code problem;
     const fs::file_status is =
@@ -80,7 +80,7 @@ bool has_recorded_size(const fs::path& picture, const std::string& record, Links
     return !problem && record.find(fmt::format("\nbytes {}\n", size)) != std::string::npos;
 }
 
-/// What a record of the picture says; nothing where there is no picture.
+/// The text of a picture's record; nothing if the picture does not exist.
 std::optional<std::string> record_text(const fs::path& picture, const std::string& inputs, Links links) {
     candela::RegularFile file(picture, links);
     if (!file.is_open()) return std::nullopt;
@@ -113,9 +113,9 @@ std::string InputFingerprints::of_plugin(PluginKind kind, const std::string& nam
 
 std::string InputFingerprints::of(const candela::SceneDraft& draft) {
     candela::Scene scene = draft.scene;
-    scene.animation.reset();  // other frames do not matter to this one
+    scene.animation.reset();  // other frames do not affect this one
     std::string all = scene_text(scene);
-    // Of these, the values are in the text.
+    // The values of these files are in the text already.
     const std::set<fs::path> read(draft.files.begin(), draft.files.end());
     for (const fs::path& file : input_files(draft)) {
         if (!read.contains(file)) all += fmt::format("{} {}\n", file.string(), of_file(file));
@@ -149,7 +149,7 @@ bool is_recorded(const fs::path& picture) {
 }
 
 bool is_up_to_date(const fs::path& picture, const std::string& inputs, Links links) {
-    // Another input, another size, or none recorded: the picture need not even be read.
+    // Other inputs, another size, or no record: there is no need to read the picture.
     if (recorded(picture, inputs, links) != Recorded::made) return false;
     const auto is = record_text(picture, inputs, links);
     return is && record_text_of(picture) == is;
@@ -160,6 +160,7 @@ void record(const fs::path& picture, const std::string& inputs, Links links) {
     if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", picture.string()));
     const fs::path file = record_of(picture);
     candela::make_owned_folder(folder_of(picture), file.parent_path().filename());
-    // What a crash of the machine leaves of it does not fit the picture, which is then made again.
+    // Fast is enough: after a crash, a damaged record does not match the picture, which is then rendered
+    // again.
     write_owned_file(file, *text, candela::Durability::fast);
 }

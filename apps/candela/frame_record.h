@@ -1,4 +1,4 @@
-// What a frame's picture was made from, written down beside it, so that it need not be made again.
+// Records what a frame's picture was made from, in a file next to it, so that it need not be rendered again.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@ import candela.film;
 import candela.registry;
 import candela.scene;
 
-/// Fingerprints of all that decides the bytes of a picture: the scene's values, the files that it names, the
-/// libraries of its plugins, and Candela itself. Libraries and files are read once. One thread.
+/// Fingerprints of everything that determines a picture's bytes: the scene's values, the files it names, its
+/// plugins' libraries, and Candela itself. Reads libraries and files once. One thread.
 class InputFingerprints {
   public:
     InputFingerprints(candela::Registry& registry, const candela::PictureFormat& format);
 
-    /// Of one frame. Throws candela::Error (failure) if a file cannot be read.
+    /// The fingerprint of one frame. Throws candela::Error (failure) if a file cannot be read.
     std::string of(const candela::SceneDraft& draft);
 
   private:
@@ -28,21 +28,21 @@ class InputFingerprints {
     std::map<std::filesystem::path, std::string> files_;
 };
 
-/// What is said of a picture by its record, and by its size, without looking into it.
+/// The state of a picture according to its record and its size, without reading its contents.
 enum class Recorded {
-    missing,  // the picture, or its record; or the picture has another size than it had
-    made,     // from these inputs
-    other     // made from others
+    missing,  // no picture or no record, or the picture's size has changed
+    made,     // made from these inputs
+    other     // made from other inputs
 };
-/// `links`: whether the picture may be one, because a person chose its name.
+/// `links`: whether the picture may be a link, because the user chose its name.
 Recorded recorded(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
 
-/// The same of a picture whose name a person chose, whatever it was made from.
+/// Like recorded(), for a picture whose name the user chose, whatever it was made from.
 bool is_recorded(const std::filesystem::path& picture);
 
-/// Whether the picture is whole, and was made from these inputs.
+/// Whether the picture is complete and was made from these inputs.
 bool is_up_to_date(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
 
-/// Writes down what the picture was made from, in the folder .candela beside it. Throws candela::Error
+/// Records what the picture was made from, in the folder .candela next to it. Throws candela::Error
 /// (failure).
 void record(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);

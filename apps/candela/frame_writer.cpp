@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As many as the disk takes at once, in no more memory than one large frame has.
+/// As many frames as the disk takes at once, in no more memory than one large frame.
 std::size_t most_on_their_way(const candela::Film& film) {
     constexpr std::size_t k_most = 8, k_bytes = std::size_t{1} << 27;
     const candela::PictureView view = film.view();
@@ -26,13 +26,13 @@ std::size_t most_on_their_way(const candela::Film& film) {
 FrameWriter::FrameWriter(candela::Registry& registry, candela::PictureFormat format, int threads)
     : registry_(registry), format_(std::move(format)), threads_(threads) {}
 
-// A future waits for its work.
+// A future's destructor waits for its work.
 FrameWriter::~FrameWriter() = default;
 
 void FrameWriter::write(const candela::Film& film, const fs::path& file, const std::string& inputs) {
     wait_for_all_but(most_on_their_way(film) - 1);
     on_their_way_.push_back(std::async(std::launch::async, [this, copy = film, file, inputs] {
-        constexpr double k_milliseconds = 3e-6;  // that a pixel takes its encoder
+        constexpr double k_milliseconds = 3e-6;  // per pixel, for encoding
         candela::with_threads(
             threads_,
             [&] {

@@ -1,4 +1,4 @@
-// Frames on their way to the disk.
+// Writes frames in the background.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@
 import candela.film;
 import candela.registry;
 
-/// Writes frames and their records while the next ones are rendered: to write a small one is mostly to wait
-/// for the disk, and several wait no longer than one. One thread.
+/// Writes frames and their records while the next ones are rendered. Writing a small frame is mostly waiting
+/// for the disk, and several can wait at the same time. One thread.
 class FrameWriter {
   public:
-    /// `threads`: that each picture is encoded by.
+    /// `threads`: for encoding each picture.
     FrameWriter(candela::Registry& registry, candela::PictureFormat format, int threads);
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
-    /// Waits for all.
+    /// Waits until all frames are written.
     ~FrameWriter();
 
-    /// Takes a copy of the film. Throws what went wrong with a frame before, a candela::Error.
+    /// Takes a copy of the film. Throws the candela::Error of an earlier frame that could not be written.
     void write(const candela::Film& film, const std::filesystem::path& file, const std::string& inputs);
-    /// Waits until all are written. Throws likewise.
+    /// Waits until all frames are written. Throws like write().
     void finish();
 
   private:

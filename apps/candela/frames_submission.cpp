@@ -22,7 +22,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// So many frames that starting does not count, and no more tasks than a queue takes by default.
+/// Enough frames to make starting a task negligible, and no more tasks than a queue accepts by default.
 std::size_t frames_per_task(const CommandLine& line, std::size_t frames) {
     constexpr std::size_t k_worth_starting = 10, k_most_tasks = 1000;
     if (line.has("chunk")) return static_cast<std::size_t>(count_from(line, "chunk", 1'000'000));
@@ -41,7 +41,7 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
     const AnimationOutputs outputs = animation_outputs_from(line);
     if (!outputs.frames) {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("the tasks of a film share its frames, which have to be somewhere; write -o "
+                    fmt::format("a film's tasks share its frames, so they need file names; use -o "
                                 "frames/%04d.png -o {}",
                                 quoted_for_shell(outputs.films.front().string())));
     }
@@ -51,9 +51,10 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
     const candela::SceneRequest request = repeatable_request_from(line, registry, has_asked, Models::moving);
     auto frames = candela::SceneFrames::read(request, registry, diagnostics);
     if (frames && !frames->animation() && !frames->is_broken()) {
-        throw Error(ErrorCategory::bad_request,
-                    "the scene has no [animation], and so no frames to share out; --parts 16 shares out its "
-                    "picture");
+        throw Error(
+            ErrorCategory::bad_request,
+            "the scene has no [animation], so there are no frames to distribute; --parts 16 distributes its "
+            "picture");
     }
     std::vector<int> numbers;
     if (frames) numbers = checked_frames_from(line, *frames, registry, diagnostics, 0);

@@ -1,4 +1,4 @@
-// candela generate: a scene becomes a program that renders it.
+// candela generate: writes a program that renders a scene.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -32,7 +32,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// For what makes programs anew when something changes.
+/// For programs that generate again when an input changes.
 void write_inputs(const SceneToExport& scene, const std::string& file) {
     require_no_scene_file(file, scene.inputs, "--inputs");
     Json names = Json::array();
@@ -40,8 +40,8 @@ void write_inputs(const SceneToExport& scene, const std::string& file) {
     candela::write_text_file(file, json_text(names, 2) + "\n");
 }
 
-/// Loads all plugins of a kind, so that it need not be done when the scene is there. What cannot be loaded is
-/// said when it is needed.
+/// Loads all plugins of a kind in advance, before the scene arrives. Errors are reported only when a plugin
+/// is used.
 template <class Interface>
 void load_all(candela::PluginKind kind, candela::Registry& registry) {
     for (const std::string& name : registry.names(kind)) {
@@ -60,27 +60,27 @@ void load_models(candela::Registry& registry) {
     load_all<candela::ReflectionModel>(candela::PluginKind::reflection, registry);
 }
 
-/// The heap as large as it will be: the system clears memory page by page where it is touched for the first
-/// time, a third of the time that a page of a scene takes. Blocks that are freed stay there (main.cpp).
+/// Grows the heap to its final size: the system clears memory page by page on first touch, which takes a
+/// third of the time of exporting a scene as a page. Freed blocks stay in the heap (main.cpp).
 void touch_memory() {
     constexpr std::size_t k_block = std::size_t{4} << 20;
     std::vector<std::vector<char>> blocks(10);
     for (std::vector<char>& block : blocks) block.resize(k_block);
 }
 
-/// False if nothing comes.
+/// Waits for a line; false at the end of input.
 bool is_told_to_go_on() {
     std::string line;
     return static_cast<bool>(std::getline(std::cin, line));
 }
 
-/// For who reads it as it comes, and wants no file.
+/// For readers that want the program on standard output, without a file.
 void print(const std::vector<candela::ExportedFile>& files, const std::string& target) {
     if (files.size() != 1)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("target/{} writes {} files, and --output - prints one; give a folder", target,
-                                files.size()));
-    candela::write_text_file("-", files.front().content);  // as it is: what std::cout gets is made printable
+                    fmt::format("target/{} writes {} files, but --output - prints only one; give a folder",
+                                target, files.size()));
+    candela::write_text_file("-", files.front().content);  // unchanged: std::cout would make it printable
 }
 
 std::string sizes_of(const std::vector<candela::ExportedFile>& files, const fs::path& directory) {
@@ -97,18 +97,19 @@ int run_generate(const std::vector<std::string>& arguments) {
     candela::Registry installed(candela::plugin_search_path({}));
     const std::string any = target_names(installed, " or ");
     CommandLine line("candela generate [SCENE...] --target NAME [options]",
-                     "Writes a program that renders a scene, with the formulas of its models as their "
-                     "authors wrote them, or the\nscene of another program:\n" +
+                     "Write a program that renders a scene, with the formulas of its models as their authors "
+                     "wrote them, or the scene in another program's format:\n" +
                          target_summaries(installed) +
-                         "`candela verify` shows that its picture is Candela's.");
+                         "Check with `candela verify` that its picture matches Candela's.");
     const std::string help = "what to write: " + any;
     line.options()("target,t", po::value<std::string>()->value_name("NAME"), help.c_str())(
         "output,o", po::value<std::string>()->value_name("DIR"),
-        "the output folder; default: scene-NAME; - prints the file of a target that writes one")(
+        "the output folder; default: scene-NAME; -: print the file of a target that writes only one")(
         "inputs", po::value<std::string>()->value_name("FILE"),
-        "also write the names of all files that the scene is made from, as a JSON array")(
-        "wait", "load the plugins, and wait for a line on standard input before the scene is read")(
-        "build", "also build it")("run", "build it and run it: a picture, a window, or a browser");
+        "also write a JSON array of the names of all files that the scene is made from")(
+        "wait", "load the plugins, then wait for a line on standard input before reading the scene")(
+        "build", "also build the program")(
+        "run", "build and run the program: it makes a picture or opens a window or a browser");
     add_models_option(line);
     add_approximate_option(line);
     add_scene_options(line);
@@ -126,7 +127,7 @@ int run_generate(const std::vector<std::string>& arguments) {
     require_no_terminal(directory.string(), "a file for another program");
     if (is_printed && (line.has("build") || line.has("run")))
         throw Error(ErrorCategory::bad_request,
-                    "what --output - prints cannot be built or run; give a folder");
+                    "--output - cannot be combined with --build or --run; give a folder");
 
     if (line.has("wait")) {
         if (line.has("models")) load_models(registry);

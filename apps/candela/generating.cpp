@@ -18,17 +18,16 @@ using candela::Error;
 using candela::ErrorCategory;
 
 void add_models_option(CommandLine& line) {
-    line.options()(
-        "models", po::value<std::string>()->value_name("NAMES"),
-        "shading and reflection models to switch to beside the scene's: comma-separated names, ids such as "
-        "shading/flat, or all");
+    line.options()("models", po::value<std::string>()->value_name("NAMES"),
+                   "more shading and reflection models to switch to: comma-separated names, ids such as "
+                   "shading/flat, or all");
 }
 
 void add_approximate_option(CommandLine& line) {
     line.options()(
         "approximate",
-        "accept what a target can express only approximately, such as a renderer with models of its own; "
-        "each approximation is said");
+        "accept approximations by a target, such as a renderer with models of its own; each approximation "
+        "is reported");
 }
 
 std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::Registry& registry,
@@ -54,7 +53,7 @@ candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport&
     }
     request.with_model = [&](candela::PluginKind kind, const std::string& name) {
         candela::SceneRequest again = scene_request_from(line, registry);
-        // What was asked has been answered.
+        // The questions have been answered already.
         again.ask = nullptr;
         again.use_defaults = true;
         const bool is_shading = kind == candela::PluginKind::shading;
@@ -74,11 +73,9 @@ candela::ExportedProgram program_for(const LoadedTarget& target, const candela::
                                      const CommandLine& line) {
     candela::ExportedProgram program = target.program_of(exported.scene());
     if (!program.approximations.empty() && !line.has("approximate"))
-        throw Error(
-            ErrorCategory::failure,
-            fmt::format(
-                "target/{} can express this scene only approximately, which --approximate accepts: {}",
-                target.name(), fmt::join(program.approximations, "; ")));
+        throw Error(ErrorCategory::failure,
+                    fmt::format("target/{} can only approximate this scene; --approximate accepts this: {}",
+                                target.name(), fmt::join(program.approximations, "; ")));
     for (const std::string& sentence : program.approximations)
         warn(fmt::format("target/{}: {}", target.name(), sentence));
     return program;
@@ -94,7 +91,7 @@ void require_no_input_in(const fs::path& folder, const std::vector<fs::path>& na
                          const SceneToExport& scene, const std::string& option) {
     for (const fs::path& name : names)
         require_no_input((folder / name).string(), scene.inputs, "the files that the scene is made from",
-                         fmt::format("give another folder with --{}", option));
+                         fmt::format("choose another folder with --{}", option));
 }
 
 void write_program(const std::vector<candela::ExportedFile>& files, const fs::path& directory) {

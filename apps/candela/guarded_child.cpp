@@ -30,7 +30,7 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// What the guardian says about the child.
+/// The guardian's report on the child.
 struct Verdict {
     int status;
     bool leaves_processes;
@@ -62,15 +62,15 @@ struct Pipe {
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
     const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    if (nowhere < 0) ::_exit(1);  // the parent finds that the work was not done
+    if (nowhere < 0) ::_exit(1);  // the parent notices that the work was not done
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, standard);
     work(report);
-    // Nothing of the plugin's runs after this.
+    // No plugin code runs after this.
     ::_exit(0);
 }
 
-/// A folder for the temporary files of a plugin, and of what it starts. Where there can be none, whoever
-/// needs one says so.
+/// A folder for the temporary files of a plugin and its child processes. If none can be created, whatever
+/// needs one reports it.
 void give_temporary_files(std::optional<TemporaryFolder>& folder) {
     try {
         folder.emplace(std::filesystem::temp_directory_path(), "candela-check-");
@@ -80,16 +80,16 @@ void give_temporary_files(std::optional<TemporaryFolder>& folder) {
     }
 }
 
-/// The process in between: it has what the child starts as its descendants, and ends all of them, and removes
-/// their temporary files, when the child has ended, when it is told to (SIGTERM), and when this program is
-/// gone.
+/// The process in between. The programs that the child starts are its descendants; it ends them all and
+/// removes their temporary files when the child has ended, when it is told to (SIGTERM), and when this
+/// program is gone.
 [[noreturn]] void be_the_guardian(pid_t parent, Pipe& report, Pipe& verdict,
                                   const std::function<void(int)>& work) {
     sigset_t awaited, usual;
     ::sigemptyset(&awaited);
     for (const int signal : {SIGCHLD, SIGTERM}) ::sigaddset(&awaited, signal);
     ::sigprocmask(SIG_BLOCK, &awaited, &usual);
-    // Not with the terminal's signals: the parent decides.
+    // Out of reach of the terminal's signals: the parent decides.
     ::setpgid(0, 0);
     inherit_orphans();
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -102,7 +102,7 @@ void give_temporary_files(std::optional<TemporaryFolder>& folder) {
     const pid_t child = ::fork();
     if (child < 0) ::_exit(1);
     if (child == 0) {
-        // What this program does on signals is not meant for a plugin.
+        // This program's signal handlers are not meant for a plugin.
         for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
         ::sigprocmask(SIG_SETMASK, &usual, nullptr);
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -129,7 +129,7 @@ void give_temporary_files(std::optional<TemporaryFolder>& folder) {
     }
 }
 
-/// All that the child says until it ends or its time is over; whether it ended.
+/// Reads the child's report until it ends or its time is over; returns whether it ended.
 bool read_all(int report, double seconds, std::string& text) {
     const auto begin = Clock::now();
     for (;;) {
@@ -151,7 +151,7 @@ bool read_all(int report, double seconds, std::string& text) {
 GuardedEnd run_guarded(double seconds, const std::function<void(int)>& work) {
     Pipe report, verdict;
     const auto begin = Clock::now();
-    // Boost.Process starts programs; this child goes on in this one, which has nothing of a plugin in it yet.
+    // Boost.Process starts programs, but this child continues this one, which has no plugin in it yet.
     const pid_t parent = ::getpid();
     const pid_t guardian = ::fork();
     if (guardian < 0) throw std::runtime_error(std::strerror(errno));
@@ -159,13 +159,13 @@ GuardedEnd run_guarded(double seconds, const std::function<void(int)>& work) {
     Pipe::close(report.sink);
     Pipe::close(verdict.sink);
     GuardedEnd result;
-    // The guardian has the other end, too: it is closed when the child and all that it has started have
+    // The guardian also holds the other end, which is closed once the child and everything it started have
     // ended.
     result.is_late = !read_all(report.source, seconds, result.report);
     if (result.is_late) ::kill(guardian, SIGTERM);
     while (::waitpid(guardian, nullptr, 0) < 0 && errno == EINTR) {
     }
-    Verdict found{.status = 1 << 8, .leaves_processes = false};  // exit code 1 where the guardian has failed
+    Verdict found{.status = 1 << 8, .leaves_processes = false};  // exit code 1 if the guardian has failed
     if (!result.is_late && ::read(verdict.source, &found, sizeof found) != sizeof found)
         found = {.status = 1 << 8, .leaves_processes = false};
     result.status = found.status;
@@ -175,8 +175,8 @@ GuardedEnd run_guarded(double seconds, const std::function<void(int)>& work) {
 }
 
 std::string unexpected_end_of(const GuardedEnd& end, double seconds) {
-    if (end.is_late) return fmt::format("has not finished after {} s", seconds);
+    if (end.is_late) return fmt::format("did not finish within {} s", seconds);
     if (WIFSIGNALED(end.status))
-        return fmt::format("ends the process with signal {}", ::strsignal(WTERMSIG(end.status)));
-    return fmt::format("ends the process with exit code {}", WEXITSTATUS(end.status));
+        return fmt::format("was killed by a signal: {}", ::strsignal(WTERMSIG(end.status)));
+    return fmt::format("exited with code {}", WEXITSTATUS(end.status));
 }

@@ -20,7 +20,7 @@ fs::path beside_command(const char* relative) {
 fs::path helper(const char* program, const char* what, const char* where_from) {
     const fs::path file = beside_command("lib/candela") / program;
     if (!fs::exists(file)) {
-        throw Error(ErrorCategory::failure, fmt::format("{} is not installed: there is no '{}' ({})", what,
+        throw Error(ErrorCategory::failure, fmt::format("{} is not installed: '{}' does not exist ({})", what,
                                                         file.string(), where_from));
     }
     return file;

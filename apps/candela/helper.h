@@ -1,4 +1,4 @@
-// Programs beside the command, for what it is not linked to itself.
+// Programs installed with the command, for libraries that it does not link itself.
 #pragma once
 
 #include <filesystem>
@@ -7,18 +7,18 @@
 
 import candela.diagnostics;
 
-/// Where something is that is installed beside the command, relative to the prefix.
+/// The path of a file installed with the command, relative to the prefix.
 std::filesystem::path beside_command(const char* relative);
 
-/// lib/candela/`program`. Throws candela::Error where it is not there ("`what` is not installed: …
+/// The path lib/candela/`program`. Throws candela::Error if it does not exist ("`what` is not installed: …
 /// (`where_from`)").
 std::filesystem::path helper(const char* program, const char* what, const char* where_from);
 
-/// candela-diff. Throws like helper(): it is in a package of its own.
+/// The path of candela-diff, which is in a package of its own. Throws like helper().
 std::filesystem::path comparing_program();
 
-/// candela-conformance. Throws likewise.
+/// The path of candela-conformance. Throws like helper().
 std::filesystem::path conformance_kit();
 
-/// Becomes this program. Throws candela::Error where it cannot be run.
+/// Replaces this process with the program. Throws candela::Error if it cannot be run.
 [[noreturn]] void become_helper(const std::filesystem::path& file, const std::vector<std::string>& arguments);

@@ -1,4 +1,4 @@
-// candela import: a model's file becomes a scene.
+// candela import: makes a scene of a model's file.
 #include "import/import.h"
 
 #include <fmt/format.h>
@@ -31,27 +31,27 @@ importing::UpAxis up_from(const CommandLine& line) {
     const auto up = line.get<std::string>("up");
     if (up == "y") return importing::UpAxis::y;
     if (up == "z") return importing::UpAxis::z;
-    throw Error(ErrorCategory::bad_request, fmt::format("--up is '{}'; it can be y or z", up));
+    throw Error(ErrorCategory::bad_request, fmt::format("--up is '{}'; expected y or z", up));
 }
 
-/// As a scene in `folder` names a file: relative to it, if they are on one path.
+/// The name of a file in a scene in `folder`: relative to it if both are below one root.
 std::string name_in(const fs::path& folder, const fs::path& file) {
     const fs::path relative = candela::canonical_path(fs::absolute(file))
                                   .lexically_relative(candela::canonical_path(fs::absolute(folder)));
     return relative.empty() ? fs::absolute(file).string() : relative.generic_string();
 }
 
-/// Neither the model nor what it consists of.
+/// Throws if the output would overwrite the model or one of its parts.
 void require_no_part_of(const fs::path& model, const fs::path& output) {
     require_no_scene_file(output.string(), {model}, "the scene");
     std::error_code problem;
     if (fs::exists(output, problem) && importing::is_part_of(model, output))
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' is a part of the model '{}'; give the scene another name",
+                    fmt::format("'{}' is part of the model '{}'; give the scene another name",
                                 output.string(), model.string()));
 }
 
-/// Pictures that are there may be somebody's, unless they are the same.
+/// Existing pictures may be the user's own, unless their contents are the same.
 void require_place_for(const std::map<std::string, std::string>& pictures, const fs::path& folder,
                        const fs::path& model, bool is_forced) {
     for (const auto& [name, content] : pictures) {
@@ -61,27 +61,24 @@ void require_place_for(const std::map<std::string, std::string>& pictures, const
         if (!is_forced && fs::exists(fs::symlink_status(file, problem)) &&
             candela::read_text_file(file, content.size()) != content)
             throw Error(ErrorCategory::failure,
-                        fmt::format("'{}' is there already; --force replaces it", file.string()));
+                        fmt::format("'{}' already exists; --force replaces it", file.string()));
     }
 }
 
 }  // namespace
 
 int run_import(const std::vector<std::string>& arguments) {
-    CommandLine line(
-        "candela import FILE [options]",
-        "Writes a scene that shows a model from another program: an OBJ file with its materials, a glTF or "
-        "GLB "
-        "file\nwith materials, cameras and lights, a PLY or an STL file. The scene names the model's file; "
-        "what "
-        "the model\ndoes not have, such as a light, is chosen so that all of it is seen. What is left out or "
-        "approximated is said.");
+    CommandLine line("candela import FILE [options]",
+                     "Write a scene that shows a model from another program: an OBJ file with its materials, "
+                     "a glTF or GLB file with materials, cameras and lights, a PLY or an STL file. The scene "
+                     "refers to the model's file. Anything the model lacks, such as a light, is chosen so "
+                     "that all of the model is visible. Everything left out or approximated is reported.");
     line.positional("file", 1);
     line.options()("output,o", po::value<std::string>()->value_name("FILE"),
                    "the scene; default: the model's name with .toml; - prints it")(
         "force", "replace an existing scene, and its pictures")(
         "up", po::value<std::string>()->value_name("AXIS"),
-        "which axis points up in the file: y or z; default: z in STL files, "
+        "the axis that points up in the file: y or z; default: z in STL files, "
         "y in others")("allow-outside",
                        "let the model name files outside its own folder, such as ../textures/wood.png");
     add_plugin_options(line);
@@ -96,8 +93,7 @@ int run_import(const std::vector<std::string>& arguments) {
     const bool is_forced = line.has("force");
     std::error_code problem;
     if (!is_printed && !is_forced && fs::exists(fs::symlink_status(output, problem)))
-        throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' is there already; --force replaces it", output));
+        throw Error(ErrorCategory::failure, fmt::format("'{}' already exists; --force replaces it", output));
     const fs::path parent = fs::path(output).parent_path();
     const fs::path folder = is_printed || parent.empty() ? fs::path(".") : parent;
     if (!is_printed) {
@@ -105,7 +101,7 @@ int run_import(const std::vector<std::string>& arguments) {
         require_no_part_of(file, output);
     }
 
-    // Pictures that the file contains come to lie beside the scene.
+    // Pictures embedded in the file are written next to the scene.
     const std::string pictures_folder = fs::path(output).stem().string() + "_textures";
     std::map<std::string, std::string> pictures;
     candela::Registry registry = registry_from(line);
@@ -119,7 +115,7 @@ int run_import(const std::vector<std::string>& arguments) {
                  if (is_printed)
                      throw Error(
                          ErrorCategory::bad_request,
-                         fmt::format("'{}' contains pictures, which need a place beside the scene; name the "
+                         fmt::format("'{}' contains pictures, which are written next to the scene; name the "
                                      "scene with -o",
                                      file.string()));
                  pictures.emplace(name, content);
@@ -134,9 +130,9 @@ int run_import(const std::vector<std::string>& arguments) {
     }
     if (!pictures.empty()) {
         require_place_for(pictures, folder / pictures_folder, file, is_forced);
-        OutputFolder beside(folder / pictures_folder, candela::Links::not_followed);
-        for (const auto& [name, content] : pictures) beside.write(name, content);
-        beside.finish();
+        OutputFolder output_folder(folder / pictures_folder, candela::Links::not_followed);
+        for (const auto& [name, content] : pictures) output_folder.write(name, content);
+        output_folder.finish();
     }
     candela::write_text_file(output, imported.scene,
                              is_forced ? candela::Existing::replaced : candela::Existing::kept);

@@ -1,4 +1,4 @@
-// Who does the tasks of a job: this machine, a queue, or whoever is given the command lines.
+// The engines that run the tasks of a job: this machine, a queue, or whatever runs printed command lines.
 #pragma once
 
 #include <cstddef>
@@ -7,19 +7,19 @@
 
 #include "submission.h"
 
-/// Runs the open tasks, `processes` at a time, then the last one if all went well. What fails is reported,
-/// and the rest is done all the same. Returns the exit code.
+/// Runs the open tasks, `processes` at a time, then the last one if all succeeded. Reports failures and
+/// continues with the other tasks. Returns the exit code.
 int run_locally(const Submission& job, std::size_t processes);
 
-/// Throws candela::Error (bad_request) where a log in the job's folder cannot be named in a script for Slurm.
+/// Throws candela::Error (bad_request) if a log in the job's folder cannot be named in a Slurm script.
 void require_folder_for_slurm(const Submission& job);
 
-/// The scripts for Slurm: an array job of the open tasks, and the last one.
+/// The Slurm scripts: an array job of the open tasks, and the last task.
 std::string slurm_script_of_tasks(const Submission& job);
 std::string slurm_script_of_last(const Submission& job);
-/// How sbatch is told that the last task comes after the others.
+/// The sbatch options that run the last task after the others.
 Words after_tasks(const std::string& number);
 
-/// Hands them to sbatch, which are in the job's folder. Returns the numbers of the jobs. Throws
+/// Submits the scripts in the job's folder with sbatch. Returns the numbers of the jobs. Throws
 /// candela::Error (failure).
 std::vector<std::string> submit_to_slurm(const Submission& job);

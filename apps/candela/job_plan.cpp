@@ -17,7 +17,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-// Some 400,000 frames, and what a machine can parse.
+// About 400,000 frames, and small enough to parse.
 constexpr std::size_t k_largest_plan = std::size_t{64} << 20;
 
 Json as_json(const JobFile& file) { return {{"path", file.path.string()}, {"inputs", file.inputs}}; }
@@ -57,9 +57,9 @@ JobPlan plan_from(const Json& json) {
     if (const Json& whole = json.at("whole"); !whole.is_null()) plan.whole = file_from(whole);
     for (const Json& task : json.at("tasks")) {
         JobTask& made = plan.tasks.emplace_back(task.at("name").get<std::string>());
-        // It is the name of a file in the job's folder.
+        // It becomes a file name in the job's folder.
         if (made.name.empty() || made.name.find('/') != std::string::npos)
-            throw Error(ErrorCategory::failure, fmt::format("a task is called '{}'", made.name));
+            throw Error(ErrorCategory::failure, fmt::format("invalid task name '{}'", made.name));
         for (const Json& file : task.at("files")) made.files.push_back(file_from(file));
     }
     for (const Json& result : json.at("results")) plan.results.emplace_back(result.get<std::string>());
@@ -76,9 +76,10 @@ std::vector<JobFolder> JobFolder::all_in(const fs::path& directory) {
     const fs::path jobs = directory / ".candela" / "jobs";
     auto names = candela::names_in(jobs);
     if (!names || names->empty()) {
-        throw Error(ErrorCategory::failure,
-                    fmt::format("no job was submitted for '{}': there is no '{}'; candela submit makes one",
-                                directory.string(), jobs.string()));
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format("no job was submitted for '{}': '{}' does not exist; submit one with candela submit",
+                        directory.string(), jobs.string()));
     }
     std::ranges::sort(*names);
     std::vector<JobFolder> folders;
@@ -97,8 +98,8 @@ void write_plan(const JobPlan& plan, const JobFolder& folder) {
     if (text.size() > k_largest_plan) {
         throw Error(
             ErrorCategory::failure,
-            fmt::format("the plan of {} tasks has {} MB; {} MB are the most: submit fewer frames at a "
-                        "time, by --frames",
+            fmt::format("the plan of {} tasks has {} MB; the maximum is {} MB: submit fewer frames at a "
+                        "time with --frames",
                         plan.tasks.size(), text.size() >> 20, k_largest_plan >> 20));
     }
     folder.make();
@@ -115,8 +116,9 @@ JobPlan read_plan(const JobFolder& folder) {
                         folder.plan().string(), k_largest_plan >> 20));
     }
     const auto fail = [&](const std::exception& problem) {
-        throw Error(ErrorCategory::failure, fmt::format("'{}' is not a job's plan: {}; submit the job again",
-                                                        folder.plan().string(), problem.what()));
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' is not a valid job plan: {}; submit the job again",
+                                folder.plan().string(), problem.what()));
     };
     try {
         return plan_from(parse_json(*text));

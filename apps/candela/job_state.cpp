@@ -15,7 +15,7 @@ using Kind = TaskState::Kind;
 
 namespace {
 
-/// The last line that is not empty; a queue writes there why it ended a task.
+/// The last non-empty line, where a queue writes why it ended a task.
 std::string last_line_of(const fs::path& log) {
     constexpr std::size_t k_most = 4096;
     const std::string text = end_of_owned_file(log, k_most);
@@ -26,7 +26,7 @@ std::string last_line_of(const fs::path& log) {
     return text.substr(begin, end + 1 - begin);
 }
 
-/// What the journal and the log say of a task whose files are not all there.
+/// Adds what the journal and the log say about a task that lacks files.
 void add_what_is_said(TaskState& state, const fs::path& journal, const fs::path& log) {
     state.journal = read_journal(journal);
     if (!state.journal) return;
@@ -101,7 +101,7 @@ JobState state_of(const JobFolder& folder) {
         std::error_code problem;
         if (fs::exists(state.plan.directory / result, problem)) ++last.files_done;
     }
-    // What was there before the job has no journal of its own.
+    // Results older than the job have no journal of their own.
     if (last.journal && last.journal->state == State::done && last.files_done == last.files)
         last.kind = Kind::done;
     state.last = std::move(last);

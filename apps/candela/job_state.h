@@ -1,4 +1,4 @@
-// How far a job is, from files alone.
+// The state of a job, from files alone.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@
 
 struct TaskState {
     enum class Kind {
-        done,     // all of its files are whole, and made from what was submitted
-        running,  // and some may be done
-        failed,   // or lost: its process is no longer there
-        waiting   // nobody has begun it, or it went well and its files are gone
+        done,     // all of its files are complete, and made from what was submitted
+        running,  // some files may be done
+        failed,   // or lost: its process no longer exists
+        waiting   // not started yet, or it succeeded and its files are gone
     };
     std::string name;
     Kind kind = Kind::waiting;
     std::size_t files_done = 0;
-    std::size_t files_other = 0;  // made from something else than was submitted
+    std::size_t files_other = 0;  // made from other inputs than were submitted
     std::size_t files = 0;
     std::optional<JournalEntry> journal;
-    std::string why;  // of a failure
+    std::string why;  // why it failed
 };
 
 struct JobState {
@@ -39,5 +39,5 @@ const char* name_of(TaskState::Kind kind);
 /// Throws candela::Error (failure) if there is no plan.
 JobState state_of(const JobFolder& folder);
 
-/// Of one task; `number` is counted from 1.
+/// The state of one task; `number` is counted from 1.
 TaskState state_of(const JobPlan& plan, const JobTask& task, std::size_t number, const JobFolder& folder);

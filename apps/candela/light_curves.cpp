@@ -20,11 +20,11 @@ using candela::Vec3;
 
 namespace {
 
-constexpr double k_degrees = 0.5;  // between places
+constexpr double k_degrees = 0.5;  // between points
 constexpr int k_angles = 180;      // steps up to a right angle
 constexpr int k_per_decade = 20;
 
-/// A light with its place and its axis.
+/// A light with its position and its axis.
 class PlacedLight {
   public:
     PlacedLight(const NamedModel& named, candela::Registry& registry) {
@@ -33,8 +33,8 @@ class PlacedLight {
         light_ = registry.create<candela::Light>(model.name, model.parameters, scene.image.color_management);
         if (light_->sample_count() == 0)
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("light/{} comes from everywhere: what it sends depends neither on an "
-                                    "angle nor on a distance",
+                        fmt::format("light/{} comes from everywhere: its intensity depends on neither an "
+                                    "angle nor a distance",
                                     model.name));
         const auto& parameters = registry.require(candela::PluginKind::light, model.name).manifest.parameters;
         const auto delivered = model.parameters.delivered(scene.image.color_management);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double k_width = 900, k_panel_width = 370, k_top = 40, k_height = 300, k_left = 60, k_gap = 70;
 
-/// A diagram's frame, in which shares 0 to 1 of its width and its height are places.
+/// A diagram's frame, with coordinates from 0 to 1 in both directions.
 struct Panel {
     double left;
 
@@ -54,7 +54,7 @@ struct Panel {
 std::string angle_panel(const std::vector<LightCurves>& lights) {
     constexpr double k_right_angle = 90;
     const Panel panel{k_left};
-    std::string text = panel.frame("share of what is sent along the axis", "degrees from the axis");
+    std::string text = panel.frame("intensity relative to the axis", "degrees from the axis");
     for (int degrees = 0; degrees <= 90; degrees += 15)
         text += panel.mark_below(degrees / k_right_angle, fmt::format("{}°", degrees));
     for (int i = 0; i <= 4; ++i) text += panel.mark_beside(i / 4.0, fmt::format("{:g}", i / 4.0));
@@ -76,7 +76,7 @@ std::string distance_panel(const std::vector<LightCurves>& lights) {
             if (point.intensity > 0 && (least == 0 || point.intensity < least)) least = point.intensity;
     }
     const double high = peak > 0 ? std::ceil(std::log10(peak) - 1e-9) : 0;
-    // At most eight powers of ten; what is below lies on the edge.
+    // At most eight powers of ten; lower values lie on the edge.
     const double low = std::max(least > 0 ? std::floor(std::log10(least) + 1e-9) : high - 1, high - 8);
     const double range = std::max(high - low, 1.0);
     const Panel panel{k_left + k_panel_width + k_gap};
@@ -118,9 +118,9 @@ std::string light_curves_svg(const std::vector<LightCurves>& lights) {
     for (const LightCurves& light : lights) labels.push_back(light.label);
     constexpr double k_legend = k_top + k_height + 66;
     return svg_begin(k_width, k_legend + k_legend_row * static_cast<double>(lights.size()) - 10,
-                     "What lights send", labels,
-                     "Two diagrams: what is sent over the angle with the axis, as a share of what is sent "
-                     "along it, and the intensity "
+                     "Emitted light", labels,
+                     "Two diagrams: the intensity over the angle with the axis, relative to that on the "
+                     "axis, and the intensity "
                      "over the distance, both axes logarithmic.") +
            angle_panel(lights) + distance_panel(lights) + legend_of(labels, k_legend) + "</svg>\n";
 }

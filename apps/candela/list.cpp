@@ -1,4 +1,4 @@
-// candela list: the installed plugins.
+// candela list: lists the installed plugins.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -28,7 +28,7 @@ candela::PluginKind kind_from(std::string name) {
     }
     const std::string meant = candela::suggestion(name, names);
     throw Error(ErrorCategory::bad_request,
-                fmt::format("'{}' is no kind of plugin; {}(kinds: {})", name,
+                fmt::format("unknown kind of plugin '{}'; {}(kinds: {})", name,
                             meant.empty() ? "" : meant + ' ', fmt::join(names, ", ")));
 }
 
@@ -36,10 +36,10 @@ candela::PluginKind kind_from(std::string name) {
 
 int run_list(const std::vector<std::string>& arguments) {
     CommandLine line("candela list [KIND] [options]",
-                     "Lists the installed plugins; of one kind (light, reflection, shading, shape, image, "
-                     "target) if it is named.");
+                     "List the installed plugins, or only those of one kind (light, reflection, shading, "
+                     "shape, image or target).");
     line.positional("kind", 1);
-    line.options()("json", "everything the plugins declare, as JSON");
+    line.options()("json", "print everything the plugins declare, as JSON");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
 

@@ -25,7 +25,7 @@ using candela::Vec3;
 namespace {
 
 constexpr double k_step = 0.5;  // degrees
-constexpr int k_half = 179;     // steps on each side: grazing directions themselves are left out
+constexpr int k_half = 179;     // steps on each side, excluding the grazing directions
 
 std::unique_ptr<candela::ReflectionModel> instance_of(const NamedModel& model, candela::Registry& registry) {
     const candela::Scene scene = scene_with(model, registry);
@@ -34,7 +34,7 @@ std::unique_ptr<candela::ReflectionModel> instance_of(const NamedModel& model, c
                                                      scene.image.color_management);
 }
 
-/// In the plane z = 0, whose normal is +y.
+/// A direction in the plane z = 0, whose normal is +y.
 Vec3 direction_at(double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     return {static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
@@ -77,11 +77,10 @@ const candela::Parameter& number_called(const std::string& name, const NamedMode
         numbers.push_back(parameter.name);
     }
     const std::string meant = candela::suggestion(name, numbers);
-    throw Error(
-        ErrorCategory::bad_request,
-        fmt::format("reflection/{} has no number '{}' that could be varied; it has {}{}{}", model.name, name,
-                    numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", ")),
-                    meant.empty() ? "" : "; ", meant));
+    throw Error(ErrorCategory::bad_request,
+                fmt::format("reflection/{} has no number '{}' to fit; it has {}{}{}", model.name, name,
+                            numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", ")),
+                            meant.empty() ? "" : "; ", meant));
 }
 
 }  // namespace
@@ -104,7 +103,7 @@ Match match_lobe(const Lobe& target, const NamedModel& model, const std::string&
     const candela::Parameter& range = number_called(parameter, model, registry);
     const double least = std::max(static_cast<double>(range.minimum), 1e-3);
     const double most = std::min(static_cast<double>(range.maximum), 1e5);
-    // Exponents and roughnesses alike: what matters is by which factor they change.
+    // Exponents and roughnesses alike: their ratio matters.
     const double from = std::log(least), to = std::log(std::max(most, 2 * least));
     const auto error_at = [&](double logarithm) {
         NamedModel tried = model;
@@ -112,7 +111,7 @@ Match match_lobe(const Lobe& target, const NamedModel& model, const std::string&
         tried.values.emplace_back(parameter, fmt::format("{}", static_cast<float>(std::exp(logarithm))));
         return mean_square(target, lobe_of(tried, incidence, registry));
     };
-    // There may be several minima: the lowest of a coarse search, then Brent's method (1973) around it.
+    // There may be several minima: a coarse search finds the lowest, then Brent's method (1973) refines it.
     constexpr int k_coarse = 64;
     const double step = (to - from) / k_coarse;
     int best = 0;

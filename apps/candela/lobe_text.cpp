@@ -15,7 +15,7 @@ namespace {
 constexpr double k_width = 720, k_center_x = 360, k_center_y = 335, k_radius = 300;
 constexpr double k_decades = 4;  // of a logarithmic diagram
 
-/// 1, 2 or 5 times a power of ten, and not less.
+/// The smallest 1, 2 or 5 times a power of ten that is not less.
 double rounded_up(double x) {
     const double power = std::pow(10, std::floor(std::log10(x)));
     for (const double digit : {1.0, 2.0, 5.0})
@@ -43,12 +43,11 @@ class Diagram {
 
     std::string text() const {
         const double height = k_center_y + 40 + k_legend_row * static_cast<double>(lobes_.size());
-        return svg_begin(
-                   k_width, height, "Reflected intensity", labels(),
-                   fmt::format(
-                       "Polar diagram in the plane of incidence, {} from 0 to {:g}. Light falls in from "
-                       "the left, {:g} degrees from the normal.",
-                       scale_ == RadialScale::linear ? "linear" : "logarithmic", full_, incidence_)) +
+        return svg_begin(k_width, height, "Reflected intensity", labels(),
+                         fmt::format(
+                             "Polar diagram in the plane of incidence, {} from 0 to {:g}. Light arrives from "
+                             "the left, {:g} degrees from the normal.",
+                             scale_ == RadialScale::linear ? "linear" : "logarithmic", full_, incidence_)) +
                grid() + light() + curves() + legend_of(labels(), k_center_y + 46) + "</svg>\n";
     }
 
@@ -82,7 +81,7 @@ class Diagram {
         return text;
     }
 
-    /// An arrow inwards, and where a mirror would send the light.
+    /// An arrow for the incoming light, and a dashed line for the mirror direction.
     std::string light() const {
         const Place from = place_at(-incidence_, k_radius), head = place_at(-incidence_, 26);
         const Place left = place_at(-incidence_ - 12, 42), right = place_at(-incidence_ + 12, 42);

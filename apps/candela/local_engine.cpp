@@ -1,4 +1,4 @@
-// Tasks of a job as processes of this machine.
+// Runs the tasks of a job as processes on this machine.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,14 +24,14 @@ import candela.process;
 
 namespace {
 
-/// Why the task has failed; nothing if it has not.
+/// Why the task failed; nothing if it succeeded.
 std::optional<std::string> failure_of(const Words& command) {
     try {
         const candela::ProgramOutput done = candela::run_program(command);
         constexpr int k_signal = 128;
         if (done.exit_code > k_signal) {
             const int signal = done.exit_code - k_signal;
-            return fmt::format("it was ended by signal {} ({})", signal, ::strsignal(signal));
+            return fmt::format("it was killed by signal {} ({})", signal, ::strsignal(signal));
         }
         return done.exit_code == 0 ? std::nullopt : std::optional(done.err);
     } catch (const std::exception& problem) {
@@ -39,14 +39,14 @@ std::optional<std::string> failure_of(const Words& command) {
     }
 }
 
-/// Runs one task; says and writes down why it failed, if it has.
+/// Runs one task; reports and records why it failed, if it did.
 bool run_task(const std::string& name, const Words& command, const JobFolder& folder) {
     const auto wait_for_the_end = [] {
         while (are_descendants_ending()) ::pause();
     };
-    wait_for_the_end();  // before it starts one more
+    wait_for_the_end();  // before starting another
     const auto failure = failure_of(command);
-    // The handler of a signal has ended it, and perhaps waited for it, and is about to end this process.
+    // A signal handler may have ended it and waited for it, and is about to end this process.
     wait_for_the_end();
     if (!failure) return true;
     std::string why = *failure;
@@ -79,7 +79,7 @@ int run_locally(const Submission& job, std::size_t processes) {
     }
     if (failed > 0) {
         return fail(ExitCode::failure,
-                    fmt::format("{} of {} tasks failed; the same command again does what is not done",
+                    fmt::format("{} of {} tasks failed; run the same command again to finish the rest",
                                 failed.load(), job.open.size()));
     }
     if (!job.last.empty() && !run_task(k_last_task, job.last, job.folder))

@@ -29,25 +29,25 @@ constexpr std::array k_verbs = {
     Verb{"new", "write a starter scene", run_new},
     Verb{"import", "write a scene that shows a model from another program", run_import},
     Verb{"render", "render a scene to a picture", run_render},
-    Verb{"animate", "render the frames of an animated scene, or a film", run_animate},
-    Verb{"submit", "have many processes or machines render frames, or parts", run_submit},
-    Verb{"status", "say how far a submitted job is, and what failed", run_status},
+    Verb{"animate", "render an animated scene to frames or a film", run_animate},
+    Verb{"submit", "distribute frames or parts of a picture over processes or a cluster", run_submit},
+    Verb{"status", "show a job's progress and failures", run_status},
     Verb{"assemble", "put the parts of a picture together", run_assemble},
     Verb{"check", "check a scene and report its errors", run_check},
     Verb{"edit", "write changes into a scene's files", run_edit},
     Verb{"explain", "explain how a pixel gets its colour", run_explain},
     Verb{"generate", "write a program that renders a scene", run_generate},
     Verb{"verify", "verify that generated programs render what Candela renders", run_verify},
-    Verb{"view", "show a scene in the browser, and its changes as they are saved", run_view},
-    Verb{"compare", "put a scene with different models on one sheet", run_compare},
+    Verb{"view", "show a scene in the browser, updated whenever its files are saved", run_view},
+    Verb{"compare", "render a contact sheet that compares models", run_compare},
     Verb{"bench", "time each stage of rendering a scene", run_bench},
     Verb{"diff", "compare two pictures", run_diff},
-    Verb{"plot", "draw the lobes of reflection models, or what lights send", run_plot},
-    Verb{"exercise", "leave a formula blank, and grade the answers", run_exercise},
+    Verb{"plot", "plot the lobes of reflection models, or the light emitted by lights", run_plot},
+    Verb{"exercise", "create and grade fill-in-the-formula exercises", run_exercise},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
     Verb{"plugin", "create, test and diagnose plugins", run_plugin},
-    Verb{"schema", "print the scene file's JSON Schema, or its reference", run_schema},
+    Verb{"schema", "print the scene file's JSON Schema or reference", run_schema},
 };
 
 std::string help() {
@@ -59,23 +59,24 @@ std::string help() {
     text +=
         "\n  candela VERB --help   the arguments of a verb\n"
         "  candela --version     the version\n\n"
-        "Try: candela new               a starter scene, to scene.toml\n"
-        "     candela render            the default scene, to candela.png\n";
+        "Try: candela new               write a starter scene, scene.toml\n"
+        "     candela render            render the default scene to candela.png\n";
     return text;
 }
 
-/// CANDELA_INSTRUCTION_SET=baseline|avx2|avx512: for measurements and for finding faults.
+/// CANDELA_INSTRUCTION_SET=baseline|avx2|avx512: for measurements and debugging.
 void choose_instruction_set() {
     const char* const name = std::getenv("CANDELA_INSTRUCTION_SET");
     if (name == nullptr || *name == '\0') return;
     const auto set = candela::instruction_set_named(name);
     if (!set) {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("CANDELA_INSTRUCTION_SET is '{}'; it can be baseline, avx2 or avx512", name));
+                    fmt::format("CANDELA_INSTRUCTION_SET is '{}'; expected baseline, avx2 or avx512", name));
     }
     if (!candela::use_instruction_set(*set)) {
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("CANDELA_INSTRUCTION_SET is '{}', which this processor does not have", name));
+        throw Error(
+            ErrorCategory::bad_request,
+            fmt::format("CANDELA_INSTRUCTION_SET is '{}', which this processor does not support", name));
     }
 }
 
@@ -114,8 +115,8 @@ int run(const std::vector<std::string>& arguments) {
                                                         meant.empty() ? "candela --help shows all" : meant));
 }
 
-/// Arrays of a mesh or a picture are made and freed one after the other. Memory that goes back to the system
-/// in between comes back page by page, cleared: a sixth of the time that it takes to make a page of a scene.
+/// The arrays of meshes and pictures are allocated and freed one after another. Memory returned to the system
+/// in between would come back page by page, cleared: a sixth of the time of exporting a scene as a page.
 void keep_freed_memory() {
     ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
     ::mallopt(M_TRIM_THRESHOLD, 64 << 20);

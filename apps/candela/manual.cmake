@@ -1,5 +1,5 @@
-# cmake -DCOMMAND=<candela> -DFOLDER=<folder> -P manual.cmake: a compressed manual page for each verb, and one for the command.
-# Verbs that have verbs (plugin, exercise) have no page of their own; one whose program is not built yet has none.
+# cmake -DCOMMAND=<candela> -DFOLDER=<folder> -P manual.cmake: writes a compressed manual page for each verb, and one for the command.
+# Verbs with subverbs (plugin, exercise) have no page of their own, and neither do verbs whose program is not built yet.
 function(write_page name)
     execute_process(COMMAND ${COMMAND} ${ARGN} --help-as man OUTPUT_VARIABLE page ERROR_QUIET RESULT_VARIABLE failed)
     if(failed OR page STREQUAL "")
@@ -10,7 +10,7 @@ function(write_page name)
     file(REMOVE ${FOLDER}/${name}.1)
 endfunction()
 
-# The names of the verbs that may follow, as a shell would be told.
+# The names of the verbs that may follow, from the completions for a shell.
 function(find_verbs result)
     execute_process(COMMAND ${CMAKE_COMMAND} -E env CANDELA_COMPLETE=1 ${COMMAND} ${ARGN} "" OUTPUT_VARIABLE lines
         COMMAND_ERROR_IS_FATAL ANY)

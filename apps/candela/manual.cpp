@@ -7,7 +7,7 @@ namespace po = boost::program_options;
 
 namespace {
 
-/// Text that troff prints as it is: no escapes, hyphens that can be copied, and no line that is taken for a
+/// Text that troff prints unchanged: no escapes, hyphens that can be copied, and no line that looks like a
 /// request.
 std::string escaped(std::string_view text) {
     std::string result;
@@ -30,7 +30,7 @@ std::string heading(std::string_view name) {
     return ".TH \"" + escaped(upper) + "\" 1 \"\" Candela \"Candela's manual\"\n";
 }
 
-/// "Renders a scene" is what the index of manual pages has: "renders a scene".
+/// The NAME section, which the index of manual pages shows, starts in lower case: "render a scene".
 std::string first_sentence(std::string_view explanation) {
     std::string result;
     for (std::size_t i = 0; i < explanation.size(); ++i) {
@@ -44,7 +44,7 @@ std::string first_sentence(std::string_view explanation) {
     return result;
 }
 
-/// As wrapped_paragraphs() reads it: a line that begins with spaces is a row of two columns.
+/// Reads text like wrapped_paragraphs(): a line that begins with spaces is a row of two columns.
 std::string paragraphs(std::string_view text) {
     std::string result = ".PP\n";
     bool is_in_rows = false;
@@ -93,7 +93,7 @@ constexpr const char* k_exit_status =
 
 std::string manual_page(const std::string& usage, const std::string& explanation,
                         const po::options_description& options) {
-    // "candela plugin new KIND NAME": lower-case words are the verb's.
+    // In "candela plugin new KIND NAME", the lower-case words are the verb's.
     std::string name;
     for (std::size_t at = 0; at < usage.size() && std::islower(static_cast<unsigned char>(usage[at])) != 0;) {
         const std::size_t end = std::min(usage.find(' ', at), usage.size());
@@ -119,19 +119,20 @@ std::string manual_page(std::span<const Verb> verbs) {
         page += ".TP\n.B " + escaped(verb.name) + '\n' + escaped(verb.summary) + '\n';
     return page +
            ".SH ENVIRONMENT\n"
-           ".TP\n.B CANDELA_PLUGIN_PATH\nFolders of plugins, separated by colons. They come after those "
+           ".TP\n.B CANDELA_PLUGIN_PATH\nFolders of plugins, separated by colons. They are searched after "
+           "those "
            "that\n"
            ".B \\-\\-plugin\\-dir\nnames.\n"
            ".TP\n.B CANDELA_INSTRUCTION_SET\nbaseline, avx2 or avx512 instead of the best that the processor "
            "has.\n"
            ".TP\n.B NO_COLOR\nIf set, messages are not coloured.\n"
-           ".TP\n.B COLUMNS\nThe width that help and lists are wrapped at.\n"
+           ".TP\n.B COLUMNS\nThe width at which help and lists are wrapped.\n"
            ".SH FILES\n"
            ".TP\n.I ~/.local/share/candela/plugins\nYour own plugins\n.RI ( $XDG_DATA_HOME/candela/plugins\n"
            "if that is set).\n" +
            k_exit_status +
            ".SH EXAMPLES\n"
-           ".TP\n.B candela new\nWrites a starter scene, scene.toml.\n"
-           ".TP\n.B candela render scene.toml \\-o scene.png\nRenders it.\n"
-           ".TP\n.B candela view scene.toml\nShows it in the browser while you edit it.\n";
+           ".TP\n.B candela new\nWrite a starter scene, scene.toml.\n"
+           ".TP\n.B candela render scene.toml \\-o scene.png\nRender it.\n"
+           ".TP\n.B candela view scene.toml\nShow it in the browser while you edit it.\n";
 }

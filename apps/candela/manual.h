@@ -1,4 +1,4 @@
-// Manual pages, from what --help prints.
+// Manual pages, made from the output of --help.
 #pragma once
 
 #include <boost/program_options.hpp>
@@ -7,8 +7,8 @@
 
 #include "verbs.h"
 
-/// The page of one verb, as man reads it: troff with the macros of man(7). `usage` and `explanation` are
-/// those of a CommandLine.
+/// The page of one verb for man: troff with the macros of man(7). `usage` and `explanation` are those of a
+/// CommandLine.
 std::string manual_page(const std::string& usage, const std::string& explanation,
                         const boost::program_options::options_description& options);
 

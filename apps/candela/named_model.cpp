@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* k_name = "plot";
 
-/// With the model's values: what can be wrong with them is found where it always is.
+/// A request with the model's values, so that errors in them are found as in any scene.
 candela::SceneRequest request_for(const NamedModel& model, const candela::Manifest& manifest) {
     const bool is_light = model.kind == PluginKind::light;
     std::string light = "type = \"directional\"\ndirection = [0, -1, 0]\n";
@@ -65,7 +65,8 @@ std::string NamedModel::label() const {
 std::pair<std::string, std::string> value_from(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos)
-        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is no value; write it as in ks=0.5", text));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is not a value; expected NAME=VALUE, as in ks=0.5", text));
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -76,10 +77,8 @@ NamedModel model_from(const std::string& text) {
     if (const std::size_t slash = name.find('/'); slash != std::string::npos) {
         const auto named = candela::plugin_kind_named(name.substr(0, slash));
         if (named != PluginKind::reflection && named != PluginKind::light) {
-            throw Error(
-                ErrorCategory::bad_request,
-                fmt::format("'{}' is neither a reflection model nor a light; those are what can be plotted",
-                            name));
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("'{}' cannot be plotted; expected a reflection model or a light", name));
         }
         kind = *named;
         name.erase(0, slash + 1);

@@ -1,4 +1,4 @@
-// A model as a person names it on the command line, and a scene that has it.
+// A model as named on the command line, and a scene that has it.
 #pragma once
 
 #include <string>
@@ -19,13 +19,13 @@ struct NamedModel {
     std::string label() const;
 };
 
-/// The kind may be left out for a reflection model. Throws candela::Error (bad_request) for what is no such
-/// text, or another kind of plugin than a reflection model or a light.
+/// Parses a model; a reflection model's kind may be left out. Throws candela::Error (bad_request) if the text
+/// is malformed or names a plugin that is neither a reflection model nor a light.
 NamedModel model_from(const std::string& text);
-/// "shininess=20". Throws likewise.
+/// Parses "shininess=20". Throws like model_from().
 std::pair<std::string, std::string> value_from(const std::string& text);
 
-/// A scene whose first object has the reflection model, or whose first light is the light; a light whose
-/// place or direction is not among the values is in the middle of a large room and shines downwards. Throws
-/// candela::Error (bad_request) for what is wrong with the values, as it would be wrong in a scene.
+/// A scene whose first object has the reflection model, or whose first light is the light. A light without a
+/// position or direction is in the middle of a large room and shines downwards. Throws candela::Error
+/// (bad_request) for invalid values, as in any scene.
 candela::Scene scene_with(const NamedModel& model, candela::Registry& registry);

@@ -1,4 +1,4 @@
-// candela new: a scene to begin with.
+// candela new: writes a starter scene.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -19,13 +19,12 @@ using candela::Error;
 using candela::ErrorCategory;
 
 int run_new(const std::vector<std::string>& arguments) {
-    CommandLine line(
-        "candela new [FILE] [options]",
-        "Writes a small commented scene to learn from and to edit: to FILE, by default scene.toml;\n"
-        "- prints it.");
+    CommandLine line("candela new [FILE] [options]",
+                     "Write a small commented scene to learn from and to edit: to FILE, by default "
+                     "scene.toml; - prints it.");
     line.positional("file", 1);
     line.options()("force", "replace an existing file")("animation",
-                                                        "a scene that is a film, for candela animate");
+                                                        "write an animated scene, for candela animate");
     if (!line.parse(arguments)) return 0;
 
     const std::string file = line.has("file") ? line.all("file").front() : "scene.toml";
@@ -37,7 +36,7 @@ int run_new(const std::vector<std::string>& arguments) {
     require_no_default_link(line, "file", file);
     std::error_code problem;
     if (!line.has("force") && std::filesystem::exists(std::filesystem::symlink_status(file, problem))) {
-        throw Error(ErrorCategory::failure, fmt::format("'{}' is there already; --force replaces it", file));
+        throw Error(ErrorCategory::failure, fmt::format("'{}' already exists; --force replaces it", file));
     }
     candela::write_text_file(file, scene,
                              line.has("force") ? candela::Existing::replaced : candela::Existing::kept);

@@ -18,19 +18,19 @@ namespace {
                 fmt::format("the folder '{}' cannot be created: {}", folder.string(), reason));
 }
 
-/// The folder itself, or the nearest above it that there is: what is written there can be moved without a
+/// The folder itself, or its nearest existing parent: files written there can be moved into place without a
 /// copy.
 fs::path existing_part_of(const fs::path& target) {
     std::error_code problem;
     for (fs::path folder = fs::absolute(target).lexically_normal();; folder = folder.parent_path()) {
         const fs::file_status status = fs::status(folder, problem);
         if (fs::is_directory(status)) return folder;
-        if (fs::exists(status)) fail(target, fmt::format("'{}' is a file", folder.string()));
+        if (fs::exists(status)) fail(target, fmt::format("'{}' is not a folder", folder.string()));
         if (status.type() == fs::file_type::none) fail(target, problem.message());
     }
 }
 
-/// Throws where something else is in the way of what is below `from`, before any of it is moved.
+/// Throws if something blocks the files below `from`, before any of them is moved.
 void require_no_obstacle(const fs::path& from, const fs::path& to) {
     for (const std::string& name : candela::names_in(from).value_or(std::vector<std::string>())) {
         const fs::file_status there = fs::symlink_status(to / name);
@@ -46,7 +46,7 @@ void require_no_obstacle(const fs::path& from, const fs::path& to) {
     }
 }
 
-/// Moves every file below `from` to the same place below `to`, a folder that is there.
+/// Moves every file below `from` to the same place below `to`, an existing folder.
 void move_files(const fs::path& from, const fs::path& to) {
     const auto names = candela::names_in(from);
     if (!names) throw fs::filesystem_error("", from, std::make_error_code(std::errc::io_error));
@@ -60,7 +60,7 @@ void move_files(const fs::path& from, const fs::path& to) {
     }
 }
 
-/// Removes a file below a folder, unless a link leads to it.
+/// Removes a file below a folder, unless its path contains a link.
 void remove_below(const fs::path& folder, const fs::path& name) {
     fs::path part = folder;
     for (const fs::path& each : name.parent_path()) {
@@ -76,7 +76,7 @@ OutputFolder::OutputFolder(const fs::path& target, candela::Links links)
     : target_(target), beside_(existing_part_of(target), ".candela-"), draft_(beside_.path() / "draft") {
     std::error_code none;
     if (links == candela::Links::not_followed && fs::is_symlink(target, none))
-        fail(target, "a link is there; remove it");
+        fail(target, "a link is in its place; remove it");
     make_folder(draft_);
 }
 
@@ -88,7 +88,7 @@ void OutputFolder::write(const fs::path& name, std::string_view content) {
     try {
         candela::write_text_file(file, content);
     } catch (const Error& error) {
-        // The person knows the file by the name that it was to have.
+        // The user knows the file by its final name.
         std::string reason = error.what();
         if (const std::size_t at = reason.find(file.string()); at != std::string::npos)
             reason.replace(at, file.string().size(), (target_ / name).string());

@@ -13,7 +13,7 @@ using candela::ErrorCategory;
 using candela::Existing;
 
 void add_no_clobber_option(CommandLine& line) {
-    line.options()("no-clobber", "do not replace a file that exists");
+    line.options()("no-clobber", "do not replace an existing file");
 }
 
 Existing existing_from(const CommandLine& line) {
@@ -24,20 +24,22 @@ void require_free(const std::string& output, Existing existing) {
     if (output == "-") return;
     std::error_code problem;
     if (existing == Existing::kept && fs::is_regular_file(output, problem))
-        throw Error(ErrorCategory::failure, fmt::format("'{}' exists, and --no-clobber was given", output));
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' already exists; not overwriting it, because of --no-clobber", output));
     const fs::path folder = fs::path(output).parent_path();
     if (!folder.empty() && fs::status(folder, problem).type() == fs::file_type::not_found)
         throw Error(
             ErrorCategory::failure,
-            fmt::format(
-                "'{}' cannot be written: there is no folder '{}'; create it first, or choose another name",
-                output, folder.string()));
+            fmt::format("'{}' cannot be written: the folder '{}' does not exist; create it first, or give "
+                        "another name",
+                        output, folder.string()));
 }
 
 void require_no_terminal(const std::string& output, const std::string& what) {
     if (output == "-" && ::isatty(STDOUT_FILENO) == 1) {
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("-o - would print {} on this terminal; send it to a file or a pipe", what));
+        throw Error(
+            ErrorCategory::bad_request,
+            fmt::format("-o - would print {} on this terminal; redirect it to a file or a pipe", what));
     }
 }
 
@@ -46,7 +48,7 @@ void require_no_default_link(const CommandLine& line, const std::string& option,
     std::error_code none;
     if (line.is_given(option) || !std::filesystem::is_symlink(output, none)) return;
     throw Error(ErrorCategory::failure,
-                fmt::format("'{}', the default name, is a symbolic link here; to follow it, give the name",
+                fmt::format("the default name '{}' is a symbolic link here; to follow it, give the name",
                             output.string()));
 }
 

@@ -1,6 +1,6 @@
-// Files whose names Candela chooses: plans, journals, records, descriptions, parts. The folder that they are
-// in may come from an archive, or be shared, so a link there is never followed, and nothing there is trusted
-// to be small, or to be a file at all.
+// Files whose names Candela chooses: plans, journals, records, descriptions, parts. Their folder may come
+// from an archive or be shared. Links there are therefore never followed, and nothing there is trusted to be
+// small or even to be a file.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ import candela.files;
 /// The text of a regular file; nothing if it cannot be read, is a link, or has more than `most` bytes.
 std::optional<std::string> read_owned_file(const std::filesystem::path& file, std::size_t most);
 
-/// The last bytes of such a file, `most` or fewer; empty if it cannot be read.
+/// The last bytes of such a file, at most `most`; empty if it cannot be read.
 std::string end_of_owned_file(const std::filesystem::path& file, std::size_t most);
 
 /// Writes it atomically; a link in its place is replaced. Throws candela::Error (failure).

@@ -47,7 +47,7 @@ void write_pixels(candela::RenderedRows& rows, int count, const fs::path& path) 
 void require_no(const CommandLine& line, const char* option, const char* why) {
     if (line.has(option))
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--{} and --part contradict each other: {}", option, why));
+                    fmt::format("--{} and --part cannot be combined: {}", option, why));
 }
 
 }  // namespace
@@ -90,9 +90,9 @@ int render_part(const CommandLine& line) {
     const PartNumber part = part_from(line.get<std::string>("part"));
     const auto output = line.get<std::string>("output");
     if (output == "-")
-        throw Error(ErrorCategory::bad_request, "parts are files beside the picture; name it by -o");
-    require_no(line, "terms", "parts hold the picture alone");
-    require_no(line, "no-clobber", "a part that is up to date is left alone anyway");
+        throw Error(ErrorCategory::bad_request, "parts are files next to the picture; name it with -o");
+    require_no(line, "terms", "parts hold only the picture");
+    require_no(line, "no-clobber", "a part that is up to date is kept anyway");
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
     const candela::PictureFormat format = picture_format_from(line, output, registry);
@@ -110,10 +110,10 @@ int render_part(const CommandLine& line) {
     const fs::path file = file_of_part(output, part);
     const char* is_done = nullptr;
     if (recorded(output, parted.inputs, Links::followed) == Recorded::made) {
-        is_done = "the picture is complete";
+        is_done = "the picture is already complete";
     } else {
         write_description(parted, output);
-        if (is_up_to_date(file, parted.inputs_of_parts(), Links::not_followed)) is_done = "left as it was";
+        if (is_up_to_date(file, parted.inputs_of_parts(), Links::not_followed)) is_done = "already up to date";
     }
     if (is_done == nullptr) {
         ProgressBar bar("rendering", !is_quiet());

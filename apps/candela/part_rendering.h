@@ -1,4 +1,4 @@
-// Pictures that are rendered a band of rows at a time: into the file, or as one part of it.
+// Pictures rendered a band of rows at a time: into one file, or as a part.
 #pragma once
 
 #include "command_line.h"
@@ -10,11 +10,12 @@ import candela.registry;
 import candela.render;
 import candela.scene;
 
-/// Whether the picture is so large that it should not be in memory, and the format does not ask for that.
+/// Whether the picture is too large to keep in memory and the format does not require that.
 bool is_streamed(const candela::ImageSettings& image, const candela::PictureFormat& format,
                  candela::Registry& registry);
 
-/// Renders a picture into the file that --output names, in memory for some bands. Returns the exit code.
+/// Renders a picture into the file that --output names, with only some bands in memory. Returns the exit
+/// code.
 int render_by_rows(const CommandLine& line, const candela::CompiledScene& scene,
                    const candela::PictureFormat& format, candela::Existing existing,
                    candela::Registry& registry, const Stopwatch& total);

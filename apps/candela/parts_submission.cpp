@@ -21,16 +21,16 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// The one picture that --output names.
+/// The picture that --output names.
 fs::path picture_from(const CommandLine& line) {
     const std::vector<std::string> outputs = line.all("output");
     if (outputs.size() != 1 || outputs.front() == "-")
         throw Error(ErrorCategory::bad_request,
-                    "--parts is for one picture; name it by -o, such as -o poster.tif");
+                    "--parts applies to one picture; name it with -o, such as -o poster.tif");
     for (const char* const option : {"frames", "chunk"}) {
         if (line.has(option))
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("--{} is for frames, and --parts for one picture", option));
+                        fmt::format("--{} applies to frames, but --parts to one picture", option));
     }
     return outputs.front();
 }
@@ -45,7 +45,7 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
     bool has_asked = false;
     const auto draft =
         candela::draft_scene(repeatable_request_from(line, registry, has_asked), registry, diagnostics);
-    // For what only triangles tell: each task compiles the scene again.
+    // Some errors show only in the triangles; each task compiles the scene again.
     if (!draft || !compile_scene(*draft, registry, diagnostics)) return std::nullopt;
     require_no_scene_file(picture.string(), candela::input_files(*draft), "the picture");
 
@@ -66,7 +66,8 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
     common.push_back(fmt::format("--threads={}", threads));
     for (int i = 1; i <= parts; ++i) {
         const PartNumber part{i, parts};
-        static_cast<void>(rows_of(part, draft->scene.image.height));  // there are so many
+        static_cast<void>(
+            rows_of(part, draft->scene.image.height));  // checks that the picture has enough rows
         job.plan.tasks.push_back({part.name(), {{file_of_part(picture, part), parted.inputs_of_parts()}}});
         job.commands.push_back(as_task(common, job.folder, part.name()));
         job.commands.back().push_back(fmt::format("--part={}/{}", i, parts));

@@ -26,7 +26,8 @@ candela::TableNode::Entry entry_from(const std::string& text, candela::Diagnosti
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--{0} '{1}' is no value; write it as in --{0} quality=80", k_option, text));
+                    fmt::format("--{0} '{1}' has no value; expected NAME=VALUE, such as --{0} quality=80",
+                                k_option, text));
     const std::string name = text.substr(0, equals);
     const candela::SourcePlace place{fmt::format("--{} {}", k_option, name), 0, 0, 0};
     auto value = candela::parse_value(text.substr(equals + 1), place, diagnostics);
@@ -37,8 +38,8 @@ candela::TableNode::Entry entry_from(const std::string& text, candela::Diagnosti
 
 void add_format_option(CommandLine& line) {
     line.options()(k_option, po::value<std::vector<std::string>>()->value_name("NAME=VALUE"),
-                   "a parameter of the picture's format, such as quality=80 of a .jpg (candela describe "
-                   "image/jpeg); may be repeated");
+                   "set a parameter of the picture's format, such as quality=80 of a .jpg (candela describe "
+                   "image/jpeg); can be repeated");
 }
 
 candela::PictureFormat picture_format_from(const CommandLine& line, const std::filesystem::path& picture,
@@ -49,7 +50,7 @@ candela::PictureFormat picture_format_from(const CommandLine& line, const std::f
     candela::TableNode table;
     for (const std::string& text : line.all(k_option)) {
         candela::TableNode::Entry entry = entry_from(text, diagnostics);
-        // The last one counts, as with --set.
+        // The last one wins, as with --set.
         std::erase_if(table.entries, [&](const auto& before) { return before.key == entry.key; });
         table.entries.push_back(std::move(entry));
     }

@@ -1,4 +1,4 @@
-// The format of a picture, and what a person asks of it.
+// The format of a picture and its parameters.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@ import candela.registry;
 /// Adds --format-set.
 void add_format_option(CommandLine& line);
 
-/// The format of a picture's name, with the parameters that --format-set sets. Throws candela::Error
-/// (bad_request) if no plugin writes such pictures, or for what is wrong with the parameters.
+/// The format for a picture's name, with the parameters that --format-set sets. Throws candela::Error
+/// (bad_request) if no plugin writes such pictures, or for invalid parameters.
 candela::PictureFormat picture_format_from(const CommandLine& line, const std::filesystem::path& picture,
                                            candela::Registry& registry);
 
-/// The words that say the same to another command.
+/// The arguments that give another command the same format.
 std::vector<std::string> format_words_from(const CommandLine& line);

@@ -46,18 +46,18 @@ PartNumber part_from(const std::string& text) {
         slash == std::string::npos ? std::nullopt : number_of(std::string_view(text).substr(slash + 1));
     if (!number || !of || *of < 1)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--part '{}' is no part such as 3/16, the third of sixteen", text));
+                    fmt::format("--part is '{}'; expected a part such as 3/16, the third of sixteen", text));
     if (*number < 1 || *number > *of)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--part {}: the parts are 1/{} to {}/{}", text, *of, *of, *of));
+                    fmt::format("--part is {}; expected 1/{} to {}/{}", text, *of, *of, *of));
     return {*number, *of};
 }
 
 candela::RowRange rows_of(PartNumber part, int height) {
     if (part.of > height)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("a picture of {} rows cannot have {} parts", height, part.of));
-    // Where tiles end, if parts are so large: a tile is then rendered once.
+                    fmt::format("a picture of {} rows cannot be split into {} parts", height, part.of));
+    // Large parts end where tiles end, so that each tile is rendered once.
     constexpr int k_rows_of_tiles = 64;
     const int unit = height / part.of >= k_rows_of_tiles ? k_rows_of_tiles : 1;
     const auto end_of = [&](int number) {
@@ -108,7 +108,7 @@ void write_description(const PartedPicture& parted, const fs::path& picture) {
                               {"inputs", parted.inputs}};
     const std::string text = json_text(description, 1) + '\n';
     candela::make_owned_folder(folder_of(picture), folder_of_parts(picture).filename());
-    // Every part says the same.
+    // All parts have the same description.
     if (read_owned_file(description_of(picture), k_largest_description) != text)
         write_owned_file(description_of(picture), text);
 }
@@ -117,11 +117,10 @@ PartedPicture read_description(const fs::path& picture) {
     const fs::path file = description_of(picture);
     const auto text = read_owned_file(file, k_largest_description);
     if (!text) {
-        throw Error(
-            ErrorCategory::failure,
-            fmt::format(
-                "'{}' has no parts: there is no '{}'; candela render SCENE -o {} --part 1/16 makes one",
-                picture.string(), file.string(), quoted_for_shell(picture.string())));
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' has no parts: '{}' does not exist; make one with candela render SCENE "
+                                "-o {} --part 1/16",
+                                picture.string(), file.string(), quoted_for_shell(picture.string())));
     }
     try {
         const Json description = parse_json(*text);
@@ -135,7 +134,8 @@ PartedPicture read_description(const fs::path& picture) {
         constexpr int k_most = 65536;  // as in a scene
         if (parted.whole.width < 1 || parted.whole.width > k_most || parted.whole.height > k_most ||
             parted.parts < 1 || parted.parts > parted.whole.height)
-            throw Error(ErrorCategory::failure, fmt::format("'{}' describes no picture", file.string()));
+            throw Error(ErrorCategory::failure,
+                        fmt::format("'{}' does not describe a picture", file.string()));
         return parted;
     } catch (const Json::exception& problem) {
         throw Error(ErrorCategory::failure,

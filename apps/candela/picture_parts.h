@@ -1,5 +1,5 @@
-// Pictures in parts: bands of whole rows, each a file of pixels as the picture has them, which are put
-// together in the end.
+// Pictures in parts: bands of whole rows, each a file of pixels in the picture's format, to be put together
+// at the end.
 #pragma once
 
 #include <filesystem>
@@ -11,35 +11,35 @@ import candela.image;
 import candela.registry;
 import candela.scene;
 
-/// Part `number`, from 1, of `of`.
+/// Part `number` of `of`, counted from 1.
 struct PartNumber {
     int number = 1;
     int of = 1;
 
-    /// "3-of-16", without what is no good in a file's name.
+    /// "3-of-16", for file names.
     std::string name() const;
 };
 
-/// What "3/16" says. Throws candela::Error (bad_request).
+/// Parses "3/16". Throws candela::Error (bad_request).
 PartNumber part_from(const std::string& text);
 
 /// The part's rows. Throws candela::Error (bad_request) if the picture has fewer rows than parts.
 candela::RowRange rows_of(PartNumber part, int height);
 
-/// The folder of a picture's parts, beside it.
+/// The folder of a picture's parts, next to the picture.
 std::filesystem::path folder_of_parts(const std::filesystem::path& picture);
 /// The file of a part: its rows from the top, red, green, blue interleaved, as bytes or native floats.
 std::filesystem::path file_of_part(const std::filesystem::path& picture, PartNumber part);
 
-/// What is to be known to put parts together; a file beside them.
+/// The data needed for assembling; a file next to the parts.
 struct PartedPicture {
     candela::PictureView whole;  // without pixels
     int parts = 1;
-    std::string inputs;  // fingerprint of what all of them are to be made from
+    std::string inputs;  // fingerprint of the inputs of all parts
 
-    /// What the records of its parts name: the inputs, and the picture that they are parts of.
+    /// The inputs and the picture, as the records of its parts name them.
     std::string inputs_of_parts() const;
-    /// Of one row, in bytes.
+    /// The size of one row in bytes.
     std::size_t row_size() const;
 };
 

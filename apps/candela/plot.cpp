@@ -1,4 +1,4 @@
-// candela plot: the lobes of reflection models, and what lights send.
+// candela plot: plots the lobes of reflection models and the light emitted by lights.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ double incidence_from(const CommandLine& line) {
     const auto degrees = line.get<double>("incidence");
     if (!(degrees >= 0 && degrees < 90)) {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--incidence is {}; it can be 0 to less than 90 degrees", degrees));
+                    fmt::format("--incidence is {}; expected at least 0 and less than 90 degrees", degrees));
     }
     return degrees;
 }
@@ -46,14 +46,15 @@ std::vector<NamedModel> models_from(const CommandLine& line) {
     }
     for (const NamedModel& model : models) {
         if (model.kind != models.front().kind)
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("{} and {}: a diagram has either reflection models or lights",
-                                    models.front().label(), model.label()));
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("{} and {} cannot share a diagram; expected either reflection models or lights",
+                            models.front().label(), model.label()));
     }
     return models;
 }
 
-/// Gives a value to all models that have such a parameter, unless they say their own.
+/// Sets a value in all models that have the parameter and do not set it themselves.
 void set_where_known(std::vector<NamedModel>& models, const std::string& text, candela::Registry& registry) {
     const auto value = value_from(text);
     std::vector<std::string> known;
@@ -74,12 +75,12 @@ void set_where_known(std::vector<NamedModel>& models, const std::string& text, c
                                                         text, meant.empty() ? "" : "; ", meant));
 }
 
-/// Gives every model but the first the value of the parameter with which it is nearest to the first.
+/// Sets every model but the first to the value of the parameter that brings it nearest to the first.
 void match_to_first(std::vector<NamedModel>& models, const std::string& parameter, double incidence,
                     candela::Registry& registry) {
     if (models.size() < 2) {
         throw Error(ErrorCategory::bad_request,
-                    "--match needs a model to be matched, and one or more that are to match it");
+                    "--match needs a reference model, then one or more models to match to it");
     }
     const Lobe target = lobe_of(models.front(), incidence, registry);
     for (std::size_t i = 1; i < models.size(); ++i) {
@@ -93,9 +94,9 @@ void match_to_first(std::vector<NamedModel>& models, const std::string& paramete
     }
 }
 
-/// Where a diagram goes.
+/// The file of a diagram.
 struct DiagramFile {
-    std::string name;  // empty: its table goes to standard output
+    std::string name;  // empty: the table is written to standard output
     std::string extension;
     candela::Existing existing;
 };
@@ -126,7 +127,7 @@ void plot_lights(const CommandLine& line, const std::vector<NamedModel>& models,
     for (const char* const option : {"match", "log"}) {
         if (line.has(option))
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("--{} is about reflection models; these are lights", option));
+                        fmt::format("--{} applies to reflection models, not to lights", option));
     }
     std::vector<LightCurves> lights;
     for (const NamedModel& model : models) lights.push_back(light_curves_of(model, registry));
@@ -138,20 +139,20 @@ void plot_lights(const CommandLine& line, const std::vector<NamedModel>& models,
 int run_plot(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela plot MODEL... [options]",
-        "Draws what reflection models reflect of light from one direction, as a polar diagram in "
-        "the plane of\nincidence (SVG), or as a table (CSV). MODEL: reflection/ggx, or with values of "
-        "its parameters\nreflection/ggx:roughness=0.3,ior=1.8. Several are drawn over one another. Of lights "
-        "(light/spot), "
-        "what they send\nis drawn over the angle with their axis and over the distance.");
+        "Plot the light that reflection models reflect from one direction, as a polar diagram in the plane "
+        "of incidence (SVG) or a table (CSV). MODEL is reflection/ggx, or with values of its parameters "
+        "reflection/ggx:roughness=0.3,ior=1.8. Several models share one diagram. For lights (light/spot), "
+        "plot the emitted light over the angle with their axis and over the distance.");
     line.positional("model", -1);
     line.options()("output,o", po::value<std::string>()->value_name("FILE"),
-                   "the diagram, .svg or .csv; default: the table on standard output")(
+                   "the diagram, .svg or .csv; default: print the table")(
         "set", po::value<std::vector<std::string>>()->value_name("NAME=VALUE"),
-        "a parameter's value for all models that have it; may be repeated")(
+        "set a parameter of all models that have it; can be repeated")(
         "incidence", po::value<double>()->value_name("DEGREES")->default_value(45, "45"),
-        "between the light and the surface's normal")("log", "a logarithmic radius, over four decades")(
+        "the angle between the light and the surface's normal")(
+        "log", "use a logarithmic radius, over four decades")(
         "match", po::value<std::string>()->value_name("NAME"),
-        "find the value of this parameter with which each model is nearest to the first one");
+        "find the value of this parameter that brings each model nearest to the first");
     add_no_clobber_option(line);
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
@@ -160,7 +161,7 @@ int run_plot(const std::vector<std::string>& arguments) {
     const DiagramFile output{file, candela::extension_of(file), existing_from(line)};
     if (!file.empty() && output.extension != "svg" && output.extension != "csv") {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' is neither .svg nor .csv; a diagram can be either", file));
+                    fmt::format("'{}' is neither .svg nor .csv; expected one of these", file));
     }
     require_free(file, output.existing);
     const double incidence = incidence_from(line);

@@ -1,4 +1,4 @@
-// candela plugin new|test|doctor: for those who write plugins.
+// candela plugin new|test|doctor: for plugin authors.
 #include "plugin.h"
 
 #include <string>
@@ -21,7 +21,7 @@ int run_plugin(const std::vector<std::string>& arguments) {
     static constexpr Verb k_plugin_verbs[] = {
         {"new", "create a plugin project", run_plugin_new},
         {"test", "run the conformance kit on a plugin", run_plugin_test},
-        {"doctor", "show which plugins are found where, and which are refused and why", run_plugin_doctor},
+        {"doctor", "show which plugins are found, and which are refused and why", run_plugin_doctor},
     };
     return run_subverb("plugin", k_plugin_verbs, arguments);
 }

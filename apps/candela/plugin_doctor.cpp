@@ -1,4 +1,4 @@
-// candela plugin doctor: what is found where, and what is refused.
+// candela plugin doctor: shows which plugins are found, and which are refused and why.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -23,13 +23,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// How loading a library ends.
+/// The result of loading a library.
 struct Loading {
     std::string problem;  // why it cannot be loaded; empty if it can
     bool leaves_processes = false;
 };
 
-/// In a child: what a library does when it is loaded may end the process, or keep it for ever.
+/// Loads it in a child process: a library's initialisers may end the process or hang.
 Loading loading_of(const candela::PluginFile& file, double longest) {
     constexpr std::string_view k_loaded = "loaded", k_refused = "refused: ";
     const GuardedEnd end = run_guarded(longest, [&](int report) {
@@ -43,7 +43,7 @@ Loading loading_of(const candela::PluginFile& file, double longest) {
         } catch (...) {
             found = std::string(k_refused) + "loading it throws an object that is not a std::exception";
         }
-        // A report that does not come is found by the parent.
+        // The parent notices a missing report.
         static_cast<void>(::write(report, found.data(), found.size()));
     });
     Loading loading{.problem = {}, .leaves_processes = end.leaves_processes};
@@ -61,11 +61,11 @@ double longest_from(const CommandLine& line) {
     if (longest > 0 && longest <= k_most) return longest;
     throw candela::Error(
         candela::ErrorCategory::bad_request,
-        fmt::format("--time-limit is {}; it must be more than 0 and at most {} seconds", longest, k_most));
+        fmt::format("--time-limit is {}; expected more than 0 and at most {} seconds", longest, k_most));
 }
 
-/// "refused: …" without the path, which is said already: absolute if the library was to be loaded, or as the
-/// search path has it.
+/// "refused: …" without the path, which has been printed already. The reason has it in absolute form if the
+/// library was loaded, otherwise as on the search path.
 std::string short_reason(const std::string& reason, const fs::path& library) {
     for (const fs::path& path : {library, fs::absolute(library).lexically_normal()}) {
         const std::string begin = fmt::format("plugin '{}' is refused: ", path.string());
@@ -77,20 +77,20 @@ std::string short_reason(const std::string& reason, const fs::path& library) {
 }  // namespace
 
 int run_plugin_doctor(const std::vector<std::string>& arguments) {
-    CommandLine line("candela plugin doctor [options]",
-                     "Looks at every folder on the search path and loads every plugin there; shows which are "
-                     "used, which are\n"
-                     "hidden by another of the same name, and which are refused and why.");
+    CommandLine line(
+        "candela plugin doctor [options]",
+        "Look at every folder on the search path and load every plugin there. Show which plugins are used, "
+        "which are hidden by another of the same name, and which are refused and why.");
     add_plugin_options(line);
     line.options()("time-limit", po::value<double>()->value_name("SECONDS"),
-                   "how long loading a plugin may take; default: 20");
+                   "the time allowed for loading a plugin; default: 20");
     if (!line.parse(arguments)) return 0;
     const double longest = longest_from(line);
     bool all_well = true;
     candela::Registry registry = registry_from(line);
     for (const fs::path& folder : registry.search_path()) {
         const bool exists = fs::is_directory(folder);
-        std::cout << folder.string() << (exists ? "\n" : "  (not there)\n");
+        std::cout << folder.string() << (exists ? "\n" : "  (does not exist)\n");
         const auto say = [](const fs::path& library, const std::string& what) {
             std::cout << fmt::format("  {:<30} {}\n", candela::printable(library.filename().string()),
                                      candela::printable(what));
@@ -98,21 +98,21 @@ int run_plugin_doctor(const std::vector<std::string>& arguments) {
         candela::Registry here({folder}, registry.trust());
         for (const candela::PluginFile* file : here.list()) {
             const candela::Manifest& manifest = file->manifest;
-            // What a render would use.
+            // The plugin that a render would use.
             const candela::PluginFile* const used = registry.find(manifest.kind, manifest.name);
             const Loading loading = loading_of(*file, longest);
             if (!loading.problem.empty()) {
                 say(file->library, "refused: " + short_reason(loading.problem, file->library));
                 all_well = false;
             } else if (used == nullptr) {
-                say(file->library, "not used: the one that --plugin-dir names is refused");
+                say(file->library, "not used: the one named by --plugin-dir was refused");
             } else if (used->library != file->library) {
                 say(file->library, "hidden by " + used->library.string());
             } else {
                 say(file->library, fmt::format("in use: {} {}", manifest.id(), manifest.version));
             }
             if (loading.leaves_processes) {
-                say(file->library, "starts a process that goes on, every time it is loaded");
+                say(file->library, "starts a process that keeps running every time it is loaded");
                 all_well = false;
             }
         }
@@ -122,6 +122,6 @@ int run_plugin_doctor(const std::vector<std::string>& arguments) {
             all_well = false;
         }
     }
-    std::cout << (all_well ? "All is well.\n" : "Some plugins cannot be used.\n");
+    std::cout << (all_well ? "No problems found.\n" : "Some plugins cannot be used.\n");
     return static_cast<int>(all_well ? ExitCode::ok : ExitCode::failure);
 }

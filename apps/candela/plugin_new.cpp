@@ -1,4 +1,4 @@
-// candela plugin new: a project for a plugin, from the installed template, or from another model's kernel.
+// candela plugin new: creates a plugin project from the installed template or from another model's kernel.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t k_largest_kernel = 1'000'000;  // bytes
 
-/// The kernel text to begin from: the file that is named, else the model's own.
+/// The kernel text to start from: the named file, otherwise the model's own.
 std::string kernel_from(const CommandLine& line, const candela::PluginFile& model) {
     if (!line.has("kernel")) return model.descriptor->kernel.text;
     const auto file = line.get<std::string>("kernel");
@@ -37,7 +37,7 @@ std::string kernel_from(const CommandLine& line, const candela::PluginFile& mode
     if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file));
     if (text->size() > k_largest_kernel || candela::first_invalid_byte(*text))
         throw Error(ErrorCategory::bad_request, fmt::format("'{}' is not a kernel's text", file));
-    // It may come from a page, and is going to be compiled.
+    // It may come from a page, and will be compiled.
     try {
         static_cast<void>(candela::kernel_language::read_kernel({fs::path(file).filename().string(), *text}));
     } catch (const candela::kernel_language::Problem& problem) {
@@ -49,16 +49,15 @@ std::string kernel_from(const CommandLine& line, const candela::PluginFile& mode
 }  // namespace
 
 int run_plugin_new(const std::vector<std::string>& arguments) {
-    CommandLine line(
-        "candela plugin new KIND NAME [DIR]",
-        "Creates a plugin project: source, kernel where the kind has one, CMakeLists.txt, test and README,\n"
-        "in DIR (or NAME). KIND is light, reflection, shading, shape, image or target. It builds and passes\n"
-        "its tests as it stands.");
+    CommandLine line("candela plugin new KIND NAME [DIR]",
+                     "Create a plugin project in DIR, by default NAME: source, kernel if the kind has one, "
+                     "CMakeLists.txt, test and README. KIND is light, reflection, shading, shape, image or "
+                     "target. The project builds and passes its tests as it is.");
     line.positional("arguments", 3);
     line.options()("from", po::value<std::string>()->value_name("MODEL"),
-                   "begin from this reflection model's kernel and parameters, not from the template's")(
+                   "start from this reflection model's kernel and parameters instead of the template's")(
         "kernel", po::value<std::string>()->value_name("FILE"),
-        "with --from: this kernel text in place of the model's own, as the page of candela view keeps it");
+        "with --from: use this kernel text instead of the model's own, as the page of candela view does");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> words = line.all("arguments");
@@ -77,11 +76,11 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
                     "--kernel needs --from: the model whose parameters the text reads");
     if (line.has("from") && words[0] != "reflection")
         throw Error(ErrorCategory::bad_request,
-                    "--from begins from a reflection model, so the kind has to be reflection");
+                    "--from starts from a reflection model; expected the kind reflection");
     const ProjectNames names = project_names(words[1]);
     const fs::path target = words.size() > 2 ? words[2] : words[1];
     if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
-        throw Error(ErrorCategory::failure, fmt::format("'{}' is already there", target.string()));
+        throw Error(ErrorCategory::failure, fmt::format("'{}' already exists", target.string()));
     candela::Registry registry = registry_from(line);
     std::vector<candela::ExportedFile> files = template_files(words[0], names);
     if (line.has("from")) {
@@ -97,10 +96,10 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     const auto kind = candela::plugin_kind_named(words[0]);
     if (const auto* const hidden = kind ? registry.find(*kind, words[1]) : nullptr)
         warn(fmt::format(
-            "there is a {} plugin '{}' already ({}); wherever the new one is found first, it hides that",
-            words[0], words[1], hidden->library.string()));
+            "a {} plugin '{}' already exists ({}); the new one hides it wherever it is found first", words[0],
+            words[1], hidden->library.string()));
     std::cout << fmt::format(
-        "Made {0}. Next:\n  cd {0}\n  cmake -B build -DCMAKE_BUILD_TYPE=Release\n"
+        "Created {0}. Next:\n  cd {0}\n  cmake -B build -DCMAKE_BUILD_TYPE=Release\n"
         "  cmake --build build && ctest --test-dir build\n",
         target.string());
     return 0;

@@ -34,7 +34,7 @@ std::string replaced(std::string text, const std::map<std::string, std::string>&
     return text;
 }
 
-/// "cook_torrance" as CookTorrance.
+/// The type for "cook_torrance": CookTorrance.
 std::string type_of(std::string_view words, char separator) {
     std::string type;
     bool begins_word = true;
@@ -46,7 +46,7 @@ std::string type_of(std::string_view words, char separator) {
     return type;
 }
 
-/// As a string literal of C++.
+/// A text as a C++ string literal.
 std::string literal_of(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {
@@ -66,7 +66,7 @@ std::string numbers_of(const float (&number)[9], std::size_t count) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// One parameter's declaration, as candela/plugin.h has them.
+/// The declaration of one parameter, in the style of candela/plugin.h.
 std::string field_of(const ParamSpec& p, const std::string& material) {
     const auto with = [&](const char* kind, const std::string& default_value) {
         return fmt::format("{}(&{}::{}, {}, {}{})", kind, material, p.name, literal_of(p.name),
@@ -96,7 +96,7 @@ std::string field_of(const ParamSpec& p, const std::string& material) {
         case ParamType::file:
         case ParamType::numbers:
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("the parameter '{}' is a {}, which has no place in a new project", p.name,
+                        fmt::format("the parameter '{}' is a {}, which new projects do not support", p.name,
                                     name_of(p.type)));
         default:
             text = three(std::string(name_of(p.type)).c_str());
@@ -124,8 +124,8 @@ std::string relations_of(const candela::PluginDescriptor& plugin) {
                        fmt::join(rows, ",\n"));
 }
 
-/// What the kernel reads of Surface, as CANDELA_REFLECTION_PLUGIN_READING takes it; empty where that is no
-/// more than every model does.
+/// The members of Surface that the kernel reads, as CANDELA_REFLECTION_PLUGIN_READING takes them; empty if
+/// they are only those that every model reads.
 std::string reads_of(const std::string& kernel) {
     constexpr std::pair<const char*, const char*> k_reads[] = {
         {R"(\.\s*tangent\b|\btangent_or_any\b)", "reads_tangent"},
@@ -137,7 +137,7 @@ std::string reads_of(const std::string& kernel) {
     return fmt::format("{}", fmt::join(reads, " | "));
 }
 
-/// The kernel with all that is called after the model called after another.
+/// The kernel with its model's name replaced in all identifiers.
 std::string renamed(const std::string& kernel, const candela::PluginDescriptor& plugin,
                     const ProjectNames& names) {
     const std::string prefix = plugin.kernel.prefix;
@@ -166,24 +166,24 @@ std::string source_of(const candela::PluginDescriptor& plugin, const std::string
         "\"{0}.kernel\"\n}}\n\n"
         "using candela::kernel::{1};\nusing namespace candela::sdk;\n\n{2}constexpr auto k_fields = "
         "fields(\n{3});\n\n{4}"
-        "// What is declared here as properties, the conformance kit verifies: reciprocal, energy-bounded, "
+        "// The conformance kit verifies the properties declared here: reciprocal, energy-bounded, "
         "isotropic …\n"
         "{5}({6}{7}, {1}, k_fields,\n    {{.title = {8},\n     .summary = \"One sentence about it.\",\n     "
         ".formula = {9}{10}}})\n",
         names.name, material, choices, fmt::join(fields, ",\n"), relations_of(plugin),
         reads.empty() ? "CANDELA_REFLECTION_PLUGIN" : "CANDELA_REFLECTION_PLUGIN_READING",
         reads.empty() ? "" : reads + ", ", names.ident, literal_of(names.title),
-        literal_of(fmt::format("begun from reflection/{}", plugin.name)),
+        literal_of(fmt::format("based on reflection/{}", plugin.name)),
         plugin.relations.empty() ? "" : ",\n     .relations = k_relations");
 }
 
 std::string test_of(const ProjectNames& names) {
     return fmt::format(
         "#include <candela/plugin_test.h>\n\n#include <catch2/catch_test_macros.hpp>\n#include <cmath>\n\n"
-        "TEST_CASE(\"light from 60 degrees off the normal: what is reflected is a number, and not "
-        "negative\") {{\n"
+        "TEST_CASE(\"light from 60 degrees off the normal is reflected as finite, non-negative "
+        "intensities\") {{\n"
         "    const auto parts = candela::sdk::reflected(CANDELA_PLUGIN_DIR, \"{}\", {{}}, 0, 60);\n"
-        "    // What it has to be, you know: from your paper, or worked out by hand.\n"
+        "    // Check the values that you expect, from your paper or worked out by hand.\n"
         "    for (const float part : {{parts.diffuse.x, parts.specular.x}}) {{\n"
         "        CHECK(std::isfinite(part));\n        CHECK(part >= 0);\n    }}\n}}\n",
         names.name);
@@ -218,7 +218,7 @@ std::vector<ExportedFile> template_files(const std::string& kind, const ProjectN
     const fs::path source = beside_command("share/candela/templates") / kind;
     if (!fs::is_directory(source))
         throw Error(ErrorCategory::failure,
-                    fmt::format("the templates are not installed: there is no '{}' (package candela-dev)",
+                    fmt::format("the templates are not installed: '{}' does not exist (package candela-dev)",
                                 source.string()));
     const auto templates = candela::names_in(source);
     if (!templates)
@@ -237,9 +237,8 @@ std::vector<ExportedFile> files_like(const candela::PluginFile& model, const std
                                      const ProjectNames& names) {
     const candela::PluginDescriptor& plugin = *model.descriptor;
     if (*plugin.kernel.parameters == '\0')
-        throw Error(
-            ErrorCategory::bad_request,
-            fmt::format("reflection/{} has no parameters that a project could begin from", plugin.name));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("reflection/{} has no parameters to start a project from", plugin.name));
     const std::string text = renamed(kernel, plugin, names);
     return {{names.name + ".kernel", text + (text.ends_with('\n') ? "" : "\n")},
             {names.name + ".cpp", source_of(plugin, text, names)},

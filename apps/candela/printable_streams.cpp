@@ -21,12 +21,12 @@ class PrintableStreams::Filter final : public std::streambuf {
     std::streamsize xsputn(const char* text, std::streamsize count) override {
         constexpr std::size_t k_much = 1u << 16;
         waiting_.append(text, static_cast<std::size_t>(count));
-        // A character may still be incomplete, but not at the end of a line.
+        // The last character may be incomplete, but not at the end of a line.
         const std::size_t end = waiting_.size() < k_much ? std::string::npos : waiting_.rfind('\n');
         return end == std::string::npos || pass_on(end + 1) ? count : 0;
     }
 
-    /// std::cerr calls it in a destructor, which no exception may leave.
+    /// std::cerr calls this in a destructor, which must not throw.
     int sync() override try {
         return pass_on(waiting_.size()) && to_.pubsync() == 0 ? 0 : -1;
     } catch (const std::bad_alloc&) {

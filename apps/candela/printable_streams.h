@@ -1,4 +1,4 @@
-// What the command prints, wherever it comes from, is text that is safe to print.
+// Makes everything that the command prints safe to print.
 #pragma once
 
 #include <iosfwd>
@@ -6,9 +6,9 @@
 
 import candela.text;
 
-/// While one of these lives, std::cout and std::cerr pass everything through candela::printable(): valid
-/// UTF-8, and nothing that a terminal obeys. Line breaks are kept. What has colours is written by
-/// print_styled().
+/// While an instance exists, everything printed through std::cout and std::cerr passes through
+/// candela::printable(): valid UTF-8 without terminal control sequences. Line breaks are kept. print_styled()
+/// writes coloured text.
 class PrintableStreams {
   public:
     PrintableStreams();

@@ -1,4 +1,4 @@
-// candela render: a scene becomes a picture.
+// candela render: renders a scene to a picture.
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -40,11 +40,11 @@ std::vector<NamedTerm> terms_asked_for(const CommandLine& line, const candela::S
     if (!line.has("terms")) return {};
     if (line.get<std::string>("output") == "-")
         throw Error(ErrorCategory::bad_request,
-                    "--terms writes layers or files beside the picture; name a file by -o");
+                    "--terms writes layers, or files next to the picture; name a file with -o");
     return terms_from(words_of(line.get<std::string>("terms")), scene, "--terms");
 }
 
-/// Where a picture goes, and its terms.
+/// The files for a picture and its terms.
 struct PictureFiles {
     fs::path picture;
     std::vector<fs::path> terms;
@@ -56,7 +56,7 @@ struct PictureFiles {
 void write_pictures(const candela::Film& film, const std::vector<NamedTerm>& terms, TermRenderer& renderer,
                     const PictureFiles& files, int threads, candela::Registry& registry) {
     candela::OutputFile picture(files.picture, files.existing);
-    // A pixel takes its encoder some three nanoseconds.
+    // Encoding takes about three nanoseconds per pixel.
     candela::with_threads(
         threads, [&] { candela::write_picture(film, files.format, picture, registry); },
         3e-6 * film.width() * film.height());
@@ -152,7 +152,7 @@ int render_picture(const CommandLine& line) {
         std::string with_terms;
         if (!terms.empty()) {
             with_terms = fmt::format(", {} term{} {}", terms.size(), terms.size() == 1 ? "" : "s",
-                                     format.has_layers ? "as layers" : "in files beside it");
+                                     format.has_layers ? "as layers" : "in files next to it");
         }
         return stages + fmt::format("{}: {} x {}, {} triangle{}, {} pixels shaded{}, {}\n",
                                     output == "-" ? "picture" : output, film.width(), film.height(),
@@ -168,22 +168,22 @@ int render_picture(const CommandLine& line) {
 int run_render(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela render [SCENE...] [options]",
-        "Renders a scene, or several files that together are one, to a picture. Without a scene: the "
-        "default\n"
-        "scene, one cube and one point light. The format follows the extension of the picture's name.");
+        "Render a scene, from one file or several combined, to a picture. Without a scene, render the "
+        "default scene: one cube and one point light. The picture's file extension selects the format.");
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("candela.png"),
-                   "the picture; - writes a PNG to standard output");
+                   "the picture; -: write a PNG to standard output");
     add_scene_options(line);
     add_format_option(line);
     add_frame_option(line);
     line.options()("threads", po::value<int>()->value_name("N"),
                    "threads to use; default: all cores, or one for a small picture")(
         "terms", po::value<std::string>()->value_name("TERM,..."),
-        "also what the picture is made of: diffuse, specular, normal, depth, light.NAME ... or all "
-        "(docs/terms.md); layers of an .exr, or files beside the picture")(
+        "also write the terms that make up the picture: diffuse, specular, normal, depth, light.NAME ... or "
+        "all "
+        "(docs/terms.md); as layers of an .exr, otherwise as files next to the picture")(
         "part", po::value<std::string>()->value_name("K/N"),
-        "only the K-th of N bands of rows, into the folder FILE.parts; candela assemble puts them together")(
-        "verbose", "print how long each stage took");
+        "render only the K-th of N bands of rows, into the folder FILE.parts; candela assemble combines "
+        "them")("verbose", "print how long each stage took");
     add_no_clobber_option(line);
     if (!line.parse(arguments)) return 0;
     return line.has("part") ? render_part(line) : render_picture(line);

@@ -25,7 +25,7 @@ namespace {
 bool quiet = false;
 std::string reported_errors;
 
-/// Past the filter, which would escape colours. The text must be printable.
+/// Bypasses the filter, which would escape colours. The text must be printable.
 void print_styled(std::string_view text) {
     std::cerr.flush();
     std::fwrite(text.data(), 1, text.size(), stderr);
@@ -93,14 +93,14 @@ void report_refusals(const candela::Registry& registry) {
 }
 
 void report_replaced(const candela::Refusal& refused) {
-    warn(fmt::format("{}; '{}' is used instead", full_message(refused.reason, refused.help),
+    warn(fmt::format("{}; using '{}' instead", full_message(refused.reason, refused.help),
                      refused.used_instead.string()));
 }
 
 namespace {
 
-/// A lack of memory can strike where no exception may pass: in a thread, in a destructor, while another is
-/// reported.
+/// Memory can run out where no exception may pass: in a thread, in a destructor, or while another exception
+/// is reported.
 [[noreturn]] void end_without_memory() {
     try {
         if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
@@ -110,7 +110,7 @@ namespace {
         constexpr std::string_view k_message = "candela: error: not enough memory\n";
         static_cast<void>(::write(STDERR_FILENO, k_message.data(), k_message.size()));
         ::_exit(static_cast<int>(ExitCode::failure));
-    } catch (...) {  // NOLINT(bugprone-empty-catch): ends as it would without this handler
+    } catch (...) {  // NOLINT(bugprone-empty-catch): end as without this handler
     }
     std::abort();
 }

@@ -1,4 +1,4 @@
-// candela schema: what a scene file may hold, for editors and for people.
+// candela schema: describes the scene file for editors and people.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -32,19 +32,18 @@ const Format& format_called(const std::string& name) {
         names.emplace_back(format.name);
     }
     const std::string meant = candela::suggestion(name, names);
-    throw Error(ErrorCategory::bad_request, fmt::format("--format is '{}'; {}it can be json or markdown",
-                                                        name, meant.empty() ? "" : meant + ' '));
+    throw Error(ErrorCategory::bad_request, fmt::format("--format is '{}'; {}expected json or markdown", name,
+                                                        meant.empty() ? "" : meant + ' '));
 }
 
 }  // namespace
 
 int run_schema(const std::vector<std::string>& arguments) {
-    CommandLine line(
-        "candela schema [options]",
-        "Prints what a scene file may hold, with all installed plugins: as a JSON Schema, with which\n"
-        "editors complete and validate scenes, or as a page to read.");
+    CommandLine line("candela schema [options]",
+                     "Print the contents of a scene file with all installed plugins: as a JSON Schema, for "
+                     "completion and validation in editors, or as a page to read.");
     line.options()("format", po::value<std::string>()->value_name("NAME")->default_value("json"),
-                   "json (a JSON Schema, draft-07) or markdown");
+                   "the output: json (a JSON Schema, draft-07) or markdown");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
 

@@ -17,15 +17,15 @@ using candela::PluginKind;
 
 namespace {
 
-/// A path that can be set, and what is known of its values.
+/// A path that can be set, and the known facts about its values.
 struct Settable {
     std::string path;
     const Parameter* parameter;
-    std::optional<PluginKind> names{};  // it is a plugin's name
+    std::optional<PluginKind> names{};  // the value is a plugin's name
 };
 
-/// How the `index`th of some objects or lights is written in a path: by its name, unless it has none or a
-/// path cannot have it.
+/// The path element for the `index`th object or light: its name, unless it has none or a path cannot contain
+/// it.
 std::string in_path(const std::string& label, std::size_t index) {
     const std::string_view name = candela::name_of_label(label).value_or("");
     const bool is_possible =
@@ -103,7 +103,7 @@ std::vector<Completion> setting_completions(std::string_view typed, const candel
     candela::SceneRequest lenient = request;
     lenient.use_defaults = true;
     lenient.ask = {};
-    lenient.settings.clear();  // the one that is being typed is among them
+    lenient.settings.clear();  // they include the one being typed
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(lenient, registry, diagnostics);
     Paths paths(registry);
@@ -115,7 +115,7 @@ std::vector<Completion> setting_completions(std::string_view typed, const candel
             if (settable.path == typed.substr(0, equals)) return values_of(settable, registry);
         return {};
     }
-    // Up to the next part, as folders are completed.
+    // Up to the next part, as for folders.
     const std::size_t part = typed.rfind('.') + 1;  // 0 where there is none
     std::vector<Completion> result;
     for (const Settable& settable : paths.found()) {

@@ -12,9 +12,9 @@ import candela.text;
 
 namespace {
 
-constexpr int k_line_height = 10;  // of the font: letters, and what hangs below them
+constexpr int k_line_height = 10;  // letters and their descenders
 
-/// What the font has of a text.
+/// The text in the font's character set.
 std::string in_ascii(const std::string& text) {
     std::string ascii;
     for (std::size_t at = 0; at < text.size();) {
@@ -26,7 +26,7 @@ std::string in_ascii(const std::string& text) {
     return ascii;
 }
 
-/// As the font's functions fill it in.
+/// As filled in by the font's functions.
 struct Vertex {
     float x, y, z;
     std::array<unsigned char, 4> color;
@@ -42,7 +42,7 @@ LabelSize label_size(const std::string& text, int scale) {
 void draw_label(candela::Film& film, int x, int y, int scale, const std::string& text,
                 candela::Rgb intensity) {
     std::string ascii = in_ascii(text);
-    constexpr std::size_t k_most_quads = 20;  // of a character
+    constexpr std::size_t k_most_quads = 20;  // per character
     std::vector<Vertex> vertices(4 * k_most_quads * (ascii.size() + 1));
     const int quads = stb_easy_font_print(0, 0, ascii.data(), nullptr, vertices.data(),
                                           static_cast<int>(vertices.size() * sizeof(Vertex)));

@@ -6,16 +6,16 @@
 import candela.color;
 import candela.film;
 
-/// The size of one line of text, in pixels, letters being `scale` times as large as the font's.
+/// The size of one line of text in pixels, with letters `scale` times as large as the font's.
 struct LabelSize {
     int width, height;
 };
 LabelSize label_size(const std::string& text, int scale);
 
-/// Draws a line of text with its upper left corner at (x, y), as much of it as is in the film. Characters
-/// beyond ASCII, which the font lacks, are question marks.
+/// Draws a line of text with its upper left corner at (x, y), clipped to the film. Characters beyond ASCII,
+/// which the font lacks, become question marks.
 void draw_label(candela::Film& film, int x, int y, int scale, const std::string& text,
                 candela::Rgb intensity);
 
-/// The text, or as much of it as fits into `width` pixels, with an ellipsis.
+/// The text, or the part of it that fits into `width` pixels, with an ellipsis.
 std::string fitted_label(const std::string& text, int scale, int width);

@@ -5,7 +5,7 @@
 
 namespace {
 
-/// No shell makes anything else of it.
+/// Whether no shell treats the character specially.
 bool is_plain(char c) {
     const auto byte = static_cast<unsigned char>(c);
     return (byte < 0x80 && std::isalnum(byte) != 0) || byte >= 0x80 ||

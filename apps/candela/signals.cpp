@@ -13,11 +13,11 @@ import candela.files;
 
 namespace {
 
-/// A pipe, too, may have lost its reader: `candela verify scene.toml 2>&1 | head -1`.
+/// A pipe may lose its reader: `candela verify scene.toml 2>&1 | head -1`.
 constexpr std::initializer_list<int> k_ending{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 
-/// Async-signal-safe. On the main thread, which so does nothing else meanwhile: it neither reports that a
-/// program was killed under it nor starts the next.
+/// Async-signal-safe. Runs on the main thread, which therefore neither reports that a child was killed nor
+/// starts the next one.
 void leave_nothing_behind(int signal) {
     const pid_t process = ::getpid();
     if (::gettid() != process) {
@@ -25,7 +25,7 @@ void leave_nothing_behind(int signal) {
         return;
     }
     if (are_descendants_ended_on_signals()) let_descendants_end();
-    // Programs write to folders.
+    // Programs write to temporary folders, so end them first.
     if (has_temporary_folders() || are_descendants_ended_on_signals()) end_descendants();
     remove_temporary_folders();
     candela::remove_unfinished_files();
@@ -33,7 +33,7 @@ void leave_nothing_behind(int signal) {
     struct sigaction action{};
     action.sa_handler = SIG_DFL;
     ::sigaction(signal, &action, nullptr);
-    // Blocked until this returns; then it does what it always does.
+    // Blocked until this returns; then it has its default effect.
     static_cast<void>(std::raise(signal));
 }
 
@@ -42,7 +42,7 @@ void leave_nothing_behind(int signal) {
 void prepare_for_signals() {
     for (const int signal : k_ending) {
         struct sigaction before{};
-        // What the caller ignores (nohup) stays ignored.
+        // Keep ignoring what the caller ignores (nohup).
         if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) continue;
         struct sigaction action{};
         action.sa_handler = leave_nothing_behind;

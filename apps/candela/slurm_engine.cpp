@@ -1,4 +1,4 @@
-// Tasks of a job as an array job of Slurm.
+// Runs the tasks of a job as a Slurm array job.
 #include <fmt/format.h>
 
 #include <string>
@@ -17,7 +17,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-/// "1-3,7": numbers from 1, of indices in rising order.
+/// "1-3,7": numbers, counted from 1, of ascending indices.
 std::string array_of(const std::vector<std::size_t>& indices) {
     std::string text;
     for (std::size_t i = 0; i < indices.size();) {
@@ -34,11 +34,11 @@ fs::path absolute(const Submission& job, const fs::path& path) {
     return (job.plan.directory / path).lexically_normal();
 }
 
-/// The lines that all scripts begin with. `log`: may hold Slurm's patterns.
+/// The lines at the start of all scripts. `log` may contain Slurm's patterns.
 std::string head(const Submission& job, const std::string& log, const std::string& more) {
     std::string text = "#!/bin/sh\n#SBATCH --job-name=candela\n" + more;
     text += fmt::format("#SBATCH --cpus-per-task={}\n", job.threads);
-    // A task may be begun again on another machine: what it has done is left alone.
+    // A task may start again on another machine, and keeps what it has done.
     text += "#SBATCH --requeue\n";
     text += fmt::format("#SBATCH --output=\"{}\"\n", log);
     for (const std::string& option : job.queue_options) text += fmt::format("#SBATCH {}\n", option);
@@ -52,7 +52,7 @@ std::string submit(const fs::path& script, const Words& more) {
     const candela::ProgramOutput done = candela::run_program(words);
     if (done.exit_code != 0)
         throw Error(ErrorCategory::failure,
-                    fmt::format("sbatch refuses '{}':\n{}", script.string(), done.err));
+                    fmt::format("sbatch refused '{}':\n{}", script.string(), done.err));
     // "12", or "12;cluster".
     return done.out.substr(0, done.out.find_first_of(";\n"));
 }
@@ -61,13 +61,14 @@ std::string submit(const fs::path& script, const Words& more) {
 
 void require_folder_for_slurm(const Submission& job) {
     const std::string folder = absolute(job, job.folder.path()).string();
-    // A backslash in a log's name also switches off its patterns.
+    // A backslash in a log's name would also switch off its patterns.
     if (folder.find_first_of("\"\\") == std::string::npos) return;
     throw Error(
         ErrorCategory::bad_request,
-        fmt::format("'{}' has a quotation mark or a backslash, and sbatch cannot be given a log in such a "
-                    "folder; use another one",
-                    folder));
+        fmt::format(
+            "'{}' contains a quotation mark or a backslash, which sbatch does not accept in the path of a "
+            "log; use another folder",
+            folder));
 }
 
 std::string slurm_script_of_tasks(const Submission& job) {
@@ -83,16 +84,15 @@ std::string slurm_script_of_last(const Submission& job) {
 }
 
 Words after_tasks(const std::string& number) {
-    // Without the second, it would wait for ever for tasks that have failed.
+    // Without the second option, it would wait forever for failed tasks.
     return {"--dependency=afterok:" + number, "--kill-on-invalid-dep=yes"};
 }
 
 std::vector<std::string> submit_to_slurm(const Submission& job) {
     if (!candela::program_called("sbatch")) {
-        throw Error(
-            ErrorCategory::failure,
-            "there is no 'sbatch' on this machine, which hands jobs to Slurm (Debian, Ubuntu: apt install "
-            "slurm-client); --dry-run shows what it would be given");
+        throw Error(ErrorCategory::failure,
+                    "sbatch, which submits jobs to Slurm, is not installed (Debian, Ubuntu: apt install "
+                    "slurm-client); --dry-run shows the scripts");
     }
     std::vector<std::string> numbers;
     if (!job.open.empty()) numbers.push_back(submit(absolute(job, job.folder.script_of_tasks()), {}));

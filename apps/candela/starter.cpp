@@ -25,7 +25,7 @@ depth  = 10.0                        # z from -5 to 5
 # Where the scene is seen from.
 [observer]
 position   = [0.0, 2.0, 4.9]
-look_at    = [0.0, 0.38, 0.0]        # what is in the middle of the picture
+look_at    = [0.0, 0.38, 0.0]        # the centre of the picture
 fov        = 31.0                    # the angle from the bottom to the top: smaller is nearer
 projection = "perspective"           # or "orthographic", with height = 2.0 (metres) instead of fov
 
@@ -46,7 +46,7 @@ model = "blinn-phong"
 # Lights: any number. A name is good for messages, and for --set light.lamp.intensity=40
 [[light]]
 name      = "lamp"
-type      = "point"                  # shines to all sides; others: "spot", "directional", "ambient"
+type      = "point"                  # shines in all directions; others: "spot", "directional", "ambient"
 position  = [-2.2, 3.4, 2.6]
 color     = [255, 236, 208]          # warm white
 intensity = 19.0                     # at one metre; a quarter of that at two
@@ -62,9 +62,9 @@ intensity = 2.0
 name     = "ball"
 type     = "sphere"                  # others: "cube", "torus", "teapot", "mesh" (with file = "bunny.obj")
 radius   = 0.6
-position = [-0.75, 0.61, 0.2]        # where its middle is
+position = [-0.75, 0.61, 0.2]        # its centre
 color    = [205, 64, 44]
-[object.material]                    # what the object's reflection model asks for
+[object.material]                    # parameters of the object's reflection model
 kd = 0.6                             # how much light is scattered, 0 to 1
 ks = 0.4                             # how strong the highlight is, 0 to 1
 shininess = 60.0                     # how small the highlight is: 5 is satin, 200 is polished
@@ -90,14 +90,14 @@ type       = "cube"
 scale      = [3.8, 0.1, 2.4]         # a cube of one metre, stretched and flattened
 position   = [0.0, -0.06, 0.0]
 color      = [138, 150, 160]
-reflection = "lambert"               # instead of what [reflection] says; shading = "flat" would go, too
+reflection = "lambert"               # overrides [reflection]; shading = "flat" also works here
 [object.material]
 kd = 0.8
 ka = 0.2
 )";
 
 constexpr std::string_view k_film = R"(
-# What makes it a film: candela animate scene.toml -o film.mp4, or -o frames/%04d.png for the frames.
+# The animation: candela animate scene.toml -o film.mp4, or -o frames/%04d.png for the frames.
 [animation]
 frames = 96                          # numbered from 0
 fps    = 24.0                        # frames per second: four seconds

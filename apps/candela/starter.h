@@ -1,9 +1,9 @@
-// The scene that `candela new` writes.
+// The scenes written by `candela new`.
 #pragma once
 
 #include <string>
 
 enum class Starter { picture, film };
 
-/// A valid scene whose comments say what each key does.
+/// A valid scene whose comments explain each key.
 std::string starter_scene(Starter starter);

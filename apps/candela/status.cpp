@@ -1,4 +1,4 @@
-// candela status: how far submitted jobs are.
+// candela status: shows the progress of submitted jobs.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -51,7 +51,7 @@ std::string text_of(const JobState& job) {
                                    plan.number.empty() ? "" : " job " + plan.number, plan.submitted);
     if (other > 0) {
         text += fmt::format(
-            "  {} made from something else than was submitted: the scene, a file or Candela has changed\n",
+            "  {} made from other inputs than were submitted: the scene, a file or Candela has changed\n",
             counted(other, "file"));
     }
     for (const Kind kind : {Kind::done, Kind::running, Kind::failed, Kind::waiting}) {
@@ -76,7 +76,7 @@ std::string text_of(const JobState& job) {
                             job.last->why.empty() ? "" : ": " + job.last->why);
     }
     if (job.count(Kind::failed) > 0 || (job.last && job.last->kind == Kind::failed))
-        text += "  The same candela submit again has done what is not.\n";
+        text += "  Run the same candela submit command again to finish the rest.\n";
     return text;
 }
 
@@ -113,10 +113,10 @@ Json json_of(const JobState& job) {
 
 int run_status(const std::vector<std::string>& arguments) {
     CommandLine line("candela status [DIR] [options]",
-                     "Says of each job that was submitted for a folder (default: this one) what is done, "
-                     "running, failed and why, and\nwaiting, from the files in it alone.");
+                     "Show each job that was submitted for a folder, by default this one: what is done, "
+                     "running, waiting, and failed and why. Reads only the files in the folder.");
     line.positional("directory", 1);
-    line.options()("json", "print it as JSON");
+    line.options()("json", "print the state as JSON");
     if (!line.parse(arguments)) return 0;
     const std::vector<std::string> given = line.all("directory");
     std::vector<JobState> jobs;
@@ -125,8 +125,7 @@ int run_status(const std::vector<std::string>& arguments) {
         try {
             jobs.push_back(state_of(folder));
         } catch (const candela::Error& problem) {
-            code =
-                fail(exit_code_of(problem.category()), problem.what());  // the others are shown all the same
+            code = fail(exit_code_of(problem.category()), problem.what());  // the other jobs are still shown
         }
     }
     if (line.has("json")) {

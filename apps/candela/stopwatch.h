@@ -1,4 +1,4 @@
-// How long something takes.
+// Measures elapsed time.
 #pragma once
 
 #include <fmt/format.h>
@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-/// Runs from where it is made.
+/// Starts when it is constructed.
 class Stopwatch {
   public:
     double milliseconds() const {

@@ -19,10 +19,9 @@ void require_plain(const std::string& word) {
     const auto is_control = [](char c) { return (c >= 0 && c < ' ' && c != '\t') || c == '\x7f'; };
     const char* problem = nullptr;
     if (candela::first_invalid_byte(word))
-        problem = "is not UTF-8, in which a job's plan is written";
+        problem = "is not UTF-8, the encoding of a job's plan";
     else if (std::ranges::any_of(word, is_control))
-        problem =
-            "has a line break or another control character, and a job's scripts have a command on each line";
+        problem = "contains a line break or another control character, which a job's scripts cannot hold";
     if (problem != nullptr)
         throw candela::Error(
             candela::ErrorCategory::bad_request,
@@ -69,7 +68,7 @@ candela::SceneRequest repeatable_request_from(const CommandLine& line, candela::
     if (!are_models) {
         throw candela::Error(
             candela::ErrorCategory::bad_request,
-            "every task reads the scene again, which standard input or a pipe does not allow; "
+            "every task reads the scene again, which is impossible from standard input or a pipe; "
             "write it to a file");
     }
     if (request.ask) {

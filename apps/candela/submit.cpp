@@ -1,4 +1,4 @@
-// candela submit: tasks that any number of processes work on, on one machine or many.
+// candela submit: distributes tasks over any number of processes, on one machine or many.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -52,11 +52,12 @@ Engine engine_from(const CommandLine& line) {
     std::vector<std::string> names;
     for (const EngineName& each : k_engines) names.emplace_back(each.name);
     const std::string meant = candela::suggestion(name, names);
-    throw Error(ErrorCategory::bad_request, fmt::format("--engine is '{}'; it can be local, slurm or print{}",
+    throw Error(ErrorCategory::bad_request, fmt::format("--engine is '{}'; expected local, slurm or print{}",
                                                         name, meant.empty() ? "" : "; " + meant));
 }
 
-/// What `status` reads, and what engines run. Journals of an earlier job of the same tasks are removed.
+/// Writes the files that `status` reads and engines run. Removes the journals of an earlier job of the same
+/// tasks.
 void write_job(Submission& job, Engine engine) {
     job.folder.make();
     for (const std::size_t task : job.open) {
@@ -75,15 +76,17 @@ void write_job(Submission& job, Engine engine) {
     if (!job.last.empty()) write_owned_file(job.folder.script_of_last(), slurm_script_of_last(job));
 }
 
-/// What is printed is made printable, and would name other files.
+/// The command would escape such characters when printing, and so name other files.
 void require_printable_lines(const Submission& job) {
     const auto require = [&](const Words& command) {
         const std::string line = shell_line(job, command);
         if (candela::printable(line) == line) return;
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' has characters that are not printed as they are, and --engine print "
-                                "prints it; use another name or value",
-                                candela::printable(line)));
+        throw Error(
+            ErrorCategory::bad_request,
+            fmt::format(
+                "'{}' contains characters that --engine print cannot print unchanged; use another name "
+                "or value",
+                candela::printable(line)));
     };
     for (const Words& command : job.commands) require(command);
     if (!job.last.empty()) require(job.last);
@@ -112,7 +115,7 @@ void show(const Submission& job, Engine engine) {
 std::string tasks_text(const Submission& job) {
     const std::size_t all = job.plan.tasks.size(), done = all - job.open.size();
     return fmt::format("{} task{}{}", all, all == 1 ? "" : "s",
-                       done > 0 ? fmt::format(", {} of them done already", done) : "");
+                       done > 0 ? fmt::format(", {} of them already done", done) : "");
 }
 
 int hand_over(Submission& job, Engine engine, int processes) {
@@ -130,7 +133,7 @@ int hand_over(Submission& job, Engine engine, int processes) {
             print_command_lines(job);
             say_afterwards([&] {
                 return fmt::format(
-                    "{}{}; {} says how far they are\n", tasks_text(job),
+                    "{}{}; {} shows their progress\n", tasks_text(job),
                     job.last.empty() ? "" : "; when all are done:\n" + shell_line(job, job.last) + '\n',
                     how_to_ask());
             });
@@ -141,7 +144,7 @@ int hand_over(Submission& job, Engine engine, int processes) {
             write_plan(job.plan, job.folder);
             for (const std::string& number : numbers) std::cout << number << '\n';
             say_afterwards(
-                [&] { return fmt::format("{}; {} says how far they are\n", tasks_text(job), how_to_ask()); });
+                [&] { return fmt::format("{}; {} shows their progress\n", tasks_text(job), how_to_ask()); });
             return 0;
         }
     }
@@ -153,29 +156,26 @@ int hand_over(Submission& job, Engine engine, int processes) {
 int run_submit(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela submit SCENE... [options]",
-        "Has the frames of an animated scene, or the parts of a picture, made by tasks, each of which is one "
-        "candela\nanimate or candela render: here, by a queue, or by whoever runs the command lines. The "
-        "scene is "
-        "checked first,\nin all frames. Tasks that are done are left out, so the same command again does "
-        "what is not "
-        "done yet. Tasks need\nthe scene and the folder of the pictures; what they do twice or at once is "
-        "harmless "
-        "(docs/clusters.md).");
+        "Distribute the frames of an animated scene, or the parts of a picture, over tasks. Each task is one "
+        "candela animate or candela render, run on this machine, by a queue, or by anything that can run "
+        "command lines. All frames of the scene are checked first. Finished tasks are left out, so run the "
+        "same command again to finish the rest. Tasks need the scene and the folder of the pictures; running "
+        "one twice or concurrently is harmless (docs/clusters.md).");
     add_frames_options(line);
-    line.options()(
-        "engine", po::value<std::string>()->value_name("NAME")->default_value("local"),
-        "who does the tasks: local, this machine; slurm, by sbatch; print, whoever runs the command "
-        "lines, one per task")("jobs", po::value<int>()->value_name("N"),
-                               "local: tasks at a time; default: all cores")(
+    line.options()("engine", po::value<std::string>()->value_name("NAME")->default_value("local"),
+                   "what runs the tasks: local: this machine; slurm: sbatch; print: anything that runs the "
+                   "printed command "
+                   "lines, one per task")("jobs", po::value<int>()->value_name("N"),
+                                          "local: tasks to run at a time; default: all cores")(
         "threads", po::value<int>()->value_name("N"),
-        "threads of each task; default: 1, or what the cores allow each of --jobs")(
+        "threads per task; default: 1, or the cores divided by --jobs")(
         "chunk", po::value<int>()->value_name("N"),
-        "frames per task; default: 10, or more where that makes over 1000 tasks")(
+        "frames per task; default: 10, or more to limit the tasks to 1000")(
         "parts", po::value<int>()->value_name("N"),
-        "instead of frames, one picture in so many parts, which the last task assembles")(
+        "render one picture in N parts instead of frames; the last task assembles them")(
         "slurm", po::value<std::vector<std::string>>()->value_name("OPTION"),
-        "an option for sbatch, such as --slurm=--partition=render; may be repeated")(
-        "dry-run", "print the job scripts or command lines, and do nothing");
+        "an option for sbatch, such as --slurm=--partition=render; can be repeated")(
+        "dry-run", "only print the job scripts or command lines");
     add_frame_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
@@ -183,7 +183,7 @@ int run_submit(const std::vector<std::string>& arguments) {
     const Engine engine = engine_from(line);
     for (const auto& [option, of] : {std::pair("jobs", Engine::local), std::pair("slurm", Engine::slurm)}) {
         if (line.has(option) && engine != of)
-            throw Error(ErrorCategory::bad_request, fmt::format("--{} is for --engine {}", option,
+            throw Error(ErrorCategory::bad_request, fmt::format("--{} applies only to --engine {}", option,
                                                                 of == Engine::local ? "local" : "slurm"));
     }
     const int cores = candela::available_threads();
@@ -195,7 +195,7 @@ int run_submit(const std::vector<std::string>& arguments) {
     candela::Diagnostics diagnostics;
     if (line.has("frame") && !line.has("parts"))
         throw Error(ErrorCategory::bad_request,
-                    "--frame is for --parts; --frames 7 chooses one frame of many");
+                    "--frame applies only to --parts; use --frames 7 to choose one frame of many");
     auto job = line.has("parts") ? submission_of_parts(line, threads, diagnostics)
                                  : submission_of_frames(line, threads, diagnostics);
     report(diagnostics);

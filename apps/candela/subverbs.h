@@ -7,7 +7,8 @@
 
 #include "verbs.h"
 
-/// Runs the one of `verbs` that the first argument names, with the rest. Throws candela::Error (bad_request)
-/// with a suggestion for one that there is not; prints all, with exit code 2, where there is none.
+/// Runs the one of `verbs` that the first argument names, with the remaining arguments. Throws candela::Error
+/// (bad_request), with a suggestion, for an unknown verb; without arguments, prints all verbs and returns
+/// exit code 2.
 int run_subverb(const std::string& verb, std::span<const Verb> verbs,
                 const std::vector<std::string>& arguments);

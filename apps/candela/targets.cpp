@@ -20,7 +20,7 @@ LoadedTarget::LoadedTarget(const std::string& name, candela::Registry& registry)
         }
         const std::string meant = candela::suggestion(name, registry.names(PluginKind::target));
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("there is no target '{}'{} (possible: {})", name,
+                    fmt::format("unknown target '{}'{} (possible: {})", name,
                                 meant.empty() ? "" : "; " + meant, target_names(registry)));
     }
     target_ = registry.create<candela::Target>(name, registry.parameters(PluginKind::target, name),
@@ -51,12 +51,12 @@ int LoadedTarget::show(const fs::path& directory) const try {
 LoadedTarget page_target(candela::Registry& registry) {
     for (const std::string& name : registry.names(PluginKind::target)) {
         LoadedTarget target(name, registry);
-        // Pages that are made from kernels can be edited.
+        // Pages made from kernels can be edited.
         if (fs::path(target.main_file()).extension() == ".html" && !target.abilities().models_without_kernel)
             return target;
     }
     throw Error(ErrorCategory::failure,
-                fmt::format("no installed target makes a page (there are: {})", target_names(registry)));
+                fmt::format("no installed target makes a page (installed: {})", target_names(registry)));
 }
 
 std::string target_names(candela::Registry& registry, const std::string& last) {

@@ -1,4 +1,4 @@
-// Targets, as the verbs use them.
+// Targets as used by the verbs.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@ import candela.diagnostics;
 import candela.exported_scene;
 import candela.registry;
 
-/// A target whose plugin is loaded. What the plugin throws becomes candela::Error that names it.
+/// A target whose plugin is loaded. Exceptions of the plugin become candela::Error with its name.
 class LoadedTarget {
   public:
-    /// Throws candela::Error (usage) with a suggestion where no target has that name.
+    /// Throws candela::Error (usage), with a suggestion, for an unknown target.
     LoadedTarget(const std::string& name, candela::Registry& registry);
 
     const std::string& name() const { return name_; }
     candela::TargetAbilities abilities() const { return target_->abilities(); }
     bool can_draw() const { return target_->can_draw(); }
-    /// The name of the file that a person opens first.
+    /// The name of the file to open first.
     std::string main_file() const { return target_->main_file(); }
 
     candela::ExportedProgram program_of(const candela::ExportedScene& scene) const {
@@ -35,12 +35,12 @@ class LoadedTarget {
     std::unique_ptr<candela::Target> target_;
 };
 
-/// The first target, by name, whose main file is an HTML page. Throws candela::Error (failure) where there is
+/// The first target, by name, whose main file is an HTML page. Throws candela::Error (failure) if there is
 /// none.
 LoadedTarget page_target(candela::Registry& registry);
 
 /// "cpp, opengl, webgl": the installed targets, `last` between the last two.
 std::string target_names(candela::Registry& registry, const std::string& last = ", ");
 
-/// A line for each installed target: its name and what it is.
+/// A line for each installed target: its name and summary.
 std::string target_summaries(candela::Registry& registry);

@@ -45,7 +45,7 @@ std::string host_name() {
     return name.data();
 }
 
-/// Where a process number means something: a machine, since it was started, and a namespace of it.
+/// The scope of process numbers: a machine, its current boot, and a PID namespace.
 std::string where_processes_are() {
     std::error_code problem;
     const std::string boot =
@@ -63,7 +63,7 @@ double now() {
     return seconds_since_1970(time);
 }
 
-/// When the file was last touched.
+/// When the file was last modified.
 std::optional<double> last_sign_of_life(const fs::path& file) {
     struct stat status{};
     if (::lstat(file.c_str(), &status) != 0) return std::nullopt;
@@ -76,7 +76,7 @@ std::string as_date(double time) {
                        fmt::gmtime(static_cast<std::time_t>(std::clamp(time, 0.0, k_end_of_9999))));
 }
 
-/// When a process was started, in the kernel's clock ticks; nothing if it is not there, or a zombie.
+/// When a process was started, in the kernel's clock ticks; nothing if it does not exist or is a zombie.
 std::optional<std::int64_t> start_of(std::int64_t process) {
     const auto text = candela::read_text_file(fmt::format("/proc/{}/stat", process));
     // "7 (a name) S 1 ...": the name may contain anything.
@@ -94,8 +94,8 @@ std::optional<std::int64_t> start_of(std::int64_t process) {
     return problem == std::errc() ? std::optional(ticks) : std::nullopt;
 }
 
-/// Whether the process of a journal may still be there: the same process, not another one that has its number
-/// by now. Of another machine's, nothing can be known from here.
+/// Whether the process of a journal may still exist: the same process, not another with a reused number.
+/// Processes of other machines are unknowable from here.
 bool may_be_there(const Json& entry) {
     if (entry.value("machine", "") != where_processes_are()) return true;
     const auto number = entry.find("pid");
@@ -105,22 +105,22 @@ bool may_be_there(const Json& entry) {
     if (process < 1 || process > k_largest_number) return false;
     const auto start = start_of(process);
     const auto known = entry.find("process_start");
-    // Where /proc hides other people's processes, this still tells that there is one.
+    // If /proc hides other users' processes, this still shows that the process exists.
     if (!start) return ::kill(static_cast<pid_t>(process), 0) != 0 && errno == EPERM;
     return known == entry.end() || *known == *start;
 }
 
 void write(const fs::path& file, const Json& entry) {
-    // What a plugin says may be in any encoding.
+    // A plugin's message may be in any encoding.
     write_owned_file(file, json_text(entry, 2) + '\n');
 }
 
-/// As much of what went wrong as a journal has room for.
+/// As much of an error message as a journal has room for.
 std::string bounded(const std::string& why) {
     return why.size() <= k_longest_failure ? why : why.substr(0, k_longest_failure) + " ...";
 }
 
-/// The folder that a journal is in: a job's, whose parts may not be links, or one that a person has named.
+/// The folder of a journal: a job's, whose parts must not be links, or one that the user named.
 void make_folder_of_journal(const fs::path& file) {
     const fs::path folder = folder_of(file), jobs = folder.parent_path();
     if (jobs.filename() == "jobs" && jobs.parent_path().filename() == ".candela")
@@ -139,7 +139,7 @@ void require_no_other_file(const fs::path& file) {
                          fmt::format("'{}' is not the journal of a task; not overwriting it", file.string()));
 }
 
-/// A process says that it works on a task.
+/// Records that a process is working on a task.
 class Journal {
   public:
     explicit Journal(const fs::path& file) : file_(file) {
@@ -181,7 +181,7 @@ class Journal {
     void show_life() {
         std::unique_lock lock(mutex_);
         while (!end_.wait_for(lock, k_between_signs_of_life, [&] { return has_ended_; })) {
-            // Both times now, by the clock of the file's server.
+            // Both times become now, by the clock of the file's server.
             static_cast<void>(::utimensat(AT_FDCWD, file_.c_str(), nullptr, AT_SYMLINK_NOFOLLOW));
         }
     }
@@ -216,19 +216,20 @@ std::optional<JournalEntry> read_journal(const fs::path& file) {
         const double last = last_sign_of_life(file).value_or(0.0);
         const double began = entry.value("began_seconds", last);
         result.seconds = last - began;
-        // Clocks of machines differ by seconds; nothing that runs has begun, or been alive, after now.
+        // Clocks of machines differ by seconds, but a running task cannot have started, or been alive, in the
+        // future.
         const auto patience = static_cast<double>(k_longest_silence.count());
         const double silence = now() - last;
         if (silence < -patience || began > last + patience) {
             result.state = JournalEntry::State::lost;
             result.why = fmt::format(
-                "its journal is of the future: it began at {}, and its last sign of life "
+                "its journal has times in the future: it began at {}, and its last sign of life "
                 "was at {}; is the clock of {} right?",
                 as_date(began), as_date(last), result.host);
         } else if (silence > patience || !may_be_there(entry)) {
             result.state = JournalEntry::State::lost;
             result.why =
-                fmt::format("its process on {} ended without a word; its last sign of life was at {}",
+                fmt::format("its process on {} ended without a report; its last sign of life was at {}",
                             result.host, as_date(last));
         }
     } catch (const Json::exception&) {

@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that a signal handler may have to remove: so its memory is never freed.
+/// A folder that a signal handler may have to remove, so its memory is never freed.
 struct Entry {
     std::atomic<bool> is_taken{false};
     std::atomic<bool> is_there{false};  // `path` may be read
-    // Absolute, so that a change of the working directory leads nobody astray.
+    // Absolute, so that a change of the working directory does no harm.
     std::array<char, PATH_MAX> path{};
 };
 constinit std::array<Entry, 8> folders{};
@@ -55,14 +55,14 @@ void remove_folder(const char* path) noexcept {
     }
 }
 
-/// A new folder for nobody else, whatever the umask: what is compiled in it is run, or loaded. False, with
-/// errno, if that fails.
+/// Creates a folder private to the user, whatever the umask: code compiled in it is run or loaded. Returns
+/// false and sets errno on failure.
 bool make_private_folder(const char* path) noexcept {
     constexpr mode_t k_private = 0700;
     if (::mkdir(path, k_private) != 0) return false;
     struct stat status{};
     if (::lstat(path, &status) == 0 && (status.st_mode & k_private) == k_private) return true;
-    // By its descriptor, lest it be something else by now.
+    // By its descriptor, because the path may lead elsewhere by now.
     const int folder = ::open(path, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (folder < 0) return false;
     const std::string self = fmt::format("/proc/self/fd/{}", folder);
@@ -75,7 +75,7 @@ bool make_private_folder(const char* path) noexcept {
 
 std::string random_name() {
     std::random_device random;
-    // Short: browsers make sockets in such folders, whose paths may have 107 characters.
+    // Short: browsers create sockets in such folders, and the paths of sockets are limited to 107 characters.
     return fmt::format("{:08x}", random());
 }
 
@@ -96,7 +96,7 @@ TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& pref
     if (!make_private_folder(path_.c_str())) {
         throw candela::Error(
             candela::ErrorCategory::failure,
-            fmt::format("no folder can be made in '{}': {}", parent.string(), std::strerror(errno)));
+            fmt::format("no folder can be created in '{}': {}", parent.string(), std::strerror(errno)));
     }
     enter();
 }

@@ -1,4 +1,4 @@
-// Folders that are gone when the command is, however it ends, unless by SIGKILL.
+// Folders that are removed when the command ends, however it ends, except by SIGKILL.
 #pragma once
 
 #include <csignal>
@@ -7,11 +7,11 @@
 
 import candela.diagnostics;
 
-/// A new folder, which only its owner may enter, removed with all it contains when this is, or when a signal
-/// ends the process.
+/// A new folder that only its owner may enter. It is removed with its contents on destruction, or when a
+/// signal ends the process.
 class TemporaryFolder {
   public:
-    /// In `parent`, with a name of `prefix` and random digits. Throws candela::Error (failure).
+    /// Creates it in `parent`, named `prefix` and random digits. Throws candela::Error (failure).
     TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -25,7 +25,7 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-/// While there is one, the thread is not interrupted by SIGINT, SIGTERM and SIGHUP; they come after it.
+/// RAII guard: defers SIGINT, SIGTERM and SIGHUP on this thread until its destruction.
 class WithoutInterruption {
   public:
     WithoutInterruption();

@@ -35,7 +35,7 @@ bool can_ask() { return is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO);
 
 bool ask(const std::string& question) {
     for (const char* before = "";; before = "Please answer y or n. ") {
-        open_line = OpenLine::question;  // who sees the question may answer with Ctrl-C at once
+        open_line = OpenLine::question;  // the user may answer with Ctrl-C at once
         std::cerr << before << question << " [Y/n] " << std::flush;
         std::string answer;
         const bool is_answered = static_cast<bool>(std::getline(std::cin, answer));
@@ -91,9 +91,9 @@ void ProgressBar::update(std::size_t done, std::size_t all) {
     }
 }
 
-/// ", 2 min left", where it takes long enough to be worth knowing.
+/// ", 2 min left", if the work takes long enough for that to matter.
 std::string ProgressBar::time_left(std::size_t all) const {
-    constexpr double k_wait = 3;  // seconds: before, it is a guess
+    constexpr double k_wait = 3;  // seconds; before that it is a guess
     const std::size_t done = done_;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     if (done == 0 || seconds < k_wait) return "";

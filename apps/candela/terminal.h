@@ -1,4 +1,4 @@
-// Talking to a person: colour, questions and progress, on a terminal only.
+// Talks to the user: colour, questions and progress, on a terminal only.
 #pragma once
 
 #include <atomic>
@@ -13,13 +13,13 @@
 /// Whether stderr may be coloured: it is a terminal, and NO_COLOR is not set.
 bool stderr_takes_color();
 
-/// Whether there is somebody to ask: both stdin and stderr are terminals.
+/// Whether the user can be asked: both stdin and stderr are terminals.
 bool can_ask();
 
-/// Asks on stderr until there is an answer; an empty line is yes, the end of input is no.
+/// Asks on stderr until there is an answer; an empty line means yes, the end of input means no.
 bool ask(const std::string& question);
 
-/// Ends the line of an open question, and wipes an open progress bar away. For signal handlers
+/// Ends the line of an open question, and erases an open progress bar. For signal handlers
 /// (async-signal-safe).
 void leave_line() noexcept;
 
@@ -33,7 +33,7 @@ class ProgressBar {
 
     /// Any thread.
     void update(std::size_t done, std::size_t all);
-    /// update(), for who is to be given it.
+    /// update() as a callback.
     std::function<void(std::size_t done, std::size_t all)> updater() {
         return [this](std::size_t done, std::size_t all) { update(done, all); };
     }

@@ -12,11 +12,11 @@ namespace {
 
 struct UsualOption {
     std::string_view given;
-    std::string_view option;  // that a verb has to have
+    std::string_view option;  // required in the verb
     std::string_view advice;  // empty: the option itself
 };
 
-constexpr std::string_view k_size = "write --width 800 --height 600";
+constexpr std::string_view k_size = "use --width 800 --height 600";
 
 constexpr auto k_usual_options = std::to_array<UsualOption>({
     {"--size", "--width", k_size},
@@ -44,25 +44,25 @@ constexpr auto k_usual_options = std::to_array<UsualOption>({
     {"-O", "--output", ""},
     {"-f", "--output", "the format follows the extension of the name after -o"},
     {"--format", "--output", "the format follows the extension of the name after -o"},
-    {"--quality", "--format-set", "write --format-set quality=80"},
-    {"--compression", "--format-set", "write --format-set compression=9"},
+    {"--quality", "--format-set", "use --format-set quality=80"},
+    {"--compression", "--format-set", "use --format-set compression=9"},
     {"--overwrite", "--force", ""},
     {"-y", "--force", ""},
     {"-f", "--force", ""},
     {"--jobs", "--threads", ""},
     {"-j", "--threads", ""},
     {"-t", "--threads", ""},
-    {"--scene", "--set", "write the scene's name alone: scene.toml"},
-    {"--input", "--set", "write the scene's name alone: scene.toml"},
-    {"-i", "--set", "write the scene's name alone: scene.toml"},
+    {"--scene", "--set", "give only the scene's name: scene.toml"},
+    {"--input", "--set", "give only the scene's name: scene.toml"},
+    {"-i", "--set", "give only the scene's name: scene.toml"},
     {"--define", "--set", ""},
     {"-D", "--set", ""},
-    {"--model", "--reflection", "write --reflection NAME or --shading NAME"},
-    {"--material", "--reflection", "write --set object.NAME.material.ks=0.5"},
-    {"--color", "--set", "write --set object.NAME.color=[255,0,0]"},
-    {"--background", "--set", "write --set image.background=[255,255,255]"},
-    {"--camera", "--set", "write --set observer.position=[0,1,4]"},
-    {"--fov", "--set", "write --set observer.fov=40"},
+    {"--model", "--reflection", "use --reflection NAME or --shading NAME"},
+    {"--material", "--reflection", "use --set object.NAME.material.ks=0.5"},
+    {"--color", "--set", "use --set object.NAME.color=[255,0,0]"},
+    {"--background", "--set", "use --set image.background=[255,255,255]"},
+    {"--camera", "--set", "use --set observer.position=[0,1,4]"},
+    {"--fov", "--set", "use --set observer.fov=40"},
     {"--silent", "--quiet", ""},
     {"-v", "--verbose", ""},
     {"--yes", "--defaults", ""},

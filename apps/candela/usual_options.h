@@ -1,12 +1,12 @@
-// Options as people know them from other programs.
+// Options that users know from other programs.
 #pragma once
 
 #include <string>
 #include <vector>
 
-/// What to write instead of an option that a verb does not have: "did you mean '--samples'?". `given` is
-/// without its value, `known` are the verb's own, "--samples". Empty if there is nothing to suggest.
+/// The option to use instead of one that a verb does not have: "did you mean '--samples'?". `given` is
+/// without its value; `known` are the verb's own, "--samples". Empty if there is nothing to suggest.
 std::string suggested_option(const std::string& given, const std::vector<std::string>& known);
 
-/// Whether -h was given a number, as programs do for which it is the height: "-h 300", "-h300".
+/// Whether -h has a number, as in programs where it means the height: "-h 300", "-h300".
 bool means_height(const std::vector<std::string>& arguments);

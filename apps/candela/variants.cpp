@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* k_terms = "terms";
 
-/// Parts between commas that are in no brackets or quotes.
+/// Splits at commas outside brackets and quotes.
 std::vector<std::string> split(const std::string& list) {
     std::vector<std::string> parts(1);
     int depth = 0;
@@ -46,7 +46,7 @@ Axis axis_from(const std::string& option, const std::string& list, const std::st
             throw Error(ErrorCategory::bad_request,
                         fmt::format("{}: a value is missing in '{}'", option, list));
         if (std::ranges::find(axis, value, &Variant::value) != axis.end())
-            throw Error(ErrorCategory::bad_request, fmt::format("{}: '{}' is there twice", option, value));
+            throw Error(ErrorCategory::bad_request, fmt::format("{}: '{}' is repeated", option, value));
         axis.push_back({label_before + value, option, value});
     }
     return axis;
@@ -56,9 +56,9 @@ Axis axis_from(const std::string& option, const std::string& list, const std::st
 
 void add_variant_options(CommandLine& line) {
     line.options()("vary", po::value<std::vector<std::string>>()->value_name("PATH=V1,V2,..."),
-                   "values of one parameter, such as light.lamp.intensity=1,3; may "
+                   "values of one parameter, such as light.lamp.intensity=1,3; can "
                    "be repeated")("terms", po::value<std::string>()->value_name("TERM,..."),
-                                  "what each picture is made of: picture (all of it), diffuse, specular, "
+                                  "the term that each picture shows: picture (the whole), diffuse, specular, "
                                   "normal, depth, light.NAME ... (docs/terms.md)");
 }
 
@@ -73,10 +73,11 @@ std::vector<Axis> axes_from(const CommandLine& line) {
         const std::string flag = setting.path.substr(0, setting.path.find('.'));
         const bool is_model = setting.path == "reflection.model" || setting.path == "shading.model";
         if (!paths.insert(setting.path).second)
-            throw Error(ErrorCategory::bad_request, fmt::format("--vary {} is there twice", setting.path));
+            throw Error(ErrorCategory::bad_request, fmt::format("--vary {} is repeated", setting.path));
         if (is_model && line.has(flag)) {
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("--vary {} and --{} say the same; one is enough", setting.path, flag));
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("--vary {} and --{} set the same value; use one of them", setting.path, flag));
         }
         axes.push_back(axis_from(setting.path, setting.value, setting.path + "="));
     }
@@ -84,7 +85,7 @@ std::vector<Axis> axes_from(const CommandLine& line) {
     if (std::ranges::count_if(axes, [](const Axis& axis) { return axis.size() > 1; }) > 2) {
         throw Error(
             ErrorCategory::bad_request,
-            "a sheet has two sides: at most two of --reflection, --shading, --vary and --terms can have "
+            "a sheet has two axes: at most two of --reflection, --shading, --vary and --terms can have "
             "several values");
     }
     return axes;

@@ -1,4 +1,4 @@
-// What the command can do: one file a verb.
+// The command's verbs: one file each.
 #pragma once
 
 #include <span>
@@ -36,6 +36,6 @@ int run_schema(const std::vector<std::string>& arguments);
 
 std::span<const Verb> verbs();
 
-/// Whether a shell asks for the name of one of `verbs`, of which all that is typed is in `arguments`: prints
-/// those it may become.
+/// If a shell asks for the name of one of `verbs`, whose typed beginning is in `arguments`, prints its
+/// completions and returns true.
 bool complete_verb(const std::vector<std::string>& arguments, std::span<const Verb> verbs);

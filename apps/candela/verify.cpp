@@ -39,14 +39,14 @@ std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registr
     const bool is_all = name == "all";
     if (is_all && line.has("program")) {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--program is the folder of one program; say which with --target {}",
+                    fmt::format("--program is the folder of one program; name its target with --target {}",
                                 target_names(registry, " or ")));
     }
     std::vector<LoadedTarget> chosen;
     if (is_all) {
         for (const std::string& each : registry.names(candela::PluginKind::target)) {
             LoadedTarget target(each, registry);
-            // A renderer with models of its own shows only some scenes as Candela does.
+            // A renderer with models of its own shows only some scenes the way Candela does.
             if (target.can_draw() && !target.abilities().models_without_kernel)
                 chosen.push_back(std::move(target));
         }
@@ -55,7 +55,7 @@ std::vector<LoadedTarget> targets_from(const CommandLine& line, candela::Registr
     chosen.emplace_back(name, registry);
     if (!chosen.front().can_draw())
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("target/{} draws no picture that could be compared", name));
+                    fmt::format("target/{} does not draw a picture, so there is nothing to compare", name));
     return chosen;
 }
 
@@ -64,11 +64,11 @@ verify::Limits limits_from(const CommandLine& line) {
     limits.maximum = line.get<double>("tolerance");
     if (!(limits.maximum >= 0 && limits.maximum <= 255))
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("--tolerance is {:g}; it can be 0 to 255", limits.maximum));
+                    fmt::format("--tolerance is {:g}; expected 0 to 255", limits.maximum));
     return limits;
 }
 
-/// Candela's picture, written to reference.png and edges.png, and what is known about it.
+/// Candela's picture, written to reference.png and edges.png, and its known properties.
 verify::Expectation expectation_of(candela::CompiledScene& scene, double tolerance, const fs::path& folder,
                                    candela::Registry& registry) {
     const candela::ImageSettings& image = scene.image;
@@ -94,14 +94,14 @@ verify::Expectation expectation_of(candela::CompiledScene& scene, double toleran
     return result;
 }
 
-/// How the picture that a program has drawn compares.
+/// Compares the picture drawn by a program.
 verify::Verdict verdict_on(const std::string& name, const verify::Expectation& expected,
                            const Workplace& workplace, const fs::path& comparing) {
     const fs::path& folder = workplace.path();
     const fs::path picture = folder / (name + ".png"), decoded = workplace.scratch(name + ".ppm");
     verify::Verdict verdict{.target = name};
     if (!fs::is_regular_file(picture)) {
-        verdict.failure = "the program ended without having written a picture";
+        verdict.failure = "the program ended without writing a picture";
         return verdict;
     }
     try {
@@ -123,7 +123,7 @@ verify::Verdict verdict_on(const std::string& name, const verify::Expectation& e
 struct Verification {
     std::vector<LoadedTarget> targets;
     std::vector<std::vector<candela::ExportedFile>> programs;  // one for each target
-    std::optional<fs::path> program;                           // made earlier, instead
+    std::optional<fs::path> program;                           // made earlier; used instead
     verify::Limits limits;
     fs::path comparing;
 };
@@ -153,7 +153,7 @@ std::vector<verify::Verdict> verdicts_on(const Verification& what, candela::Comp
     return verdicts;
 }
 
-/// Nothing of a report, nor of the programs in it, may replace what the scene is made from.
+/// Throws if the report or the programs in it would overwrite a file that the scene is made from.
 void require_no_input_in_report(const std::string& report, const Verification& what,
                                 const SceneToExport& scene) {
     std::vector<fs::path> names = Workplace::pictures_of(what.targets);
@@ -169,30 +169,27 @@ void require_no_input_in_report(const std::string& report, const Verification& w
 int run_verify(const std::vector<std::string>& arguments) {
     candela::Registry installed(candela::plugin_search_path({}));
     const std::string help =
-        target_names(installed) + ", or all: those that are made from the formulas of the scene's models";
+        target_names(installed) + ", or all: those made from the formulas of the scene's models";
     CommandLine line(
         "candela verify [SCENE...] [options]",
-        "Generates programs from a scene, builds and runs them, and compares their pictures with Candela's "
-        "own.\n"
-        "Exit code 4: one of them differs, away from edges, by more than the tolerance, or by 0.1 on "
-        "average; "
-        "is brighter\nor darker, or displaced, as a whole (docs/generated-programs.md has the limits); or "
-        "too little is "
-        "seen to decide.");
+        "Generate programs from a scene, build and run them, and compare their pictures with Candela's own. "
+        "Exit code 4 means that a picture differs, away from edges, by more than the tolerance or by 0.1 on "
+        "average; that it is brighter, darker or displaced as a whole (docs/generated-programs.md has the "
+        "limits); or that too little is visible to decide.");
     line.options()("target,t", po::value<std::string>()->value_name("NAME")->default_value("all"),
                    help.c_str())("tolerance",
                                  po::value<double>()->value_name("LEVELS")->default_value(2, "2"),
-                                 "how much a pixel away from edges may differ, in levels of 1/255")(
+                                 "the allowed difference of a pixel away from edges, in levels (1/255)")(
         "report", po::value<std::string>()->value_name("DIR"),
-        "keep the programs, the pictures, their differences, and a page that shows them")(
+        "keep the programs, the pictures, their differences, and a page showing them in this folder")(
         "program", po::value<std::string>()->value_name("DIR"),
-        "compare the program generated earlier in this folder instead of a new one")(
-        "json", "print the figures as JSON");
+        "compare the program generated earlier in this folder, not a new one")("json",
+                                                                               "print the figures as JSON");
     add_models_option(line);
     add_approximate_option(line);
     add_scene_options(line);
     if (!line.parse(arguments)) return 0;
-    const fs::path comparing = comparing_program();  // before anything is built for it
+    const fs::path comparing = comparing_program();  // before building anything for it
     candela::Registry registry = registry_from(line);
     std::vector<LoadedTarget> chosen = targets_from(line, registry);
     const verify::Limits limits = limits_from(line);
@@ -222,7 +219,7 @@ int run_verify(const std::vector<std::string>& arguments) {
     try {
         verdicts = verdicts_on(what, scene->compiled, workplace, registry);
     } catch (const Error& problem) {
-        // A report is kept, also of what went wrong.
+        // Keep the report even if something went wrong.
         workplace.finish(what.targets);
         throw Error(problem.category(), workplace.in_place(problem.what()), problem.help());
     }

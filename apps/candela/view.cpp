@@ -1,4 +1,4 @@
-// candela view: a scene in the browser that follows its files.
+// candela view: shows a scene in the browser and follows its files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,12 +36,11 @@ std::uint16_t port_from(const CommandLine& line) {
     if (!line.has("port")) return 0;
     const auto port = line.get<int>("port");
     if (port < 0 || port > 65535)
-        throw Error(ErrorCategory::bad_request, fmt::format("--port is {}; it can be 0 to 65535", port));
+        throw Error(ErrorCategory::bad_request, fmt::format("--port is {}; expected 0 to 65535", port));
     return static_cast<std::uint16_t>(port);
 }
 
-/// What another verb is to be told: no switches of these names, nor options of these names, which have a
-/// value.
+/// The arguments for another verb: `arguments` without these switches and these options, which have values.
 std::vector<std::string> without(const std::vector<std::string>& switches,
                                  const std::vector<std::string>& options,
                                  const std::vector<std::string>& arguments) {
@@ -59,7 +58,7 @@ std::vector<std::string> without(const std::vector<std::string>& switches,
     return rest;
 }
 
-/// Not as a child that would end together with this: the browser may have been there before.
+/// Detaches the browser, which must not end together with this process.
 void open_browser(const fs::path& page) {
     if (!candela::program_called("xdg-open")) return;
     static_cast<void>(
@@ -71,12 +70,11 @@ void open_browser(const fs::path& page) {
 int run_view(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela view SCENE... [options]",
-        "Shows a scene in the browser, and every change of its files as soon as they are saved: of the "
-        "scene, of\nwhat it includes, of meshes, pictures and plugins. Errors are shown beside the last "
-        "picture without them.\nThe page can be reached from this machine alone, at the address that is "
-        "printed. Ctrl-C ends it.");
-    line.options()("port", po::value<int>()->value_name("N"),
-                   "the port of 127.0.0.1; default: one that is free")("no-open", "open no browser")(
+        "Show a scene in the browser, and update it whenever one of its files is saved: the scene, its "
+        "includes, meshes, pictures and plugins. Errors are shown next to the last valid picture. Only this "
+        "machine can open the page, at the printed address. Ctrl-C ends the program.");
+    line.options()("port", po::value<int>()->value_name("N"), "the port of 127.0.0.1; default: a free one")(
+        "no-open", "do not open a browser")(
         "target", po::value<std::string>()->value_name("NAME"),
         "the target that makes the page; default: one whose main file is HTML");
     add_models_option(line);
@@ -95,14 +93,14 @@ int run_view(const std::vector<std::string>& arguments) {
     std::vector<std::string> for_generate = without({"--no-open"}, {"--port", "--target"}, arguments);
     if (!line.has("models")) for_generate.insert(for_generate.end(), {"--models", "all"});
     const TemporaryFolder pictures(fs::temp_directory_path(), "candela-view-");
-    const TemporaryFolder kernels(fs::temp_directory_path(), "candela-view-");  // that explain has compiled
+    const TemporaryFolder kernels(fs::temp_directory_path(), "candela-view-");  // compiled by explain
     const auto for_render = without({"--no-open", "--quiet"}, {"--port", "--target", "--models"}, arguments);
     auto for_explain = for_render;
     for_explain.push_back(fmt::format("--keep={}", kernels.path().string()));
     std::vector<std::string> for_keep;
     for (const std::string& folder : line.all("plugin-dir")) for_keep.push_back("--plugin-dir=" + folder);
     if (line.has("allow-untrusted-plugins")) for_keep.emplace_back("--allow-untrusted-plugins");
-    // The server reads them. No thread that is started from here on is interrupted by one, ever.
+    // The server reads the signals. Threads started from here on are never interrupted by one.
     std::optional<WithoutInterruption> while_serving(std::in_place);
     std::optional<Explainer> explainer(std::in_place, for_explain);
     std::optional<view::Server> server(
@@ -128,7 +126,7 @@ int run_view(const std::vector<std::string>& arguments) {
                     say(outcome.content + '\n');
                     return outcome;
                 }});
-    // The follower says something on a thread of its own, which is not to flush what is printed by this one.
+    // The follower prints on a thread of its own, which must not flush this thread's output.
     std::cerr.tie(nullptr);
     std::optional<SceneFollower> follower(std::in_place,
                                           SceneFollower::Job{.arguments = for_generate,
@@ -136,16 +134,16 @@ int run_view(const std::vector<std::string>& arguments) {
                                                              .scenes = line.all("scene"),
                                                              .plugin_folders = registry.search_path()},
                                           [&](view::Publication publication) {
-                                              // What is wrong now is not what is shown.
+                                              // A scene with errors is not the one shown.
                                               if (publication.problems.empty()) explainer->scene_changed();
                                               server->publish(std::move(publication));
                                           });
     const std::string address = server->address();
-    std::cout << address << '\n' << std::flush;  // somebody may be waiting for it
+    std::cout << address << '\n' << std::flush;  // the reader may be waiting
     if (!line.has("no-open")) open_browser(page_leading_to(address, pictures.path()));
     server->run();
-    while_serving.reset();  // a second one ends this at once
-    // All wait for programs that they have started.
+    while_serving.reset();  // a second signal ends this at once
+    // All of them wait for programs that they have started.
     const WithoutDescendants from_now_on;
     follower.reset();
     server.reset();

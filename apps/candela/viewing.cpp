@@ -53,7 +53,7 @@ std::vector<std::string> options_of(const std::vector<view::Change>& changes) {
     return options;
 }
 
-/// This program, in a process of its own.
+/// Runs a verb of this program in a process of its own.
 candela::ProgramOutput run_verb(const std::vector<std::string>& verb,
                                 const std::vector<std::string>& arguments,
                                 const std::vector<std::string>& options,
@@ -65,7 +65,7 @@ candela::ProgramOutput run_verb(const std::vector<std::string>& verb,
 
 constexpr const char* k_inputs = "inputs.json";
 constexpr std::chrono::minutes k_longest_rendering{5}, k_longest_making{5};
-// Browsers have both the scene and the processors to themselves until they have drawn it.
+// Browsers get both the scene and the processors to themselves until they have drawn it.
 constexpr std::chrono::milliseconds k_until_shown{300};
 
 std::vector<FileState> states_in(const std::vector<fs::path>& folders) {
@@ -108,7 +108,7 @@ view::Outcome rendered(const std::vector<std::string>& arguments, const std::vec
                  {.longest = k_longest_rendering, .unwanted = std::move(unwanted)});
     if (result.end == candela::ProgramEnd::late) {
         return {.is_success = false,
-                .content = fmt::format("Rendering took more than {} minutes and was ended; make the picture "
+                .content = fmt::format("Rendering was stopped after {} minutes; make the picture "
                                        "smaller, or render it with candela render.\n",
                                        k_longest_rendering.count())};
     }
@@ -139,23 +139,23 @@ view::Outcome kept(const std::vector<std::string>& arguments, const std::vector<
     const auto value_of = [&](const char* option) {
         return std::ranges::find(changes, option, &view::Change::option)->value;
     };
-    // Which folder that is, is checked before anything is written: a plugin's name has no '/'.
+    // The name is checked before anything is written: a plugin's name has no '/'.
     const std::string name = project_names(value_of("--name")).name;
     std::error_code problem;
     if (fs::exists(fs::symlink_status(name, problem)))
-        return {.is_success = false, .content = fmt::format("It is not kept: '{}' is already there.", name)};
+        return {.is_success = false, .content = fmt::format("Not saved: '{}' already exists.", name)};
     candela::write_text_file(file, kernel);
     const candela::ProgramOutput result =
         run_verb({"plugin", "new", "reflection", name}, arguments,
                  {fmt::format("--from={}", value_of("--model")), fmt::format("--kernel={}", file.string())});
     if (result.exit_code != 0) return {.is_success = false, .content = result.err};
     return {.is_success = true,
-            .content =
-                fmt::format("Kept in '{}'. Build and test it there: cmake -B build && cmake --build build && "
-                            "ctest --test-dir build. {}",
-                            fs::absolute(name).string(), result.err)};
+            .content = fmt::format(
+                "Saved in '{}'. Build and test it there: cmake -B build && cmake --build build && "
+                "ctest --test-dir build. {}",
+                fs::absolute(name).string(), result.err)};
 } catch (const std::exception& problem) {
-    return {.is_success = false, .content = fmt::format("It is not kept: {}", problem.what())};
+    return {.is_success = false, .content = fmt::format("Not saved: {}", problem.what())};
 }
 
 fs::path page_leading_to(const std::string& address, const fs::path& folder) {
@@ -195,7 +195,7 @@ void SceneFollower::watch(bool is_right) {
     std::vector<fs::path> files = inputs_, folders = job_.plugin_folders;
     for (const std::string& scene : job_.scenes) {
         files.emplace_back(scene);
-        // Which files an incorrect scene names is not known.
+        // The files that an invalid scene names are unknown.
         if (!is_right) folders.push_back(fs::path(scene).parent_path());
     }
     watcher_.watch(files, folders);
@@ -221,12 +221,11 @@ candela::ProgramOutput SceneFollower::generated() {
     waiting_.reset();
     if (result && result->end == candela::ProgramEnd::late) {
         result->err += fmt::format(
-            "Making the page took more than {} minutes and was ended; it is made again when a file is "
+            "Making the page was stopped after {} minutes; it starts again when a file is "
             "saved.\n",
             k_longest_making.count());
     }
-    if (!result)
-        throw Error(ErrorCategory::failure, "candela generate ends before it has been told anything");
+    if (!result) throw Error(ErrorCategory::failure, "candela generate ended before it received a request");
     return *std::move(result);
 }
 
@@ -234,13 +233,13 @@ bool SceneFollower::make_page() {
     const Stopwatch watch;
     candela::ProgramOutput result = generated();
     if (is_ending_) return false;
-    // While it has errors, the scene's whole folder is watched, and much may happen there.
+    // While the scene has errors, its whole folder is watched, and much may happen there.
     const bool is_news = result.err != latest_.problems;
     latest_.problems = result.err;
     const bool is_right = result.exit_code == 0;
     if (is_right) {
         inputs_ = names_listed_in(folder_.path() / k_inputs);
-        // Saved as it was: pages that have been made already are not made again.
+        // Saved unchanged: existing pages stay valid.
         if (latest_.page == nullptr || result.out != latest_.page->html()) {
             latest_.page = std::make_shared<const view::Page>(std::move(result.out));
             ++latest_.generation;
@@ -271,11 +270,11 @@ void SceneFollower::follow() {
             const std::vector<fs::path> before = inputs_;
             watch(make_page());
             if (!is_ending_ && watcher_.is_quiet_for(k_until_shown)) get_ready();
-            // What the scene names for the first time has not been watched while it was read.
+            // Files named by the scene for the first time were not watched while it was read.
             is_changed = (inputs_ != before && has_input_since(begin)) || watcher_.wait();
         }
     } catch (const std::exception& problem) {
-        latest_.problems = fmt::format("The scene is no longer followed: {}\n", problem.what());
+        latest_.problems = fmt::format("The scene is no longer being followed: {}\n", problem.what());
         if (!is_ending_) warn(latest_.problems);
         publish_(latest_);
     }

@@ -1,4 +1,4 @@
-// What candela view does whenever a file is saved.
+// The actions of candela view when a file is saved.
 #pragma once
 
 #include <atomic>
@@ -18,16 +18,16 @@
 
 import candela.process;
 
-/// A file's, such that a file that has been written or replaced since has another one.
+/// Identifies a file's state: it changes whenever the file is written or replaced.
 struct FileState {
     std::filesystem::path path;
     std::uint64_t inode = 0;
-    std::int64_t seconds = 0, nanoseconds = 0;  // when it, or what is known of it, was last changed
+    std::int64_t seconds = 0, nanoseconds = 0;  // last change of the file or its metadata
 
     bool operator==(const FileState&) const = default;
 };
 
-/// While there is one, programs that this one has started are ended.
+/// RAII guard: ends all programs that this one has started.
 class WithoutDescendants {
   public:
     WithoutDescendants();
@@ -40,52 +40,50 @@ class WithoutDescendants {
     std::thread thread_;
 };
 
-/// What `candela render` with these arguments makes of a scene, with somebody's changes, or a term of it that
-/// is among them; `file` is where. It is ended when nobody wants the picture any more, and after some
-/// minutes.
+/// Runs `candela render` with these arguments and `changes` on a scene, to `file`; the changes may select a
+/// term. The rendering is stopped when nobody wants the picture any more, or after some minutes.
 view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
                        const std::filesystem::path& file, std::stop_token unwanted);
 
-/// Writes a page that leads to `address` into `folder`, for this user alone: the arguments of programs can be
-/// read by every user of the machine. Returns its path; throws candela::Error (failure).
+/// Writes a page that redirects to `address` into `folder`, readable by this user only: every user of the
+/// machine can read the arguments of programs. Returns its path; throws candela::Error (failure).
 std::filesystem::path page_leading_to(const std::string& address, const std::filesystem::path& folder);
 
-/// Has `candela edit` with these arguments write somebody's changes into the scene's files.
+/// Runs `candela edit` with these arguments to write the changes into the scene's files.
 view::Outcome saved(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes);
 
-/// Has `candela plugin new` with these arguments make a project of a formula, whose text is `kernel`, in a
-/// new folder of the working directory: the model and the folder's name are among `changes`. The text is
-/// handed over in `file`. What is to be said about it.
+/// Runs `candela plugin new` with these arguments to make a project of the formula in `kernel`, in a new
+/// folder of the working directory. The model and the folder's name are among `changes`. The text is passed
+/// in `file`. Returns the message for the page.
 view::Outcome kept(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
                    const std::string& kernel, const std::filesystem::path& file);
 
-/// Makes a scene's page anew as often as one of the files changes that it is made from. `candela generate`
-/// makes it, in a process of its own: it has no library loaded that has been built again since, and may
-/// crash.
+/// Makes a scene's page again whenever one of its files changes. `candela generate` makes it in a process of
+/// its own, which may crash and never has an outdated plugin library loaded.
 class SceneFollower {
   public:
     struct Job {
-        std::vector<std::string> arguments;  // of `candela generate`, without target and output
+        std::vector<std::string> arguments;  // for `candela generate`, without target and output
         std::string target;
         std::vector<std::string> scenes;
         std::vector<std::filesystem::path> plugin_folders;
     };
 
-    /// Begins at once, on a thread of its own, which also calls `publish`.
+    /// Starts at once, on a thread of its own, which also calls `publish`.
     SceneFollower(Job job, std::function<void(view::Publication)> publish);
     SceneFollower(const SceneFollower&) = delete;
     SceneFollower& operator=(const SceneFollower&) = delete;
-    /// Waits for the program that is running.
+    /// Waits for the running program.
     ~SceneFollower();
 
   private:
     void follow();
-    /// Whether the scene became a page.
+    /// Returns whether the scene became a page.
     bool make_page();
     void watch(bool is_right);
-    /// Has a program load the plugins, and wait for the next save.
+    /// Starts a program that loads the plugins and waits for the next save.
     void get_ready();
-    /// What the program says that was ready, or another one if plugins have changed since.
+    /// The output of the waiting program, or of a new one if plugins have changed.
     candela::ProgramOutput generated();
     bool has_input_since(std::filesystem::file_time_type time) const;
 
@@ -96,7 +94,7 @@ class SceneFollower {
     view::Publication latest_;
     std::vector<std::filesystem::path> inputs_;
     std::optional<candela::WaitingProgram> waiting_;
-    std::vector<FileState> plugins_;  // that it has loaded
+    std::vector<FileState> plugins_;  // loaded by the waiting program
     std::atomic<bool> is_ending_{false};
-    std::thread thread_;  // the last, since it uses all the others
+    std::thread thread_;  // declared last: it uses all the other members
 };

@@ -14,9 +14,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Drivers and browsers keep caches and settings at home, compilers' wrappers what they have compiled.
+/// Drivers and browsers keep caches and settings in the home folder; compiler wrappers keep their results
+/// there.
 void move_home(const fs::path& home) {
-    // Whoever may draw on this screen still may.
+    // Keeps the permission to draw on this screen.
     if (const char* const old = std::getenv("HOME"); old != nullptr && std::getenv("XAUTHORITY") == nullptr) {
         const fs::path authority = fs::path(old) / ".Xauthority";
         std::error_code none;
@@ -45,7 +46,7 @@ void Workplace::finish(const std::vector<LoadedTarget>& targets) {
     std::vector<fs::path> outdated = pictures_of(targets);
     outdated.emplace_back("index.html");
     for (const LoadedTarget& target : targets) {
-        // CMake works in no folder that has been moved, unless it forgets where that was.
+        // CMake refuses a moved folder unless its cache is deleted.
         const fs::path cache = fs::path(target.name()) / "build" / "CMakeCache.txt";
         std::error_code none;
         fs::remove(draft_->draft() / cache, none);

@@ -1,4 +1,4 @@
-// Where candela verify builds and draws programs.
+// Where candela verify builds and runs programs.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 #include "targets.h"
 #include "temporary_folder.h"
 
-/// A report comes into being beside its folder, so that an old one is whole until a new one replaces it. What
-/// programs leave in the folder for temporary files or at home is gone when this is: from its construction
-/// on, TMPDIR and HOME are folders in it.
+/// A report is made next to its folder, so that an old report stays intact until the new one replaces it.
+/// TMPDIR and HOME point to folders inside it for as long as it exists, so what programs leave there is
+/// deleted with it.
 class Workplace {
   public:
     explicit Workplace(const std::optional<std::string>& report);
@@ -21,9 +21,9 @@ class Workplace {
     /// For files that are not part of the report.
     std::filesystem::path scratch(const std::string& name) const { return temporary_.path() / name; }
 
-    /// Puts the report in its place, and takes away what is left there of another of these targets.
+    /// Moves the report to its place, and removes outdated files of these targets there.
     void finish(const std::vector<LoadedTarget>& targets);
-    /// A message of something that went wrong in the draft, about the place where it will be.
+    /// Rewrites a message about the draft to name the final place.
     std::string in_place(std::string message) const;
 
     /// The names of a report's pictures.

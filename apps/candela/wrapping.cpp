@@ -21,7 +21,7 @@ std::size_t wanted_width() {
     return 80;
 }
 
-/// Ends a paragraph that has been collected so far.
+/// Ends the paragraph collected so far.
 void flush(std::string& paragraph, std::string& result, std::size_t width) {
     if (!paragraph.empty()) result += wrapped(paragraph, 0, 0, width) + '\n';
     paragraph.clear();

@@ -1,8 +1,8 @@
 // The scene file as a JSON Schema.
 //
-// Editors complete from what stands under "properties" and do not look into conditions, so a table that names
-// a plugin lists the parameters of all plugins of that kind there; what only the plugin at hand takes, or
-// takes in a way of its own, stands in a definition, which a dependency on the naming key brings in.
+// Editors complete from the keys under "properties" and do not evaluate conditions. A table that names a
+// plugin therefore lists the parameters of all plugins of that kind there. A definition, which a dependency
+// on the naming key brings in, holds the parameters and constraints of that plugin alone.
 module;
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ namespace {
 Json value_json(const Parameter& p) { return parse_json(value_schema(p)); }
 
 std::string description_of(const Parameter& p) {
-    // That a place is in metres is part of what is expected.
+    // For a position, the expected value already mentions metres.
     const std::string unit = p.type == ParamType::point ? "" : unit_word(p);
     return fmt::format("{}{}{} ({})", p.meaning, unit.empty() ? "" : ", in ", unit, constraint_text(p));
 }
@@ -55,7 +55,7 @@ Json list_schema(const Parameter& p) {
     return {{"description", p.meaning}, {"type", "array"}, {"items", value_json(p)}, {"uniqueItems", true}};
 }
 
-/// A list of pairs of a time and a value, whose type is that of the parameter which it is for.
+/// A list of pairs of a time and a value, whose type is that of the animated parameter.
 Json timed_schema(const Parameter& p) {
     const Json pair{{"type", "array"},
                     {"items", {{{"type", "number"}}, Json::object()}},
@@ -89,12 +89,12 @@ bool is_same_for_all(const std::vector<User>& users, Function function) {
     });
 }
 
-/// Whether all ask the same of the value.
+/// Whether all plugins have the same constraints on the value.
 bool is_agreed(const std::vector<User>& users) { return is_same_for_all(users, value_schema); }
 
-/// What holds for all who use a parameter of that name, and what it means to each.
+/// The common constraints of all plugins that use a parameter of that name, and its meaning for each.
 Json merged(const std::vector<User>& users) {
-    std::vector<std::pair<std::string, std::string>> meanings;  // and who means it
+    std::vector<std::pair<std::string, std::string>> meanings;  // and the plugins with that meaning
     for (const auto& [plugin, parameter] : users) {
         const std::string meaning = description_of(*parameter);
         const auto same = std::ranges::find(meanings, meaning, [](const auto& pair) { return pair.first; });
@@ -129,8 +129,9 @@ class SchemaWriter {
             {"title", "Candela scene"},
             {"description",
              "A scene for Candela, or a part of one: several files may be read as one scene, so neither "
-             "'version' nor [observer] is required here, though each must stand once over all files. "
-             "'candela check' also finds what no JSON Schema can say."},
+             "'version' nor [observer] is required here, though each must appear exactly once across all "
+             "files. "
+             "'candela check' also finds errors that a JSON Schema cannot express."},
             {"type", "object"}};
         for (const Parameter& p : top_schema().parameters) {
             const bool is_list = std::ranges::find(top_schema().lists, p.name) != top_schema().lists.end();
@@ -177,7 +178,7 @@ class SchemaWriter {
             if (!key.parameters_in) continue;
             if (key.parameters_in->empty()) {
                 const Json parameters = union_of(key.kind);
-                // An own key stays what it is, also where a plugin has a parameter of that name.
+                // The table's own keys take precedence over plugin parameters of the same name.
                 for (const auto& [name, schema] : parameters.items()) {
                     if (!properties.contains(name)) properties[name] = schema;
                 }
@@ -195,7 +196,7 @@ class SchemaWriter {
         return {{"title", table.title}, {"description", table.meaning}, {"type", "array"}, {"items", one}};
     }
 
-    /// For each plugin that a key may name: what the table then takes.
+    /// For each plugin that a key may name, the keys that the table then accepts.
     Json cases_of(const PluginKey& key, const std::vector<std::string>& own) {
         Json cases = Json::object();
         for (const Manifest* m : all(key.kind)) {
@@ -219,7 +220,7 @@ class SchemaWriter {
         return *std::ranges::find(table.parameters, name, &Parameter::name);
     }
 
-    /// The name of an installed plugin.
+    /// The schema of an installed plugin's name.
     Json name_schema(const std::string& meaning, PluginKind kind) const {
         Json schema{{"description", meaning}, {"type", "string"}, {"enum", Json::array()}};
         Json& summaries = schema["x-taplo"]["docs"]["enumValues"] = Json::array();
@@ -250,9 +251,9 @@ class SchemaWriter {
         return properties;
     }
 
-    /// Defines what a table takes with a plugin, as far as the table has not said it for all plugins:
-    /// which keys, and what of them is this plugin's own. `beside`: the table's own keys.
-    void define(const Manifest& m, const std::vector<std::string>& beside) {
+    /// Defines the keys that a table accepts with a plugin, and the constraints of this plugin alone, where
+    /// the table does not have them for all plugins. `own`: the table's own keys.
+    void define(const Manifest& m, const std::vector<std::string>& own) {
         std::string description = m.summary;
         for (const Relation& r : m.relations) description += "\n" + text_of(r);
         Json schema{{"title", fmt::format("{}: {}", m.id(), m.title)},
@@ -260,7 +261,7 @@ class SchemaWriter {
                     {"type", "object"},
                     {"properties", Json::object()}};
         Json& properties = schema["properties"];
-        for (const std::string& key : beside) properties[key] = true;
+        for (const std::string& key : own) properties[key] = true;
         for (const Parameter& p : m.parameters) {
             const bool is_said = !properties.contains(p.name) && is_agreed(users_of(m.kind, p.name));
             properties[p.name] = is_said ? Json(true) : parameter_schema(p);
@@ -270,7 +271,7 @@ class SchemaWriter {
         definitions_[definition_name(m)] = std::move(schema);
     }
 
-    /// That a table takes a plugin's parameters, itself or in a table within it.
+    /// Requires a table to accept a plugin's parameters, itself or in a table within it.
     static Json takes(const Manifest& m, const std::string& where) {
         if (where.empty()) return reference_to(m);
         Json schema;
@@ -279,7 +280,7 @@ class SchemaWriter {
         return schema;
     }
 
-    /// [reflection] says what the material of objects takes that name no model of their own.
+    /// [reflection] decides which material parameters apply to objects without a model of their own.
     Json material_dependencies() const {
         Json dependencies = Json::object();
         for (const TableSchema& chooser : scene_schema()) {

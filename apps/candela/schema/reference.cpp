@@ -59,15 +59,16 @@ struct Section {
 constexpr Section k_sections[] = {
     {PluginKind::light, "Lights", "The `type` of a `[[light]]`."},
     {PluginKind::shape, "Shapes", "The `type` of an `[[object]]`."},
-    {PluginKind::shading, "Shading models", "Which normals a surface is lit with, and where."},
+    {PluginKind::shading, "Shading models",
+     "The normals a surface is lit with, and where shading is evaluated."},
     {PluginKind::reflection, "Reflection models", "How a surface reflects light."},
     {PluginKind::image, "Picture formats",
-     "By the extension of the picture's name: `candela render -o picture.exr`."},
+     "Selected by the picture's file extension: `candela render -o picture.exr`."},
     {PluginKind::target, "Targets",
-     "What a scene can be turned into, beside a picture: `candela generate --target NAME`."},
+     "The kinds of programs and files that `candela generate --target NAME` makes of a scene."},
 };
 
-/// For the cell of a table.
+/// Escapes a text for a table cell.
 std::string cell(std::string_view text) {
     std::string result;
     for (const char c : text) {
@@ -86,7 +87,7 @@ std::string capitalized(std::string_view text) {
     return result;
 }
 
-/// Headings are such as "light/point", and GitHub's anchors leave out the slash.
+/// Headings look like "light/point", and GitHub's anchors leave out the slash.
 std::string link_to(const Manifest& m) {
     return fmt::format("[`{}`](#{}{})", m.name, name_of(m.kind), m.name);
 }
@@ -152,7 +153,7 @@ class ReferenceWriter {
         line("| `{}` | {} | {} | {} | {} |", p.name, cell(value), unit_word(p), cell(shown), cell(p.meaning));
     }
 
-    /// What may stand as the value of one of the scene's own keys.
+    /// The possible values of one of the scene's own keys.
     std::string value_text(const TableSchema& schema, const Parameter& p) const {
         if (std::ranges::find(schema.lists, p.name) != schema.lists.end())
             return "a list, each " + constraint_text(p);
@@ -189,7 +190,7 @@ class ReferenceWriter {
         return result;
     }
 
-    /// How a plugin is named in a scene, with all its parameters at their defaults.
+    /// An example of naming a plugin in a scene, with all its parameters at their defaults.
     void sample(const Manifest& m) {
         for (const TableSchema& schema : scene_schema()) {
             for (const PluginKey& plugin_key : schema.plugins) {
@@ -243,7 +244,7 @@ class ReferenceWriter {
         return std::nullopt;
     }
 
-    /// The default, or something that is allowed.
+    /// The default, or an allowed value.
     static std::string sample_value(const Parameter& p) {
         if (auto text = default_text(p)) return *text;
         switch (p.type) {

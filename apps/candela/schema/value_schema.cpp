@@ -18,10 +18,10 @@ namespace candela {
 
 namespace {
 
-/// A float in as few digits as name it: 0.1, not 0.10000000149011612.
+/// A float with the fewest digits that identify it: 0.1, not 0.10000000149011612.
 Json number_json(float x) { return parse_json(fmt::format("{}", x)); }
 
-/// The range that the parameter declares; where it declares none, what its type can hold.
+/// The range that the parameter declares, or the range of its type.
 template <class Number>
 void put_range(Json& schema, const Parameter& p, Number largest) {
     if (p.minimum == k_no_minimum) {
@@ -95,7 +95,7 @@ Json vector_schema(const Parameter& p) {
     return schema;
 }
 
-/// What a value must be.
+/// The schema of a parameter's value.
 Json schema_of(const Parameter& p) {
     switch (p.type) {
         case ParamType::real:

@@ -1,5 +1,5 @@
-# Completion of candela in bash; the command itself knows what a word may become, and how that is quoted where
-# readline inserts it: in place of "$2".
+# Completion of candela in bash. The command itself prints the completions of a word, quoted for where readline
+# inserts them: in place of "$2".
 _candela() {
     local shown
     COMPREPLY=()
@@ -7,7 +7,7 @@ _candela() {
         case $shown in
             $'\tfiles') compopt -o default ;;
             $'\tfolders') compopt -o dirnames ;;
-            *)  # Behind a '=' or a '.', the word goes on.
+            *)  # After a '=' or a '.', the word continues.
                 [[ $shown == *[=.] ]] && compopt -o nospace
                 COMPREPLY+=("$shown") ;;
         esac

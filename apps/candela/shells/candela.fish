@@ -1,7 +1,7 @@
-# Completion of candela in fish; the command itself knows what a word may become, and fish quotes it.
+# Completion of candela in fish. The command itself prints the completions of a word, and fish quotes them.
 function __candela_complete
     set -l words (commandline -opc)
-    # What the word is without quotation marks and backslashes; the last quotation mark may be missing.
+    # The word without quotation marks and backslashes; the last quotation mark may be missing.
     set -l shown (commandline -ct)
     set -l typed
     for end in '' \' \"
@@ -11,7 +11,7 @@ function __candela_complete
     for line in (CANDELA_COMPLETE=1 $words[1] $words[2..-1] "$typed" 2>/dev/null)
         switch $line
             case \tfiles \tfolders
-                # Behind "--output=", it begins anew. The shell completes names for whatever command, '' as well.
+                # After "--output=", a new word begins. The shell completes file names for any command, even ''.
                 set -l option (string match -r -- '^--[^=]*=' "$typed")
                 set -l path (string replace -r -- '^--[^=]*=' '' "$typed")
                 set -l found (complete -C"'' "(string escape -- "$path"))
