@@ -177,6 +177,6 @@ GuardedEnd run_guarded(double seconds, const std::function<void(int)>& work) {
 std::string unexpected_end_of(const GuardedEnd& end, double seconds) {
     if (end.is_late) return fmt::format("did not finish within {} s", seconds);
     if (WIFSIGNALED(end.status))
-        return fmt::format("was killed by a signal: {}", ::strsignal(WTERMSIG(end.status)));
-    return fmt::format("exited with code {}", WEXITSTATUS(end.status));
+        return fmt::format("ended the process with signal {}", ::strsignal(WTERMSIG(end.status)));
+    return fmt::format("ended the process with exit code {}", WEXITSTATUS(end.status));
 }

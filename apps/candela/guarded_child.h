@@ -20,6 +20,6 @@ struct GuardedEnd {
 /// if no process can be started. Call it on the main thread.
 GuardedEnd run_guarded(double seconds, const std::function<void(int report)>& work);
 
-/// "exited with code 0", "did not finish within 20 s": for work that should have reported something and did
-/// not.
+/// "ended the process with exit code 0", "did not finish within 20 s": for work that should have reported
+/// something and did not.
 std::string unexpected_end_of(const GuardedEnd& end, double seconds);

@@ -30,9 +30,9 @@ void require_free(const std::string& output, Existing existing) {
     if (!folder.empty() && fs::status(folder, problem).type() == fs::file_type::not_found)
         throw Error(
             ErrorCategory::failure,
-            fmt::format("'{}' cannot be written: the folder '{}' does not exist; create it first, or give "
-                        "another name",
-                        output, folder.string()));
+            fmt::format(
+                "'{}' cannot be written: there is no folder '{}'; create it first, or choose another name",
+                output, folder.string()));
 }
 
 void require_no_terminal(const std::string& output, const std::string& what) {

@@ -85,7 +85,7 @@ TEST_CASE("frames that are whole and made from the same inputs are left alone, a
     fs::remove(directory / "frames/0002.png");
     const auto before = stamp(directory / "frames/0000.png");
     CommandResult result = animate(directory, {"--frames", "0..2"});
-    CHECK(holds(result.err, "3 frames, 1 of them left as they were"));
+    CHECK(holds(result.err, "3 frames, 1 of them already up to date"));
     CHECK(stamp(directory / "frames/0000.png") == before);
     CHECK(read_file(directory / "frames/0001.png") == whole);
     CHECK(fs::exists(directory / "frames/0002.png"));
@@ -95,13 +95,13 @@ TEST_CASE("frames that are whole and made from the same inputs are left alone, a
     scene.replace(scene.find("20.0"), 4, "30.0");
     write_file(directory / "scene.toml", scene);
     result = animate(directory, {"--frames", "0..2"});
-    CHECK(holds(result.err, "1 of them left as they were"));
+    CHECK(holds(result.err, "1 of them already up to date"));
     CHECK(read_file(directory / "frames/0001.png") != whole);
 
     result = animate(directory, {"--frames", "0..2", "--force"});
-    CHECK_FALSE(holds(result.err, "left as they were"));
+    CHECK_FALSE(holds(result.err, "already up to date"));
     result = animate(directory, {"--frames", "0..2", "--samples", "4"});
-    CHECK_FALSE(holds(result.err, "left as they were"));
+    CHECK_FALSE(holds(result.err, "already up to date"));
 }
 
 TEST_CASE("a mesh that has changed makes its frames anew") {
@@ -113,9 +113,9 @@ TEST_CASE("a mesh that has changed makes its frames anew") {
     write_file(directory / "scene.toml",
                scene_text() + "[[object]]\ntype = \"mesh\"\nfile = \"t.obj\"\nposition = [1, 1, 0]\n");
     REQUIRE(animate(directory, {"--frames", "3"}).exit_code == 0);
-    CHECK(holds(animate(directory, {"--frames", "3"}).err, "1 of them left as they were"));
+    CHECK(holds(animate(directory, {"--frames", "3"}).err, "1 of them already up to date"));
     write_file(directory / "t.obj", tetrahedron("2"));
-    CHECK_FALSE(holds(animate(directory, {"--frames", "3"}).err, "left as they were"));
+    CHECK_FALSE(holds(animate(directory, {"--frames", "3"}).err, "already up to date"));
 }
 
 TEST_CASE("frames are chosen by --frames and --step") {
@@ -132,26 +132,27 @@ TEST_CASE("two processes that write the same frames at once are harmless") {
     CHECK(other.wait().exit_code == 0);
     CHECK(names(directory / "frames").size() == 7);
     CHECK(names(directory / "frames/.candela").size() == 6);
-    CHECK(holds(animate(directory).err, "6 of them left as they were"));
+    CHECK(holds(animate(directory).err, "6 of them already up to date"));
 }
 
 TEST_CASE("patterns, ranges and scenes that make no frames are explained") {
     const fs::path directory = with_scene();
     write_file(directory / "still.toml", box_scene(33, 21));
     const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
-        {{"scene.toml", "-o", "frames/a.png"}, "write where their numbers go: frames/a%04d.png"},
-        {{"scene.toml", "-o", "%04d-%d.png"}, "two places for a frame's number"},
-        {{"scene.toml", "-o", "%s.png"}, "'%s' in '%s.png' is no place for a frame's number; write %04d"},
-        {{"scene.toml", "-o", "%4d.png"}, "no place for a frame's number"},
-        {{"scene.toml", "-o", "%04d/a.png"}, "in the name of a folder"},
+        {{"scene.toml", "-o", "frames/a.png"}, "expected a placeholder for their numbers: frames/a%04d.png"},
+        {{"scene.toml", "-o", "%04d-%d.png"}, "more than one placeholder for a frame's number"},
+        {{"scene.toml", "-o", "%s.png"},
+         "'%s' in '%s.png' is not a placeholder for a frame's number; use %04d"},
+        {{"scene.toml", "-o", "%4d.png"}, "not a placeholder for a frame's number"},
+        {{"scene.toml", "-o", "%04d/a.png"}, "in a folder name"},
         {{"scene.toml", "-o", "%099d.png"}, "99 digits"},
-        {{"scene.toml", "-o", "-"}, "cannot go to standard output"},
+        {{"scene.toml", "-o", "-"}, "cannot be written to standard output"},
         {{"scene.toml", "-o", "%d.png", "-o", "%d.ppm"}, "-o names frames twice"},
-        {{"scene.toml", "-o", "%d.exr", "-o", "a.gif"}, "a film is made of 8-bit frames"},
+        {{"scene.toml", "-o", "%d.exr", "-o", "a.gif"}, "a film needs 8-bit frames"},
         {{"scene.toml", "-o", "%d.pmg"}, ".pmg"},
-        {{"scene.toml", "--frames", "3..9"}, "there is no frame 9; the animation has the frames 0 to 5"},
-        {{"scene.toml", "--frames", "4..2"}, "4 comes after 2"},
-        {{"scene.toml", "--frames", "all"}, "neither a frame nor a range"},
+        {{"scene.toml", "--frames", "3..9"}, "frame 9 does not exist; the animation has frames 0 to 5"},
+        {{"scene.toml", "--frames", "4..2"}, "4 is greater than 2"},
+        {{"scene.toml", "--frames", "all"}, "expected a frame or a range"},
         {{"scene.toml", "--frames", "-1"}, "-1"},
         {{"scene.toml", "--step", "0"}, "--step is 0"},
         {{"scene.toml", "--force", "--resume"}, "contradict"},

@@ -182,22 +182,22 @@ TEST_CASE("what cannot be compared is an error that says why, and no sheet") {
     CHECK(holds(folder.error({}, 2), "nothing to compare"));
     CHECK(holds(folder.error({"--reflection=phong"}, 2), "nothing to compare"));
     CHECK(holds(folder.error({"--reflection=phong,"}, 2), "a value is missing in 'phong,'"));
-    CHECK(holds(folder.error({"--reflection=phong,phong"}, 2), "'phong' is there twice"));
+    CHECK(holds(folder.error({"--reflection=phong,phong"}, 2), "'phong' is repeated"));
     CHECK(holds(folder.error(
                     {"--reflection=phong,lambert", "--shading=flat,phong", "--vary", "image.samples=1,4"}, 2),
-                "a sheet has two sides"));
+                "a sheet has two axes"));
     const std::string unknown = folder.error({"--reflection=lambert,phnog"}, 3);
     CHECK(holds(unknown, "phnog"));
     CHECK(holds(unknown, "did you mean 'phong'"));
-    CHECK(holds(unknown, "those of the picture 'phnog'"));
+    CHECK(holds(unknown, "in the picture 'phnog'"));
     CHECK(holds(folder.error({"--reflection=lambert,phong", "-o", "face.toml"}, 2),
                 "has a format that no image plugin writes"));
-    CHECK(holds(folder.error({"--reflection=lambert,phong", "--columns=3"}, 2), "it can be 1 to 2"));
-    CHECK(holds(folder.error({"--vary", "image.width=60,70"}, 2), "have one size"));
+    CHECK(holds(folder.error({"--reflection=lambert,phong", "--columns=3"}, 2), "expected 1 to 2"));
+    CHECK(holds(folder.error({"--vary", "image.width=60,70"}, 2), "differ in size"));
     CHECK(holds(folder.error({"--vary", "image.width"}, 2), "has no '='"));
     CHECK(holds(folder.error({"--vary", "image.samples=1,4", "--vary", "image.samples=8,16"}, 2),
                 "is there twice"));
     CHECK(holds(folder.error({"--reflection=phong,ggx", "--vary", "reflection.model=lambert,ggx"}, 2),
-                "say the same"));
-    CHECK(holds(folder.error({"-q", "--reflection=lambert,phnog"}, 3), "those of the picture 'phnog'"));
+                "set the same value"));
+    CHECK(holds(folder.error({"-q", "--reflection=lambert,phnog"}, 3), "in the picture 'phnog'"));
 }

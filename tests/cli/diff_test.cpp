@@ -268,14 +268,14 @@ TEST_CASE("a number that is not finite is an error that says where it is") {
     std::vector<float> numbers(12, 0.5f);
     numbers[4] = k_nan;  // the right of the lower row, green
     folder.write("nan.pfm", pfm(2, 2, numbers));
-    CHECK(holds(folder.error({"good.pfm", "nan.pfm"}, 1), "'nan.pfm' holds NaN at x 1, y 1 (green)"));
-    CHECK(holds(folder.error({"nan.pfm", "nan.pfm"}, 1), "holds NaN"));
+    CHECK(holds(folder.error({"good.pfm", "nan.pfm"}, 1), "'nan.pfm' contains NaN at x 1, y 1 (green)"));
+    CHECK(holds(folder.error({"nan.pfm", "nan.pfm"}, 1), "contains NaN"));
     numbers[4] = 0;
     numbers[6] = -k_infinity;  // the left of the upper row, red
     folder.write("infinity.pfm", pfm(2, 2, numbers));
     CHECK(holds(folder.error({"infinity.pfm", "good.pfm", "-o", "heat.png"}, 1),
                 "'infinity.pfm' holds infinity at x 0, y 0 (red)"));
-    CHECK(holds(folder.error({"good.pfm", "good.pfm", "--mask", "nan.pfm"}, 1), "'nan.pfm' holds NaN"));
+    CHECK(holds(folder.error({"good.pfm", "good.pfm", "--mask", "nan.pfm"}, 1), "'nan.pfm' contains NaN"));
     CHECK_FALSE(fs::exists(folder / "heat.png"));
 }
 
@@ -292,7 +292,7 @@ TEST_CASE("what is no picture is an error that says why") {
     const Folder folder = folder_with_pictures();
     CHECK(holds(folder.error({"a.ppm", "b.pmm"}, 1), "there is no file 'b.pmm'; did you mean 'b.ppm'?"));
     CHECK(holds(folder.error({"none/a.ppm", "a.ppm"}, 1), "there is no folder 'none' either"));
-    CHECK(holds(folder.error({".", "a.ppm"}, 1), "'.' is a directory; a picture is a file"));
+    CHECK(holds(folder.error({".", "a.ppm"}, 1), "'.' is a directory; expected a picture file"));
     CHECK(holds(folder.error({"/dev/zero", "a.ppm"}, 1), "not a regular file"));
     folder.write("text.txt", "no picture\n");
     CHECK(holds(folder.error({"text.txt", "a.ppm"}, 1), "'text.txt' is not a picture: "));
@@ -320,7 +320,7 @@ TEST_CASE("candela diff that is wrongly used says so, with what may have been me
     for (const char* const wrong : {"-1", "nan", "inf", "many"})
         folder.error({"a.ppm", "a.ppm", "--tolerance", wrong}, 2);
     CHECK(holds(folder.error({"a.ppm", "a.ppm", "-o", "heat.pgn"}, 2), "did you mean '.png'?"));
-    CHECK(holds(folder.error({"a.ppm", "a.ppm", "-o", "heat"}, 2), "has no extension"));
+    CHECK(holds(folder.error({"a.ppm", "a.ppm", "-o", "heat"}, 2), "has no file extension"));
     CHECK(holds(folder.diff({"--help"}).out, "Usage: candela diff A B [options]"));
 }
 

@@ -105,7 +105,7 @@ TEST_CASE("candela edit writes nothing, and says why, if the scene would have er
              // Only the triangles tell.
              Wrong{{"--change", "light.key.position=[0,0,0]"}, 3, "is inside object"},
              Wrong{{"--change", "width"}, 2, "has no '='"},
-             Wrong{{}, 2, "nothing is to be changed"},
+             Wrong{{}, 2, "nothing to change"},
              Wrong{{"--change", "light.key.intensity=2", "--set", "light.key.intensity=3"}, 2, "prevails"},
          }) {
         const Edited edited = edit(wrong.options);

@@ -150,7 +150,7 @@ TEST_CASE(
     // What is missing at the end of line 1 is missed there.
     CHECK(
         holds(result.out, "does not compile: line 1, column 18: expected an operator or ';' before 'vec3'"));
-    CHECK(holds(result.out, "it is no JSON object"));
+    CHECK(holds(result.out, "it is not a JSON object"));
     CHECK(!holds(result.out, "notes.txt"));
 }
 
@@ -275,7 +275,7 @@ TEST_CASE("exercise: files that are no answers say why, and do not stand in the 
     REQUIRE(grades.size() == 8);
     CHECK(grades[0]["result"] == "matches");
     const std::vector<const char*> messages = {
-        "",       "did you mean 'phong'", "did you mean 'phong_reflect'", "is no reflection model",
+        "",       "did you mean 'phong'", "did you mean 'phong_reflect'", "is not a reflection model",
         "passwd", "'candela_exercise'",   "not a line of text",           "larger than"};
     for (std::size_t i = 1; i < grades.size(); ++i) {
         INFO(grades[i].dump());
@@ -387,9 +387,9 @@ TEST_CASE("exercise: what there is no exercise about is said, with what there is
              Wrong{{"new"}, "needs a model"},
              Wrong{{"new", "phong"}, "--blank is missing"},
              Wrong{{"new", "phong", "--blank", "reflcet"}, "did you mean 'reflect'"},
-             Wrong{{"new", "light/point", "--blank", "illuminate"}, "no reflection model"},
+             Wrong{{"new", "light/point", "--blank", "illuminate"}, "is not a reflection model"},
              Wrong{{"grade"}, "needs answers"},
-             Wrong{{"grade", ".", "--time-limit", "0"}, "has to be above 0"},
+             Wrong{{"grade", ".", "--time-limit", "0"}, "expected more than 0"},
              Wrong{{"grad"}, "did you mean 'grade'"},
          }) {
         std::vector<std::string> words = wrong.words;

@@ -108,7 +108,7 @@ TEST_CASE("R11: each way of not being readable has its own message and exit code
            {"scnee.toml: error: there is no such file", "did you mean 'scene.toml'?"});
     expect(check({"folder/scene.toml"}, d), 1,
            {"there is no such file", "there is no folder 'folder' either"});
-    expect(check({""}, d), 2, {"the name of a scene is empty"});
+    expect(check({""}, d), 2, {"a scene's file name is empty"});
     fs::create_directory(d / "folder");
     expect(check({"folder"}, d), 1, {"folder: error: this is a directory; expected a scene file"});
     write_file(d / "empty.toml", "");

@@ -72,8 +72,8 @@ TEST_CASE("format: what is wrong with --format-set is said, and no picture is wr
     refused("qualty=80", {"--format-set qualty", "image/jpeg", "did you mean 'quality'"});
     refused("compression=3", {"unknown key 'compression' in image/jpeg (candela describe image/jpeg)"});
     refused("quality=[", {"--format-set quality"});
-    refused("80", {"--format-set '80' is no value", "--format-set quality=80"});
-    refused("=80", {"--format-set '=80' is no value"});
+    refused("80", {"--format-set '80' has no value", "--format-set quality=80"});
+    refused("=80", {"--format-set '=80' has no value"});
 }
 
 TEST_CASE("frames of another --format-set are other frames, and those of the same are left alone") {

@@ -174,7 +174,7 @@ TEST_CASE("a node that moves becomes tracks of its object, relative to where it 
     file.animate(box, "translation", {0, 1, 2}, {1, 0, 0, 1, 2, 0, 5, 2, 0});
     file.write(folder, "a");
     const CommandResult imported = import(folder, "a");
-    CHECK(holds(imported.err, "its animation is taken over, for 1 object\n"));
+    CHECK(holds(imported.err, "its animation is imported for 1 object\n"));
     const std::string scene = read_file(folder / "a.toml");
     CHECK(holds(scene, "frames = 49\n"));
     CHECK(holds(scene, "\"object.moves.position\""));
@@ -253,7 +253,7 @@ TEST_CASE("a model in place of a scene is shown at rest, and animated by animate
     REQUIRE(candela(folder, words({"render", "still.gltf", "-o", "still.ppm"})).exit_code == 0);
     const CommandResult rest = candela(folder, words({"render", "moving.gltf", "-o", "rest.ppm"}));
     REQUIRE(rest.exit_code == 0);
-    CHECK(holds(rest.err, "its animation is left out: it is shown at rest"));
+    CHECK(holds(rest.err, "its animation is left out; the model is shown at rest"));
     CHECK(read_file(folder / "still.ppm") == read_file(folder / "rest.ppm"));
     import(folder, "moving");
     REQUIRE(candela(folder, words({"render", "moving.toml", "-o", "a.ppm", "--frame", "24"})).exit_code == 0);
@@ -279,7 +279,7 @@ TEST_CASE("steps, splines and turns beyond 180 degrees are followed") {
     file.animate(both, "translation", {0, 1}, {0, 0, 0, 4, 0, 0});
     file.animate(both, "scale", {0, 0.5f}, {2, 2, 1, 2, 3, 4}, "STEP");
     file.write(folder, "a");
-    CHECK(holds(import(folder, "a").err, "for 4 objects, its splines in straight pieces\n"));
+    CHECK(holds(import(folder, "a").err, "for 4 objects, with linear pieces for its splines\n"));
     check_near(vector_in(folder, "a", 11, "\"jumps\"", "position"), {0, 0, 0}, 0);
     check_near(vector_in(folder, "a", 12, "\"jumps\"", "position"), {0, 3, 0}, 0);
     check_near(vector_in(folder, "a", 24, "\"jumps\"", "position"), {0, 5, 0}, 0);
@@ -339,8 +339,8 @@ TEST_CASE("what no tracks describe stays at rest, and is counted") {
     file.write(folder, "a");
     const CommandResult imported = import(folder, "a");
     CHECK(holds(imported.err,
-                "its first animation is taken over, for 1 object; left out: 1 object whose pieces move "
-                "apart, 1 thing that no position, rotation and scale describe, the animation 'Run'\n"));
+                "its first animation is imported for 1 object; left out: 1 object whose pieces move "
+                "apart, 1 motion that position, rotation and scale cannot describe, the animation 'Run'\n"));
     const std::string scene = read_file(folder / "a.toml");
     CHECK_FALSE(holds(scene, "object.shared"));
     CHECK_FALSE(holds(scene, "object.sheared"));
@@ -354,13 +354,13 @@ TEST_CASE("an animation that cannot be read is left out") {
     file.animate(box, "rotation", {0, 1}, {0, 0, 0, 1});           // a value is missing
     file.animate(box, "scale", {0, 1}, {1, 1, 1, 0, 0, 0});        // it vanishes
     file.write(folder, "a");
-    CHECK(holds(import(folder, "a").err, "its animation is left out: it is shown at rest"));
+    CHECK(holds(import(folder, "a").err, "its animation is left out; the model is shown at rest"));
     CHECK_FALSE(holds(read_file(folder / "a.toml"), "animation]"));
     file.json["animations"][0]["samplers"][0]["input"] = 4000000000u;
     file.json["animations"][0]["channels"][1]["target"]["node"] = 77;
     file.json["accessors"].back()["count"] = 4000000000u;
     file.write(folder, "b");
-    CHECK(holds(import(folder, "b").err, "its animation is left out: it is shown at rest"));
+    CHECK(holds(import(folder, "b").err, "its animation is left out; the model is shown at rest"));
 }
 
 TEST_CASE("an object that leaves the frame is seen on its way, and the room holds it") {

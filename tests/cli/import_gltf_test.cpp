@@ -186,7 +186,7 @@ TEST_CASE("import takes the mean of a texture of metalness and roughness") {
                        textured.texture(png(2, 1, {Pixel{9, 255, 0, 255}, Pixel{200, 0, 0, 255}}))}};
     const Imported imported = import(textured);
     CHECK(material_in(imported.scene) == material_in(import(factors).scene));
-    CHECK(holds(imported.result.err, "of a texture of metalness and roughness only the mean is taken"));
+    CHECK(holds(imported.result.err, "only the mean of a texture of metalness and roughness is used"));
     CHECK(holds(imported.result.out + imported.result.err, "0 textures"));
 }
 
@@ -261,7 +261,7 @@ TEST_CASE("a material with a mask is cut out along its texture's opacity") {
         write_file(folder / "a.glb", beside.glb());
         const CommandResult printed = candela(folder, {"import", "a.glb", "-o", "-"});
         CHECK(printed.exit_code == 0);
-        CHECK(holds(printed.err, "what is transparent is not cut out: that needs a file beside the scene"));
+        CHECK(holds(printed.err, "transparent parts are not cut out: that needs a file next to the scene"));
         CHECK_FALSE(holds(printed.out, "cutout"));
     }
 }

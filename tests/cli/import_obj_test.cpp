@@ -196,7 +196,7 @@ TEST_CASE("byte order marks of a model and its library are skipped") {
     write_file(folder / "a.obj", "\xef\xbb\xbf" + square("a.mtl", "m"));
     CHECK(is_red(rendered(folder, "a.obj").picture.middle()));
     write_file(folder / "a.mtl", std::string("\xff\xfen\0e\0w\0", 8));
-    CHECK(holds(rendered(folder, "a.obj").result.err, "is text in UTF-16"));
+    CHECK(holds(rendered(folder, "a.obj").result.err, "is left out: it is UTF-16"));
 }
 
 TEST_CASE("a library that no face uses is noted") {
@@ -249,12 +249,11 @@ TEST_CASE(
         const Rendered model = rendered(folder, "a.obj");
         CHECK(model.picture.burnt() < 0.05);
         CHECK_FALSE(holds(model.result.err, "more light than it receives"));
-        const std::string note = "materials that send out more light than they receive";
+        const std::string note = "materials that reflect more light than they receive";
         CHECK(model.result.err.find(note) == model.result.err.rfind(note));
     }
     write_file(folder / "a.mtl", "newmtl m\nKd .8 .8 .8\nKs .5 .5 .5\nNs 225\n");
-    CHECK(
-        holds(rendered(folder, "a.obj").result.err, "materials that send out more light than they receive"));
+    CHECK(holds(rendered(folder, "a.obj").result.err, "materials that reflect more light than they receive"));
     write_file(folder / "a.mtl", "newmtl m\nKd .5 .5 .5\nKs .5 .5 .5\n");
     const CommandResult without = candela(folder, {"import", "a.obj", "-o", "-"});
     CHECK(holds(without.err, "highlights without an exponent (Ns)"));
@@ -277,7 +276,7 @@ TEST_CASE("a picture is known by its content: one of another name is read, with 
         write_file(folder / "a.mtl", fmt::format("newmtl m\nmap_Kd {}\n", name));
         const Rendered model = rendered(folder, "a.obj");
         CHECK(is_red(model.picture.middle()));
-        CHECK(holds(model.result.err, fmt::format("is read as {}, which its content says it is",
+        CHECK(holds(model.result.err, fmt::format("is read as {}, according to its content",
                                                   name == std::string("wrong.png") ? "jpg" : "png")));
         REQUIRE(candela(folder, {"import", "a.obj", "-o", "a.toml", "--force"}).exit_code == 0);
         const Rendered scene = rendered(folder, "a.toml");

@@ -221,7 +221,7 @@ TEST_CASE("import says which libraries, materials and textures are not there, an
     write_file(folder / "a.xyz", "what?");
     result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
     CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "the texture 'no such.png' of material 'left' is not there"));
+    CHECK(holds(result.err, "the texture 'no such.png' of material 'left' does not exist"));
     CHECK(
         holds(result.err,
               "the texture 'a.xyz' of material 'right side' is left out: no image plugin reads its format"));
@@ -343,12 +343,12 @@ TEST_CASE("textures of a glTF file that are broken, elsewhere or endless are lef
         const char* reason;
     };
     for (const Case& wrong :
-         {Case{R"({"uri": "no.png"})", "there is no file 'no.png'"},
+         {Case{R"({"uri": "no.png"})", "'no.png' does not exist"},
           Case{R"({"uri": "../../../../../../etc/passwd"})", "is outside the model's folder"},
-          Case{R"({"uri": "data:image/png;base64,!!!!"})", "is not in base64"},
-          Case{R"({"uri": "data:image/png,abc"})", "is not in base64"},
-          Case{R"({"uri": "data:image/png;base64,AAAA"})", "it is no picture"},
-          Case{R"({"bufferView": 7})", "there is no view 7"},
+          Case{R"({"uri": "data:image/png;base64,!!!!"})", "is not valid base64"},
+          Case{R"({"uri": "data:image/png,abc"})", "is not valid base64"},
+          Case{R"({"uri": "data:image/png;base64,AAAA"})", "it is not a picture"},
+          Case{R"({"bufferView": 7})", "buffer view 7 does not exist"},
           Case{R"({"bufferView": 2})", "its bytes are not in the file"},
           Case{R"({})", "it has neither a name nor bytes"}}) {
         std::string text = gltf(fmt::format(R"({}, "images": [{}], "textures": [{{"source": 0}}],
@@ -417,7 +417,7 @@ TEST_CASE("lamps at the camera, or at one place, are moved apart with a note, an
     const CommandResult result = candela(folder, {"import", "a.gltf", "-o", "a.toml"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
-    CHECK(holds(result.err, "lights at one place, or where the camera is, are moved"));
+    CHECK(holds(result.err, "lights at the position of another light or the camera are moved"));
     CHECK(candela(folder, {"check", "a.toml"}).exit_code == 0);
     std::set<std::string> positions;
     std::istringstream scene(read_file(folder / "a.toml"));
@@ -457,7 +457,7 @@ TEST_CASE("verbs that take a scene take a model; edit says what to do instead") 
     CHECK(candela(folder, {"compare", "two.obj", "--shading", "flat,phong", "-o", "a.ppm"}).exit_code == 0);
     const CommandResult edit = candela(folder, {"edit", "two.obj", "--change", "image.width=3"});
     CHECK(edit.exit_code == 2);
-    CHECK(holds(edit.err, "'two.obj' is a model and no scene; candela import makes a scene of it"));
+    CHECK(holds(edit.err, "'two.obj' is a model, not a scene; make a scene of it with candela import"));
     const CommandResult two = candela(folder, {"render", "two.obj", "scene.toml", "-o", "a.ppm"});
     CHECK(two.exit_code == 2);
     CHECK(holds(two.err, "which is shown on its own"));
@@ -469,10 +469,10 @@ TEST_CASE("import refuses what is no model, is not there or is broken, and write
     write_file(folder / "broken.obj", "v 0 0\nf 1 2 3\n");
     const CommandResult other = candela(folder, {"import", "a.txt"});
     CHECK(other.exit_code == 2);
-    CHECK(holds(other.err, "'a.txt' is of no format that can be imported: .obj, .ply, .stl, .gltf, .glb"));
+    CHECK(holds(other.err, "'a.txt' has an unsupported format; expected .obj, .ply, .stl, .gltf or .glb"));
     const CommandResult missing = candela(folder, {"import", "b.obj"});
     CHECK(missing.exit_code == 1);
-    CHECK(holds(missing.err, "there is no file 'b.obj'"));
+    CHECK(holds(missing.err, "'b.obj' does not exist"));
     const CommandResult broken = candela(folder, {"import", "broken.obj"});
     CHECK(broken.exit_code == 1);
     CHECK(holds(broken.err, "line 1: a vertex has three coordinates"));
@@ -501,8 +501,8 @@ TEST_CASE("a PLY file shows the texture that a comment of MeshLab's names") {
     const auto middle = picture.at(picture.width / 2, picture.height / 2);
     CHECK(middle[0] > 4 * middle[1]);
     write("nowhere.png");
-    CHECK(
-        holds(candela(folder, {"render", "a.ply", "-o", "a.ppm"}).err, "there is no texture 'nowhere.png'"));
+    CHECK(holds(candela(folder, {"render", "a.ply", "-o", "a.ppm"}).err,
+                "its texture 'nowhere.png' does not exist"));
     write("../a.ppm");
     write_file(folder.parent_path() / "a.ppm", grey_ppm(9));
     CHECK(holds(candela(folder, {"render", "a.ply", "-o", "a.ppm"}).err, "is outside the model's folder"));

@@ -214,7 +214,7 @@ TEST_CASE("files without end in a job's folder take neither memory nor time") {
     write_file(place.directory / "p.tif.parts/picture.json",
                R"({"version": 1, "width": 1, "height": 2147483647, "pixels": "byte", "srgb": true,)"
                R"( "parts": 2147483647, "inputs": ""})");
-    check_refused(place.candela({"assemble", "p.tif"}), 1, "describes no picture");
+    check_refused(place.candela({"assemble", "p.tif"}), 1, "does not describe a picture");
     put_endless(place.directory / "p.tif.parts/picture.json");
     CHECK(place.candela({"assemble", "p.tif"}).exit_code == 1);
 }
@@ -265,7 +265,7 @@ TEST_CASE("a journal is only believed that its task runs if its process can be t
         const timespec times[2] = {time, time};
         REQUIRE(::utimensat(AT_FDCWD, file.c_str(), times, 0) == 0);
         CHECK_FALSE(running());
-        CHECK(holds(place.candela({"status", "frames"}).out, "its journal is of the future"));
+        CHECK(holds(place.candela({"status", "frames"}).out, "its journal has times in the future"));
     }
     task.send(SIGKILL);
     static_cast<void>(task.wait());
@@ -277,7 +277,7 @@ TEST_CASE("a plan whose tasks name files elsewhere is not a plan") {
     json plan = json::parse(read_file(place.directory / k_job / "plan.json"));
     plan["tasks"][0]["name"] = "../../../victims/victim";
     write_file(place.directory / k_job / "plan.json", plan.dump());
-    check_refused(place.candela({"status", "frames"}), 1, "is not a job's plan");
+    check_refused(place.candela({"status", "frames"}), 1, "is not a valid job plan");
 }
 
 TEST_CASE("names that job scripts cannot hold are refused by every engine, before anything is written") {
@@ -315,12 +315,12 @@ TEST_CASE("names that job scripts cannot hold are refused by every engine, befor
                       2, "a quotation mark or a backslash");
     }
     check_refused(place.candela({"submit", "scene.toml", "-o", "a\u202e/%04d.png", "--engine", "print"}), 2,
-                  "are not printed as they are");
+                  "cannot print unchanged");
     fs::create_directories(place.directory / "b\u202e");
     fs::copy(place.directory / "scene.toml", place.directory / "b\u202e/scene.toml");
     check_refused(run_candela({"submit", "scene.toml", "--engine", "print"},
                               {.input = "", .environment = {}, .directory = place.directory / "b\u202e"}),
-                  2, "are not printed as they are");
+                  2, "cannot print unchanged");
 }
 
 TEST_CASE("names that mean something to a shell or to sbatch are quoted in scripts and command lines") {
@@ -407,7 +407,7 @@ TEST_CASE("status shows the other jobs of a folder that has a broken one") {
     const CommandResult result = place.candela({"status", "frames"});
     CHECK(result.exit_code == 1);
     CHECK(holds(result.out, "2 of 2 files done"));
-    CHECK(holds(result.err, "a.png/plan.json' is not a job's plan"));
+    CHECK(holds(result.err, "a.png/plan.json' is not a valid job plan"));
     CHECK(holds(result.err, "z.png/plan.json' cannot be read"));
 }
 
@@ -442,7 +442,7 @@ TEST_CASE("a link is followed where a person has named it, and refused where its
         const bool is_folder = fs::path(name).extension().empty();
         place.put_link(name, is_folder ? place.victims : place.victim());
         check_refused(place.candela(words), 1,
-                      "'" + std::string(name) + "', the default name, is a symbolic link");
+                      "the default name '" + std::string(name) + "' is a symbolic link");
         place.check_victims();
         fs::remove(place.directory / name);
         write_file(place.directory / "scene.toml", scene);

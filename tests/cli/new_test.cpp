@@ -70,7 +70,7 @@ TEST_CASE("new leaves a file that is there alone, unless it is forced") {
     const fs::path file = write_file(directory / "scene.toml", "mine");
     const CommandResult refused = run_candela({"new"}, in(directory));
     CHECK(refused.exit_code == 1);
-    CHECK(holds(refused.err, "'scene.toml' is there already; --force replaces it"));
+    CHECK(holds(refused.err, "'scene.toml' already exists; --force replaces it"));
     CHECK(read_file(file) == "mine");
     CHECK(run_candela({"new", "--force"}, in(directory)).exit_code == 0);
     CHECK(read_file(file).find("[observer]") != std::string::npos);

@@ -204,7 +204,7 @@ TEST_CASE("import keeps pictures that are there already, unless they are the sam
     CHECK(in(d, {"import", "m.gltf"}).exit_code == 0);
     fs::remove(d / "m.toml");
     write_file(texture, "mine");
-    expect(in(d, {"import", "m.gltf"}), 1, {"is there already; --force replaces it"});
+    expect(in(d, {"import", "m.gltf"}), 1, {"already exists; --force replaces it"});
     CHECK(read_file(texture) == "mine");
     CHECK_FALSE(fs::exists(d / "m.toml"));
     CHECK(in(d, {"import", "m.gltf", "--force"}).exit_code == 0);

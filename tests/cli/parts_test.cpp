@@ -94,7 +94,7 @@ TEST_CASE("assemble says which parts are missing, and which were made from somet
     for (const char* const part : {"3/6", "5/6", "6/6"}) render_part(directory, "poster.png", part);
     result = candela(directory, {"assemble", "poster.png"});
     CHECK(result.exit_code == 1);
-    CHECK(holds(result.err, "made from something else than the part that was rendered last: 1-2, 4"));
+    CHECK(holds(result.err, "made from other inputs than the part rendered last: 1-2, 4"));
     for (const char* const part : {"1/6", "2/6", "4/6"}) render_part(directory, "poster.png", part);
     require(candela(directory, {"assemble", "poster.png", "--keep-parts"}));
     CHECK(fs::exists(directory / "poster.png.parts/6-of-6.pixels"));
@@ -108,7 +108,7 @@ TEST_CASE("a part that is up to date is left alone, one that was cut off is not,
     const fs::path file = directory / "poster.tif.parts/1-of-2.pixels";
     const std::string whole = read_file(file);
     CHECK(holds(candela(directory, {"render", "scene.toml", "-o", "poster.tif", "--part", "1/2"}).err,
-                "left as it was"));
+                "already up to date"));
     write_file(file, whole.substr(0, whole.size() / 2));
     render_part(directory, "poster.tif", "1/2");
     CHECK(read_file(file) == whole);
@@ -116,9 +116,9 @@ TEST_CASE("a part that is up to date is left alone, one that was cut off is not,
     require(candela(directory, {"assemble", "poster.tif"}));
     const CommandResult again = candela(directory, {"assemble", "poster.tif"});
     CHECK(again.exit_code == 0);
-    CHECK(holds(again.err, "is complete"));
+    CHECK(holds(again.err, "is already complete"));
     CHECK(holds(candela(directory, {"render", "scene.toml", "-o", "poster.tif", "--part", "2/2"}).err,
-                "the picture is complete"));
+                "the picture is already complete"));
     CHECK_FALSE(fs::exists(directory / "poster.tif.parts"));
 }
 
@@ -132,7 +132,8 @@ TEST_CASE("a part whose bytes have changed since goes into no picture, and is ma
     write_file(file, changed);
     const CommandResult result = candela(directory, {"assemble", "poster.tif"});
     CHECK(result.exit_code == 1);
-    CHECK(holds(result.err, "2-of-2.pixels' is not as it was rendered; render --part 2/2 makes it again"));
+    CHECK(holds(result.err,
+                "2-of-2.pixels' has changed since it was rendered; render it again with --part 2/2"));
     CHECK_FALSE(fs::exists(directory / "poster.tif"));
     render_part(directory, "poster.tif", "2/2");
     CHECK(read_file(file) == whole);
@@ -169,7 +170,7 @@ TEST_CASE("submit --parts makes the picture in one go, and status follows it") {
     CHECK(status["last"]["state"] == "done");
     CHECK_FALSE(fs::exists(directory / "poster.tif.parts"));
     CHECK(holds(candela(directory, {"submit", "scene.toml", "-o", "poster.tif", "--parts", "5"}).err,
-                "5 of them done already"));
+                "5 of them already done"));
 }
 
 TEST_CASE("mistakes in parts are explained") {
@@ -184,23 +185,23 @@ TEST_CASE("mistakes in parts are explained") {
         more.insert(more.begin(), {"render", "scene.toml", "-o", "p.png"});
         return more;
     };
-    refused(render({"--part", "3"}), 2, "'3' is no part such as 3/16");
-    refused(render({"--part", "x/2"}), 2, "'x/2' is no part");
-    refused(render({"--part", "0/2"}), 2, "the parts are 1/2 to 2/2");
-    refused(render({"--part", "3/2"}), 2, "the parts are 1/2 to 2/2");
-    refused(render({"--part", "1/201"}), 2, "a picture of 200 rows cannot have 201 parts");
-    refused(render({"--part", "1/2", "--terms", "depth"}), 2, "--terms and --part contradict each other");
-    refused(render({"--part", "1/2", "--no-clobber"}), 2, "--no-clobber and --part contradict each other");
-    refused({"render", "scene.toml", "-o", "-", "--part", "1/2"}, 2, "name it by -o");
+    refused(render({"--part", "3"}), 2, "'3'; expected a part such as 3/16");
+    refused(render({"--part", "x/2"}), 2, "'x/2'; expected a part");
+    refused(render({"--part", "0/2"}), 2, "expected 1/2 to 2/2");
+    refused(render({"--part", "3/2"}), 2, "expected 1/2 to 2/2");
+    refused(render({"--part", "1/201"}), 2, "a picture of 200 rows cannot be split into 201 parts");
+    refused(render({"--part", "1/2", "--terms", "depth"}), 2, "--terms and --part cannot be combined");
+    refused(render({"--part", "1/2", "--no-clobber"}), 2, "--no-clobber and --part cannot be combined");
+    refused({"render", "scene.toml", "-o", "-", "--part", "1/2"}, 2, "name it with -o");
     refused({"assemble"}, 2, "needs the picture's name");
     refused({"assemble", "p.png"}, 1, "'p.png' has no parts");
     refused({"assemble", "p.what"}, 2, "is of no format");
     write_file(directory / "p.png.parts/picture.json", "{\"width\": 3}");
     refused({"assemble", "p.png"}, 1, "does not describe a picture");
-    refused({"submit", "scene.toml", "--parts", "4"}, 2, "name it by -o");
+    refused({"submit", "scene.toml", "--parts", "4"}, 2, "name it with -o");
     refused({"submit", "scene.toml", "--parts", "4", "-o", "a.png", "--chunk", "3"}, 2,
             "--chunk is for frames");
-    refused({"submit", "scene.toml", "-o", "a%d.png"}, 2, "--parts 16 shares out");
+    refused({"submit", "scene.toml", "-o", "a%d.png"}, 2, "--parts 16 distributes");
 }
 
 // AddressSanitizer and ThreadSanitizer reserve terabytes.

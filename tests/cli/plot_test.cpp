@@ -242,14 +242,14 @@ TEST_CASE("plot: what it cannot draw is said, with what there is, and no file is
     };
     for (const Wrong& wrong : {
              Wrong{{}, "needs a model"},
-             Wrong{{"shading/flat"}, "neither a reflection model nor a light"},
+             Wrong{{"shading/flat"}, "expected a reflection model or a light"},
              Wrong{{"light/point", "phong"}, "either reflection models or lights"},
-             Wrong{{"light/point", "--log"}, "--log is about reflection models"},
+             Wrong{{"light/point", "--log"}, "--log applies to reflection models"},
              Wrong{{"light/ambient"}, "comes from everywhere"},
              Wrong{{"light/spot:outer_angl=3"}, "did you mean 'outer_angle'"},
              Wrong{{"light/spot:inner_angle=30,outer_angle=20"}, "inner_angle"},
              Wrong{{"phong", "lambert", "--set", "shinines=3"}, "did you mean 'shininess'"},
-             Wrong{{"phong:shininess"}, "is no value"},
+             Wrong{{"phong:shininess"}, "is not a value"},
              Wrong{{"phong:shinines=3"}, "did you mean 'shininess'"},
              Wrong{{"phong:shininess=-3"}, "outside its range"},
              Wrong{{"phong", "--incidence", "90"}, "less than 90"},

@@ -69,7 +69,7 @@ void check_refused(const Copy& copy, const std::string& reason) {
     const std::string diagnosis = copy.doctor(false);
     CHECK(holds(diagnosis, "refused: "));
     CHECK(holds(diagnosis, "in use: shape/cube"));
-    CHECK(holds(copy.doctor(true), "not used: the one that --plugin-dir names is refused"));
+    CHECK(holds(copy.doctor(true), "not used: the one named by --plugin-dir was refused"));
 }
 
 }  // namespace

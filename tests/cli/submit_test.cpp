@@ -125,7 +125,7 @@ TEST_CASE("submit on this machine makes the frames that animate makes, and statu
     CHECK(status["tasks"][2]["files_done"] == 2);
     CHECK(holds(candela(directory, {"status", "frames"}).out, "12 of 12 files done, in 3 tasks"));
     // Again: nothing is left to do.
-    CHECK(holds(candela(directory, {"submit", "scene.toml", "--chunk", "5"}).err, "3 of them done already"));
+    CHECK(holds(candela(directory, {"submit", "scene.toml", "--chunk", "5"}).err, "3 of them already done"));
 }
 
 TEST_CASE("a task that fails leaves the others alone, says why, and is done by the same command again") {
@@ -247,7 +247,7 @@ TEST_CASE("a task is running while its process is there, and failed when that ha
     CHECK(task.wait().exit_code == 128 + SIGKILL);
     status = status_of(directory);
     CHECK(status["failed"] == 1);
-    CHECK(holds(status["tasks"][0]["why"], "ended without a word"));
+    CHECK(holds(status["tasks"][0]["why"], "ended without a report"));
     // What the queue has caught of it says more.
     write_file(directory / k_job / "1.log", "slurmstepd: error: Detected 1 oom_kill event\n");
     CHECK(holds(status_of(directory)["tasks"][0]["why"], "oom_kill"));
@@ -264,7 +264,7 @@ TEST_CASE("frames made from something else than was submitted are not counted as
     CHECK(status["done"] == 1);
     CHECK(status["tasks"][0]["files_done"] == 8);
     CHECK(status["tasks"][0]["files_made_from_something_else"] == 2);
-    CHECK(holds(candela(directory, {"status", "frames"}).out, "2 files made from something else"));
+    CHECK(holds(candela(directory, {"status", "frames"}).out, "2 files made from other inputs"));
 }
 
 TEST_CASE("twenty kills at any moment leave a job that the same command completes") {
@@ -320,8 +320,9 @@ TEST_CASE("submit and status explain what they cannot do") {
     };
     refused({"submit"}, 2, "needs a scene file");
     refused({"submit", "scene.toml", "--engine", "slum"}, 2, "did you mean 'slurm'?");
-    refused({"submit", "scene.toml", "--engine", "print", "--jobs", "2"}, 2, "--jobs is for --engine local");
-    refused({"submit", "scene.toml", "--slurm=--exclusive"}, 2, "--slurm is for --engine slurm");
+    refused({"submit", "scene.toml", "--engine", "print", "--jobs", "2"}, 2,
+            "--jobs applies only to --engine local");
+    refused({"submit", "scene.toml", "--slurm=--exclusive"}, 2, "--slurm applies only to --engine slurm");
     refused({"submit", "scene.toml", "--chunk", "0"}, 2, "--chunk is 0");
     refused({"submit", "scene.toml", "-o", "a.png"}, 2, "a%04d.png");
     refused({"submit", "-", "--engine", "print"}, 2, "write it to a file");
@@ -330,5 +331,5 @@ TEST_CASE("submit and status explain what they cannot do") {
             "object 'box' is not wholly inside the room");
     refused({"status", "nowhere"}, 1, "no job was submitted for 'nowhere'");
     write_file(directory / "frames/.candela/jobs/x/plan.json", "{}");
-    refused({"status", "frames"}, 1, "is not a job's plan");
+    refused({"status", "frames"}, 1, "is not a valid job plan");
 }

@@ -145,14 +145,14 @@ TEST_CASE("options of other programs are answered by those of the verb") {
         std::string hint;
     };
     for (const Typed& typed : {
-             Typed{{"render", "--size", "800x600"}, "write --width 800 --height 600"},
-             Typed{{"render", "--size=800x600"}, "write --width 800 --height 600"},
-             Typed{{"render", "--resolution", "800x600"}, "write --width 800 --height 600"},
-             Typed{{"render", "-s", "800x600"}, "write --width 800 --height 600"},
+             Typed{{"render", "--size", "800x600"}, "use --width 800 --height 600"},
+             Typed{{"render", "--size=800x600"}, "use --width 800 --height 600"},
+             Typed{{"render", "--resolution", "800x600"}, "use --width 800 --height 600"},
+             Typed{{"render", "-s", "800x600"}, "use --width 800 --height 600"},
              Typed{{"render", "-w", "800"}, "did you mean '--width'?"},
              Typed{{"render", "-h", "600"}, "did you mean '--height'?"},
              Typed{{"render", "-h600"}, "did you mean '--height'?"},
-             Typed{{"render", "-w", "800", "-h", "600"}, "-h is --help"},
+             Typed{{"render", "-w", "800", "-h", "600"}, "-h means --help"},
              Typed{{"render", "--samples-per-pixel", "4"}, "did you mean '--samples'?"},
              Typed{{"render", "--spp", "4"}, "did you mean '--samples'?"},
              Typed{{"render", "--outptu", "a.png"}, "did you mean '--output'?"},

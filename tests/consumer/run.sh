@@ -83,7 +83,7 @@ code=0
 expect "$scratch/out" "target/csv draws no picture" "candela verify"
 code=0
 "$candela" generate --target csw --plugin-dir "$csv" 2>"$scratch/out" || code=$?
-expect "$scratch/out" "there is no target 'csw'; did you mean 'csv'? (possible: cpp, csv, gltf, opengl, povray, three, webgl)" "candela generate"
+expect "$scratch/out" "unknown target 'csw'; did you mean 'csv'? (possible: cpp, csv, gltf, opengl, povray, three, webgl)" "candela generate"
 "$candela" plugin test "$csv/target-csv.so" >"$scratch/out" || { cat "$scratch/out" >&2; fail "the target does not conform"; }
 
 say "a plugin with a library and files of its own finds both, wherever the three are moved to"

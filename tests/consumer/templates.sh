@@ -76,7 +76,7 @@ for wrong in 'plugin new reflection Bad_Name' 'plugin new lihgt x' 'plugin new' 
 done
 code=0
 candela plugin new "${kinds[0]}" "try-${kinds[0]}" 2>"$scratch/log" || code=$?
-{ [ "$code" -eq 1 ] && grep -q 'already there' "$scratch/log"; } || fail "a project was written over"
+{ [ "$code" -eq 1 ] && grep -q 'already exists' "$scratch/log"; } || fail "a project was written over"
 code=0
 candela plugin test "$scratch/none.so" 2>"$scratch/log" || code=$?
 [ "$code" -eq 1 ] || fail "exit code $code for a plugin that is not there"

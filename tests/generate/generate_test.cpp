@@ -257,7 +257,7 @@ TEST_CASE("generate: errors name what is wrong, and what to do") {
     expect({"--target", "cpp", "-o", out, "--set", "light.lamp.intensity=-1"}, 3, "intensity");
     CHECK_FALSE(fs::exists(out));
     write_file(directory / "file", "");
-    expect({"--target", "cpp", "-o", (directory / "file").string()}, 1, "cannot be made");
+    expect({"--target", "cpp", "-o", (directory / "file").string()}, 1, "cannot be created");
 #ifdef CANDELA_TEST_MUSEUM
     for (const char* const target : {"webgl", "three"})
         expect(

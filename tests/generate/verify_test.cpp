@@ -173,9 +173,9 @@ TEST_CASE("verify: a program that draws nothing is not saved by a picture of an 
     const CommandResult result = verify(words);
     INFO(result.out << result.err);
     CHECK(result.exit_code == 4);
-    CHECK(result.out.find("ended without having written a picture") != std::string::npos);
+    CHECK(result.out.find("ended without writing a picture") != std::string::npos);
     CHECK_FALSE(fs::exists(report / "cpp.png"));
-    CHECK(read_file(report / "index.html").find("ended without having written a picture") !=
+    CHECK(read_file(report / "index.html").find("ended without writing a picture") !=
           std::string::npos);
 }
 

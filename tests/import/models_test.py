@@ -10,7 +10,7 @@ from pathlib import Path
 EXTENSIONS = {".obj", ".ply", ".stl", ".gltf", ".glb"}
 # What these files have no triangles for, or what is wrong with them, in words of the message. All others must be shown.
 REFUSED = {
-    "OBJ/box_UTF16BE.obj": "is text in UTF-16", "OBJ/number_formats.obj": "line 11: '3.1+e2' is not a number",
+    "OBJ/box_UTF16BE.obj": "is left out: it is UTF-16", "OBJ/number_formats.obj": "line 11: '3.1+e2' is not a number",
     "OBJ/point_cloud.obj": "3 vertices and no faces", "OBJ/testline.obj": "6 lines and no triangles",
     "OBJ/testpoints.obj": "6 sets of points and no triangles",
     "PLY/Wuson.ply": "line 3: 'Created' is no line", "PLY/issue623.ply": "line 14", "PLY/points.ply": "1 set of points (4) and no triangles",

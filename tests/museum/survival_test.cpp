@@ -110,7 +110,7 @@ TEST_CASE("the doctor survives a plugin that traps, and names what is wrong with
     INFO(result.out << result.err);
     CHECK(result.exit_code == 1);
     for (const char* const part :
-         {"reflection-traps-on-load.so    refused: loading it ends the process with signal",
+         {"reflection-traps-on-load.so    refused: loading it ended the process with signal",
           "in use: reflection/faultless 1.0.0", "hidden by",
           "light-text.so                  refused: its manifest light-text.json is missing",
           "shape-alone.so                 refused: its manifest exists, but the library does not",
@@ -132,14 +132,14 @@ TEST_CASE("however loading a library ends, the doctor says so and ends, and so d
         const char* message;
     };
     for (const auto& [what, message] : {
-             Ending{"exit", "refused: loading it ends the process with exit code 0"},
-             Ending{"sleep", "refused: loading it has not finished after 2 s"},
-             Ending{"stop", "refused: loading it has not finished after 2 s"},
+             Ending{"exit", "refused: loading it ended the process with exit code 0"},
+             Ending{"sleep", "refused: loading it did not finish within 2 s"},
+             Ending{"stop", "refused: loading it did not finish within 2 s"},
              Ending{"throw", "refused: loading it "},
-             Ending{"abort", "refused: loading it ends the process with signal Aborted"},
-             Ending{"crash", "refused: loading it ends the process with signal Segmentation fault"},
-             Ending{"close", "refused: loading it ends the process with exit code 0"},
-             Ending{"fork", "starts a process that goes on, every time it is loaded"},
+             Ending{"abort", "refused: loading it ended the process with signal Aborted"},
+             Ending{"crash", "refused: loading it ended the process with signal Segmentation fault"},
+             Ending{"close", "refused: loading it ended the process with exit code 0"},
+             Ending{"fork", "starts a process that keeps running every time it is loaded"},
          }) {
         INFO(what);
         CommandSetup setup;
@@ -151,8 +151,8 @@ TEST_CASE("however loading a library ends, the doctor says so and ends, and so d
         CHECK(doctor.out.find(message) != std::string::npos);
         CHECK(doctor.out.find("in use: light/point") != std::string::npos);
     }
-    for (const auto& [what, message] : {Ending{"exit", "ends the process with exit code 0"},
-                                        Ending{"abort", "ends the process with signal"}}) {
+    for (const auto& [what, message] : {Ending{"exit", "ended the process with exit code 0"},
+                                        Ending{"abort", "ended the process with signal"}}) {
         CommandSetup setup;
         setup.environment = {{"MUSEUM_ON_LOAD", what}};
         const fs::path manifest = directory / "written.json";
@@ -213,7 +213,7 @@ TEST_CASE("a new plugin that is called like one that is there will hide it, and 
         run_candela({"plugin", "new", "reflection", "lambert"}, in_directory(directory));
     INFO(hiding.err);
     CHECK(hiding.exit_code == 0);
-    CHECK(hiding.err.find("there is a reflection plugin 'lambert' already") != std::string::npos);
+    CHECK(hiding.err.find("a reflection plugin 'lambert' already exists") != std::string::npos);
     CHECK(run_candela({"plugin", "new", "reflection", "velvet"}, in_directory(directory)).err.empty());
 }
 

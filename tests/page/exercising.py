@@ -38,9 +38,9 @@ class Exercising(unittest.TestCase):
 
     def test_a_right_formula_matches(self):
         self.open()
-        self.assertEqual(self.verdict(), "Nothing is written yet.")
+        self.assertEqual(self.verdict(), "Nothing written yet.")
         self.write(PHONG)
-        self.assertEqual(self.verdict(), "It gives what the model gives.")
+        self.assertEqual(self.verdict(), "It matches the model.")
         self.assertEqual({row[0] for row in self.shares().values()}, {"0 %"})
 
     def test_half_of_the_diffuse_light_is_half_of_it_off(self):
@@ -60,7 +60,7 @@ class Exercising(unittest.TestCase):
         self.write(PHONG)
         self.write(PHONG.replace("clamped_power", "clamped_powr"))
         self.assertIn("Line 3: ", self.browser.text(".editor-problems"))
-        self.assertIn("below is what did last", self.verdict())
+        self.assertIn("the results below are from the last version that did", self.verdict())
         self.write("#define x\n" + PHONG)
         self.assertIn("Line 1: the kernel language has no preprocessor", self.browser.text(".editor-problems"))
 
@@ -79,7 +79,7 @@ class Exercising(unittest.TestCase):
         self.browser.click("clear-answer")
         self.browser.one("#answer-file").send_keys(str(file))
         self.browser.rest(0.8)
-        self.assertEqual(self.verdict(), "It gives what the model gives.")
+        self.assertEqual(self.verdict(), "It matches the model.")
 
     def test_every_control_has_a_name(self):
         self.open()
@@ -96,4 +96,4 @@ class Exercising(unittest.TestCase):
                 prefix = model.replace("-", "_")
                 begin = text.index("{", text.index(f" {prefix}_reflect(")) + 1
                 self.write(text[begin:text.index("\n}", begin)].strip("\n"))
-                self.assertEqual(self.verdict(), "It gives what the model gives.", self.browser.text(".editor-problems"))
+                self.assertEqual(self.verdict(), "It matches the model.", self.browser.text(".editor-problems"))

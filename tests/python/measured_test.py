@@ -53,10 +53,10 @@ class Measured(unittest.TestCase):
         self.assertTrue(np.isnan(candela.read_merl(self.path).evaluate([0, 0, 1], [0, 0, 1], [0, 0, 1])).all())
 
     def test_what_is_no_such_file_is_refused(self):
-        for content, said in ((b"", "does not begin with three sizes"), (b"P6 12 12 255", "does not begin|there should be"),
-                              (struct.pack("<3i", 90, 90, 180) + b"abc", "there are 3"),
-                              (struct.pack("<3i", 1, 1, 1) + bytes(25), "there are more"),
-                              (struct.pack("<3i", 1, 1, 1) + struct.pack("<3d", 1, 2, float("nan")), "no numbers"),
+        for content, said in ((b"", "does not begin with three sizes"), (b"P6 12 12 255", "does not begin|expected"),
+                              (struct.pack("<3i", 90, 90, 180) + b"abc", "found 3"),
+                              (struct.pack("<3i", 1, 1, 1) + bytes(25), "found more"),
+                              (struct.pack("<3i", 1, 1, 1) + struct.pack("<3d", 1, 2, float("nan")), "non-finite values"),
                               (struct.pack("<3i", 2**30, 2**30, 2**30), "does not begin with three sizes")):
             self.path.write_bytes(content)
             with self.assertRaisesRegex(candela.Error, said):

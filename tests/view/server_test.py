@@ -124,7 +124,7 @@ class ServerTest(unittest.TestCase):
     def test_what_would_make_the_scene_wrong_is_not_saved_and_said(self):
         before = self.view.file.read_text()
         for query, reason in (("set=object.0.color%3D%5B700%2C8%2C9%5D", b"outside its range"), ("set=object.3.color%3D%5B1%2C2%2C3%5D", b"there is no object 3"),
-                              ("", b"nothing is to be changed"), ("reflection=lambrt", b"lambert")):
+                              ("", b"nothing to change"), ("reflection=lambrt", b"lambert")):
             answer = self.save(query)
             self.assertIn(b" 422 ", answer.split(b"\r\n")[0], query)
             self.assertIn(reason, answer)
@@ -158,7 +158,7 @@ class ServerTest(unittest.TestCase):
         self.assertEqual(self.view.folder.joinpath("cel/cel.kernel").read_text(), "// mine\nstruct CelMaterial { vec3 ka; };\nKERNEL vec3 cel_reflect_ambient(CelMaterial m, Surface s) { return m.ka; }\n")
         before = {each: each.read_bytes() for each in self.view.folder.joinpath("cel").iterdir()}
         self.view.folder.joinpath("link").symlink_to("/nonexistent")
-        for name, reason in (("cel", b"already there"), ("link", b"already there"), ("tmp", b"already there"), ("..%2Fx", b"cannot be a plugin's name"),
+        for name, reason in (("cel", b"already exists"), ("link", b"already exists"), ("tmp", b"already exists"), ("..%2Fx", b"cannot be a plugin's name"),
                              ("%2Ftmp%2Fx", b"cannot be a plugin's name"), ("", b"cannot be a plugin's name"), ("-x", b"cannot be a plugin's name"), ("A", b"cannot be a plugin's name")):
             status, answer = self.keep(f"model=phong&name={name}")
             self.assertEqual(status, 422, name)
@@ -476,11 +476,11 @@ class Ending(unittest.TestCase):
             done = subprocess.run([COMMAND, "view", "--no-open", "--port", str(port)], env=ENVIRONMENT, capture_output=True, text=True,
                                   stdin=subprocess.DEVNULL, timeout=LONGEST)
         self.assertEqual(done.returncode, 1)
-        self.assertIn(f"port {port} of 127.0.0.1 cannot be listened on", done.stderr)
+        self.assertIn(f"cannot listen on port {port} of 127.0.0.1", done.stderr)
 
     def test_what_cannot_be_followed_is_refused(self):
         for arguments, words in ((["-"], "is not a file"), (["nowhere.toml"], "is not a file"), (["--port", "70000"], "--port is 70000"),
-                                 (["--target", "cpp2"], "there is no target 'cpp2'")):
+                                 (["--target", "cpp2"], "unknown target 'cpp2'")):
             done = subprocess.run([COMMAND, "view", "--no-open", *arguments], env=ENVIRONMENT, capture_output=True, text=True,
                                   stdin=subprocess.DEVNULL, timeout=LONGEST)
             self.assertEqual(done.returncode, 2, done.stderr)
