@@ -1,4 +1,4 @@
-// candela animate: frames against those that `render` draws one by one, and what is left alone.
+// candela animate: compares frames with those that `render` draws one by one, and checks which are kept.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ CommandResult animate(const fs::path& directory, std::vector<std::string> more =
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// Says when a file was last written, and by which name of the file system.
+/// When a file was last written, and its identity in the file system.
 auto stamp(const fs::path& file) { return fs::last_write_time(file); }
 
 /// The names in a folder, sorted.
@@ -76,11 +76,11 @@ TEST_CASE("every frame is the picture that render --frame draws") {
     CHECK(read_file(directory / "frames/000.png") != read_file(directory / "frames/001.png"));
 }
 
-TEST_CASE("frames that are whole and made from the same inputs are left alone, and others are not") {
+TEST_CASE("frames that are complete and made from the same inputs are kept, and others are rendered again") {
     const fs::path directory = with_scene();
     REQUIRE(animate(directory, {"--frames", "0..2"}).exit_code == 0);
     const std::string whole = read_file(directory / "frames/0001.png");
-    // Cut short, lost, and written by somebody else.
+    // Truncated, lost, and written by another program.
     write_file(directory / "frames/0001.png", whole.substr(0, whole.size() / 2));
     fs::remove(directory / "frames/0002.png");
     const auto before = stamp(directory / "frames/0000.png");
@@ -90,7 +90,7 @@ TEST_CASE("frames that are whole and made from the same inputs are left alone, a
     CHECK(read_file(directory / "frames/0001.png") == whole);
     CHECK(fs::exists(directory / "frames/0002.png"));
 
-    // The light gets brighter in frames 1 to 5; frame 0 is what it was.
+    // The light gets brighter in frames 1 to 5; frame 0 is unchanged.
     std::string scene = scene_text();
     scene.replace(scene.find("20.0"), 4, "30.0");
     write_file(directory / "scene.toml", scene);
@@ -104,7 +104,7 @@ TEST_CASE("frames that are whole and made from the same inputs are left alone, a
     CHECK_FALSE(holds(result.err, "already up to date"));
 }
 
-TEST_CASE("a mesh that has changed makes its frames anew") {
+TEST_CASE("a changed mesh makes animate render its frames again") {
     const fs::path directory = with_scene();
     const auto tetrahedron = [](const std::string& height) {
         return "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 " + height + " 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n";
@@ -135,7 +135,7 @@ TEST_CASE("two processes that write the same frames at once are harmless") {
     CHECK(holds(animate(directory).err, "6 of them already up to date"));
 }
 
-TEST_CASE("patterns, ranges and scenes that make no frames are explained") {
+TEST_CASE("messages explain patterns, ranges and scenes that yield no frames") {
     const fs::path directory = with_scene();
     write_file(directory / "still.toml", box_scene(33, 21));
     const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
@@ -185,7 +185,7 @@ TEST_CASE("a mistake in a late frame is found before the first is rendered") {
         CHECK(holds(result.err, "in frame 5, by the track of 'object.box.position'"));
     }
     CHECK_FALSE(fs::exists(directory / "frames"));
-    // The frames before it are as good as ever.
+    // The earlier frames are intact.
     CHECK(animate(directory, {"--frames", "0..3"}).exit_code == 0);
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("check sums up the animation") {
     CHECK(holds(json.out, "\"frames\": 6"));
 }
 
-TEST_CASE("films are made by ffmpeg, of all frames, and nothing else is left") {
+TEST_CASE("ffmpeg makes films of all frames, and no other files remain") {
     const fs::path directory = with_scene();
     const CommandResult result = animate(directory, {"-o", "film.mp4", "-o", "out/film.gif"});
     INFO(result.err);
@@ -214,7 +214,7 @@ TEST_CASE("films are made by ffmpeg, of all frames, and nothing else is left") {
     CHECK(probe.out == "34,22,12/1,6\n");
 }
 
-TEST_CASE("a film without ffmpeg is an error that names it, before anything is rendered") {
+TEST_CASE("a film without ffmpeg is an error that names ffmpeg, before anything is rendered") {
     const fs::path directory = with_scene();
     const CommandResult result = run_candela(
         {"animate", "scene.toml", "-o", "film.mp4"},
@@ -224,7 +224,7 @@ TEST_CASE("a film without ffmpeg is an error that names it, before anything is r
     CHECK(names(directory) == std::vector<std::string>{"scene.toml"});
 }
 
-TEST_CASE("new --animation writes a film that is valid in all frames") {
+TEST_CASE("new --animation writes an animated scene that is valid in all frames") {
     const fs::path directory = scratch_directory();
     const CommandResult result = run_candela({"new", "--animation"}, in(directory));
     CHECK(result.exit_code == 0);
@@ -237,7 +237,7 @@ TEST_CASE("new --animation writes a film that is valid in all frames") {
 
 namespace {
 
-/// A scene of so many objects, and a track for each, or as many for the first.
+/// A scene of `count` objects with a track for each, or all tracks for the first.
 std::string with_tracks(int count, bool are_all_of_one) {
     std::string text = box_scene(33, 21) + "[constraints]\noverlap = \"allow\"\n[animation]\nframes = 2\n";
     for (int i = 0; i < count; ++i) {
@@ -269,7 +269,7 @@ TEST_CASE("thousands of tracks cost as much as thousands of objects, not as thei
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("of tracks of one value each but the first is refused, once") {
+TEST_CASE("among tracks of one value, each but the first is refused, once") {
     constexpr int k_many = 500;
     const CommandResult result = checked_within(30, with_tracks(k_many, true));
     CHECK(result.exit_code == 3);

@@ -1,5 +1,5 @@
-// Every constraint, every type and every boundary of the scene file, spoilt one at a time in a valid scene
-// and given to the built command.
+// Breaks every constraint, every type and every boundary of the scene file, one at a time, in a valid scene,
+// and runs the built command on it.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One place of the valid scene, and what stands there instead. An @ is not part of the text: it marks where
-/// the message must point.
+/// One place in the valid scene, and its replacement. An @ is not part of the text: it marks the place that
+/// the message must point to.
 struct Change {
     const char* from;
     const char* to;
@@ -22,12 +22,12 @@ struct Change {
 
 struct Mistake {
     Change change;
-    std::vector<const char*> message;  // parts of it, and of its hint
+    std::vector<const char*> message;  // parts of the message and its hint
 };
 
 struct Spoilt {
     std::string text;
-    std::string place;  // "14:9", of the mark; empty without one
+    std::string place;  // of the mark, "14:9"; empty without one
 };
 
 Spoilt spoilt(const Change& change) {
@@ -59,7 +59,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
     return count;
 }
 
-/// Each is found, at its place, with its message, and nothing else is.
+/// Expects an error for each mistake, at its place and with its message, and no others.
 void check_mistakes(const std::vector<Mistake>& mistakes) {
     for (const Mistake& mistake : mistakes) {
         const Spoilt scene = spoilt(mistake.change);
@@ -245,7 +245,7 @@ TEST_CASE("mistakes of the models") {
           "reflection = \"lambert\"\n[object.material]\nkd = 0.7\n@shininess = 31.0"},
          {"reflection/lambert has no parameter 'shininess', which reflection/blinn-phong, "}},
     });
-    // R12, R13: nobody to ask.
+    // R12, R13: there is nobody to ask.
     for (const auto& [change, what] : std::vector<std::pair<Change, const char*>>{
              {{"[shading]\nmodel = \"phong\"", ""}, "the scene names no shading model"},
              {{"[reflection]\nmodel = \"phong\"", ""}, "the scene names no reflection model"}}) {
@@ -409,7 +409,7 @@ TEST_CASE("mistakes of materials") {
     check_good({{"kd = 0.7", "kd = 0.75"}}, "more than 1: the surface sends out more light than it receives");
 }
 
-TEST_CASE("objects that leave the room or run into one another") {
+TEST_CASE("objects that leave the room or overlap") {
     check_mistakes({
         {{"position = [-2.0, 0.0, 0.0]", "position = @[-4.0, 0.0, 0.0]"},
          {"object 'box' is not wholly inside the room: it reaches from x = -5.02452 to x = -2.97548",
@@ -430,7 +430,7 @@ TEST_CASE("objects that leave the room or run into one another") {
         {{"position = [0.0, 1.0, -3.0]", "position = @[2.7, 0.25, 0.0]"},
          {"object 'wedge' overlaps object 'ring'"}},
     });
-    // Neighbours: on the floor, in the ring's hole, boxes that meet but surfaces that do not.
+    // Neighbours: on the floor, in the ring's hole, and with overlapping boxes but disjoint surfaces.
     check_good({{"position = [0.0, -1.0, 0.0]", "position = [0.0, -3.25, 0.0]"},
                 {"radius   = 0.75\nsegments = 20\nposition = [0.0, -1.0, 0.0]",
                  "radius   = 0.45\nsegments = 20\nposition = [2.0, 0.25, 0.0]"},
@@ -468,7 +468,7 @@ TEST_CASE("a mistake in every table is found in one run, sorted by place, geomet
     CHECK(count_of(result.err, " error: ") == 7);
 }
 
-TEST_CASE("glass in which light goes no distance is an error at its place") {
+TEST_CASE("glass that absorbs light at once is an error at its place") {
     const CommandResult result = checked(
         "version = 1\n[[object]]\ntype = \"sphere\"\nreflection = \"dielectric\"\n"
         "[object.material]\ndepth = 1e-45\n");

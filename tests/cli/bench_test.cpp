@@ -1,11 +1,11 @@
-// candela bench: figures that hang together, and errors as everywhere.
+// candela bench: consistent figures, and the usual errors.
 #include <catch2/catch_test_macros.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "support/command.h"
 
-TEST_CASE("bench: the figures are positive, and fit one another") {
+TEST_CASE("bench: the figures are positive and consistent") {
     const CommandResult result = run_candela(
         {"bench", "--frames", "3", "--warm-up", "1", "--width", "160", "--height", "120", "--json"});
     INFO(result.err);
@@ -25,7 +25,7 @@ TEST_CASE("bench: the figures are positive, and fit one another") {
     CHECK(pixels < 1.01 * 160 * 120);
 }
 
-TEST_CASE("bench: prints a table, and leaves no file behind") {
+TEST_CASE("bench: prints a table and leaves no file behind") {
     const std::filesystem::path directory = scratch_directory();
     const CommandResult result = run_candela({"bench", "--frames", "2", "--width", "64", "--height", "64"},
                                              {.input = "", .environment = {}, .directory = directory});
@@ -35,7 +35,7 @@ TEST_CASE("bench: prints a table, and leaves no file behind") {
     CHECK(std::filesystem::is_empty(directory));
 }
 
-TEST_CASE("bench: wrong numbers are usage errors, wrong scenes are wrong scenes") {
+TEST_CASE("bench: invalid numbers are usage errors, and invalid scenes are scene errors") {
     CHECK(run_candela({"bench", "--frames", "0"}).exit_code == 2);
     CHECK(run_candela({"bench", "--threads", "-1"}).exit_code == 2);
     CHECK(run_candela({"bench", "--set", "light.lamp.intensity=-1"}).exit_code == 3);

@@ -1,4 +1,4 @@
-// The command, as a person at a shell meets it.
+// The command as used from a shell.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -22,7 +22,7 @@ constexpr const char* k_png_signature = "\x89PNG\r\n\x1a\n";
 
 }  // namespace
 
-TEST_CASE("no verb, or an unknown one, is a usage error with help") {
+TEST_CASE("a missing or unknown verb is a usage error with help") {
     const CommandResult none = run_candela({});
     CHECK(none.exit_code == 2);
     CHECK(none.out.empty());
@@ -93,7 +93,7 @@ TEST_CASE("on a terminal, -o - is refused") {
     CHECK(run_candela_on_terminal({"render", "-o", "-"}, "").exit_code == 2);
 }
 
-TEST_CASE("flags go before the scene") {
+TEST_CASE("flags may precede the scene") {
     const fs::path directory = scratch_directory();
     const std::string file = write_file(directory / "scene.toml", scene()).string();
     const CommandResult result =
@@ -118,7 +118,7 @@ TEST_CASE("an invalid scene has exit code 3, and no picture is written") {
     CHECK(run_candela({"render", (directory / "none.toml").string()}).exit_code == 1);
 }
 
-TEST_CASE("check says that a valid scene is valid, on standard output") {
+TEST_CASE("check reports on standard output that a valid scene is valid") {
     const std::string file = write_file(scratch_directory() / "scene.toml", scene()).string();
     const CommandResult result = run_candela({"check", file});
     CHECK(result.exit_code == 0);
@@ -129,7 +129,7 @@ TEST_CASE("check says that a valid scene is valid, on standard output") {
     CHECK(result.err.empty());
 }
 
-TEST_CASE("check --print prints what was read as one file, which is the same scene") {
+TEST_CASE("check --print prints the scene as one file that gives the same scene") {
     const fs::path directory = scratch_directory();
     write_file(directory / "parts" / "lights.toml",
                "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [1, 1, 3]\n");
@@ -156,7 +156,7 @@ TEST_CASE("check --print prints what was read as one file, which is the same sce
     CHECK(holds(printed.out, "[shading]\nmodel = \"phong\"\n\n[reflection]\nmodel = \"lambert\"\n"));
     CHECK(holds(printed.out, "\"" + (directory / "mesh.obj").string() + "\""));
 
-    // From another directory, and with nothing else said.
+    // From another directory, without any other arguments.
     const std::string copy = write_file(directory / "elsewhere" / "copy.toml", printed.out).string();
     REQUIRE(with_more({"render", file, "-o", (directory / "a.ppm").string()}).exit_code == 0);
     REQUIRE(run_candela({"render", copy, "-o", (directory / "b.ppm").string()}).exit_code == 0);
@@ -166,7 +166,7 @@ TEST_CASE("check --print prints what was read as one file, which is the same sce
     CHECK(run_candela({"check", file, "--print", "--json"}).exit_code == 2);
 }
 
-TEST_CASE("a picture that cannot be is an error before anything is rendered, and after") {
+TEST_CASE("a picture that cannot be written is an error, before and after rendering") {
     const fs::path directory = scratch_directory();
     const CommandResult format = run_candela({"render", "-o", (directory / "a.pgn").string()});
     CHECK(format.exit_code == 2);
@@ -179,7 +179,7 @@ TEST_CASE("a picture that cannot be is an error before anything is rendered, and
     CHECK(holds(run_candela({"render", "-o", (directory / "dir.png").string()}).err, "is a directory"));
 }
 
-TEST_CASE("a full disk is an error, and leaves no half file") {
+TEST_CASE("a full disk is an error and leaves no partial file") {
     const CommandResult result = run_candela({"render", "-o", "/dev/full"});
     CHECK(result.exit_code == 2);  // no extension
     const fs::path directory = scratch_directory();
@@ -190,7 +190,8 @@ TEST_CASE("a full disk is an error, and leaves no half file") {
     CHECK(run_program({"sh", "-c", std::string(CANDELA_TEST_COMMAND) + " list > /dev/full"}).exit_code == 1);
 }
 
-TEST_CASE("the old picture keeps its place and its rights until the new one is whole; links stay links") {
+TEST_CASE(
+    "the old picture keeps its place and its permissions until the new one is complete; links stay links") {
     const fs::path directory = scratch_directory();
     const fs::path file = write_file(directory / "a.png", "old");
     fs::permissions(file, fs::perms::owner_all);
@@ -202,7 +203,7 @@ TEST_CASE("the old picture keeps its place and its rights until the new one is w
     CHECK(std::distance(fs::directory_iterator(directory), {}) == 2);
 }
 
-TEST_CASE("colour is for terminals, unless NO_COLOR says otherwise") {
+TEST_CASE("only terminals get colour, and none with NO_COLOR") {
     CHECK_FALSE(holds(run_candela({"redner"}).err, "\x1b["));
     const CommandSetup colored{.input = "", .environment = {{"TERM", "xterm"}}, .directory = {}};
     CHECK(holds(run_candela_on_terminal({"redner"}, "", colored).out, "\x1b["));
@@ -211,7 +212,7 @@ TEST_CASE("colour is for terminals, unless NO_COLOR says otherwise") {
     CHECK_FALSE(holds(run_candela_on_terminal({"redner"}, "", plain).out, "\x1b["));
 }
 
-TEST_CASE("the command itself needs neither OpenImageIO nor any other library of pictures") {
+TEST_CASE("the command itself links neither OpenImageIO nor any other image library") {
     const CommandResult libraries = run_program({"ldd", CANDELA_TEST_COMMAND});
     REQUIRE(libraries.exit_code == 0);
     CHECK(holds(libraries.out, "libcandela_core.so"));
@@ -220,7 +221,7 @@ TEST_CASE("the command itself needs neither OpenImageIO nor any other library of
     }
 }
 
-TEST_CASE("list and describe tell what manifests tell") {
+TEST_CASE("list and describe show the contents of manifests") {
     const CommandResult all = run_candela({"list"});
     CHECK(all.exit_code == 0);
     for (const char* const name : {"half-lambert", "gouraud", "teapot", "spot", "openimageio"})
@@ -245,7 +246,7 @@ TEST_CASE("list and describe tell what manifests tell") {
     CHECK(holds(unknown.err, "did you mean 'phong'?"));
 }
 
-TEST_CASE("refused plugins are warnings on standard error, and the rest still works") {
+TEST_CASE("refused plugins are warnings on standard error, and the others still work") {
     const fs::path directory = scratch_directory();
     write_file(directory / "reflection-text.so", "no library");
     const CommandResult list = run_candela({"list", "--plugin-dir", directory.string()});

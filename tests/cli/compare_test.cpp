@@ -1,4 +1,5 @@
-// candela compare: sheets against the pictures that `render` writes, and differences worked out by hand.
+// candela compare: compares sheets with the pictures that `render` writes, and with differences computed by
+// hand.
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>
@@ -102,7 +103,7 @@ constexpr int k_margin = 4, k_line = 10;
 
 }  // namespace
 
-TEST_CASE("each picture on a sheet is, byte for byte, what `render` makes of that combination") {
+TEST_CASE("each picture on a sheet is, byte for byte, the one that `render` makes of that combination") {
     const Folder folder;
     const std::vector<std::string> reflections{"lambert", "half-lambert", "phong"}, shadings{"flat", "phong"};
     const Ppm sheet = folder.made({"compare", "face.toml", "--reflection", "lambert,half-lambert,phong",
@@ -126,7 +127,7 @@ TEST_CASE("each picture on a sheet is, byte for byte, what `render` makes of tha
     }
 }
 
-TEST_CASE("values are compared like models, and a side alone is broken into rows") {
+TEST_CASE("values are compared like models, and a single axis is broken into rows") {
     const Folder folder;
     const Ppm sheet = folder.made({"compare", "face.toml", "--vary", "light.sun.intensity=0.2,0.4,0.6,0.8",
                                    "--vary", "object.0.color=[255,0,0]", "--columns=2", "-o", "sheet.ppm"},
@@ -138,12 +139,12 @@ TEST_CASE("values are compared like models, and a side alone is broken into rows
     CHECK(pixel[1] == 0);
 }
 
-TEST_CASE("with --difference, a sheet tells how far each picture is from the first") {
+TEST_CASE("with --difference, a sheet shows how much each picture differs from the first") {
     const Folder folder;
     const CommandResult result =
         folder.run({"compare", "face.toml", "--reflection=lambert,half-lambert,lambert ", "--difference",
                     "--json", "-o", "sheet.ppm"});
-    CHECK(result.exit_code != 0);  // "lambert " is no model
+    CHECK(result.exit_code != 0);  // "lambert " is not a model
     const CommandResult sound =
         folder.run({"compare", "face.toml", "--reflection=lambert,half-lambert", "--vary",
                     "light.sun.intensity=1,0.5", "--difference", "--json", "-o", "sheet.ppm"});
@@ -166,7 +167,7 @@ TEST_CASE("with --difference, a sheet tells how far each picture is from the fir
               sheet.part(k_margin + 30, k_margin + 40 + 2 * k_margin + k_line + 20, 1, 1)[0]) == 255);
 }
 
-TEST_CASE("what is to be said of a later picture is said, and what all have in common once") {
+TEST_CASE("diagnostics of a later picture are reported, and those of all pictures only once") {
     const Folder folder;
     const CommandResult result = folder.run({"compare", "face.toml", "--reflection=phong", "--vary",
                                              "object.0.material.ks=0.1,0.9,0.1e0", "-o", "sheet.ppm"});
@@ -177,7 +178,7 @@ TEST_CASE("what is to be said of a later picture is said, and what all have in c
     CHECK(result.err.find("warning", first + 1) == std::string::npos);
 }
 
-TEST_CASE("what cannot be compared is an error that says why, and no sheet") {
+TEST_CASE("an impossible comparison is an error with a reason, and no sheet") {
     const Folder folder;
     CHECK(holds(folder.error({}, 2), "nothing to compare"));
     CHECK(holds(folder.error({"--reflection=phong"}, 2), "nothing to compare"));

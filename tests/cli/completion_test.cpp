@@ -1,5 +1,5 @@
-// Completion for shells, and the manual pages: both say what --help says. In the shells themselves:
-// tests/shells.
+// Completion for shells, and the manual pages: both agree with --help. tests/shells runs the shells
+// themselves.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <regex>
@@ -23,7 +23,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// What the last of the words may become, without meanings.
+/// The completions of the last word, without meanings.
 std::set<std::string> completions(const std::vector<std::string>& words) {
     const CommandResult result =
         run_candela(words, {.input = {}, .environment = {{"CANDELA_COMPLETE", "1"}}, .directory = {}});
@@ -68,7 +68,7 @@ TEST_CASE("completion: what can be set in a scene, part by part") {
     CHECK(completions({"render", "--format-set", "qua"}) == Words{"quality="});
 }
 
-TEST_CASE("completion: files are left to the shell, and mistakes before the cursor are borne") {
+TEST_CASE("completion: files are left to the shell, and mistakes before the cursor are tolerated") {
     CHECK(completions({"render", ""}) == Words{"\tfiles"});
     CHECK(completions({"render", "-o", ""}) == Words{"\tfiles"});
     CHECK(completions({"render", "--plugin-dir", ""}) == Words{"\tfolders"});
@@ -78,7 +78,7 @@ TEST_CASE("completion: files are left to the shell, and mistakes before the curs
 
 namespace {
 
-/// What readline is to put in place of `replaced`, the end of a line that is typed in bash.
+/// The replacements of `replaced`, the end of a line typed in bash.
 std::set<std::string> insertions(const std::string& line, const std::string& replaced,
                                  const fs::path& directory = {}) {
     const CommandResult result =
@@ -100,7 +100,7 @@ fs::path scene_with(const std::vector<std::string>& names_in_toml) {
 
 }  // namespace
 
-TEST_CASE("completion in bash: what is inserted is quoted for where it stands") {
+TEST_CASE("completion in bash: inserted words are quoted for their place") {
     using Insertions = std::set<std::string>;
     CHECK(insertions("candela ren", "ren") == Insertions{"render"});
     CHECK(insertions("candela render --reflection=gg", "gg") == Insertions{"ggx"});
@@ -116,7 +116,7 @@ TEST_CASE("completion in bash: what is inserted is quoted for where it stands") 
           Insertions{R"x(object.box\$(touch\${IFS}X).)x"});
     CHECK(insertions(before + R"x(object.box\$)x", R"x(object.box\$)x", folder) ==
           Insertions{R"x(object.box\$\(touch\$\{IFS\}X\).)x"});
-    // Readline would leave what stands before it, and the shell execute that.
+    // Readline would leave the text before it, and the shell would execute that.
     CHECK(insertions(before + "object.box$(tou", "tou", folder).empty());
     CHECK(insertions(before + "$'object.b", "object.b", folder).empty());
     CHECK(insertions(before + "object.box`tou", "tou", folder).empty());
@@ -124,7 +124,8 @@ TEST_CASE("completion in bash: what is inserted is quoted for where it stands") 
           Insertions{R"x(object.box\$(touch\${IFS}X).)x"});
 }
 
-TEST_CASE("completion offers what can be typed: an index for a name that a path cannot have") {
+TEST_CASE(
+    "completion offers only words that can be typed: an index instead of a name that a path cannot contain") {
     const std::string scene =
         scene_with({"", R"(, name = "a.b")", R"(, name = "a=b")", R"(, name = "plain")"}).string();
     CHECK(completions({"render", scene, "--set", "object."}) ==
@@ -151,12 +152,12 @@ TEST_CASE("completion offers no name that would be taken for an option") {
     CHECK(completions({"describe", where, "reflection/-"}) == Words{"reflection/-x"});
 }
 
-TEST_CASE("every verb has a manual page with every option that its help has") {
+TEST_CASE("every verb has a manual page with every option of its help") {
     const CommandResult overview = run_candela({"--help-as", "man"});
     int verbs = 0;
     for (const std::string& verb : completions({""})) {
         CHECK(overview.out.find("\n.B " + verb + "\n") != std::string::npos);
-        if (verb == "plugin" || verb == "exercise") continue;  // their verbs have pages
+        if (verb == "plugin" || verb == "exercise") continue;  // their subverbs have pages
         INFO(verb);
         ++verbs;
         const CommandResult help = run_candela(

@@ -1,4 +1,4 @@
-// "Why is it black?": a picture without light says so, with the reason.
+// "Why is it black?": a picture without light comes with the reason.
 #include <catch2/catch_test_macros.hpp>
 #include <string>
 
@@ -27,18 +27,18 @@ const std::string k_in_front = "position = [1, 1, 3]\n";
 
 }  // namespace
 
-TEST_CASE("a picture that shows light says nothing of darkness") {
+TEST_CASE("a picture that shows light gets no warning about darkness") {
     CHECK_FALSE(holds(warning(light(k_in_front) + k_ball), "lit"));
 }
 
-TEST_CASE("no lights, and no objects, are the reason where there are none") {
+TEST_CASE("the absence of lights or objects is given as the reason") {
     const std::string no_lights = warning(k_ball);
     CHECK(holds(no_lights, "the scene has no lights: every object is black"));
     CHECK_FALSE(holds(no_lights, "nothing in the picture is lit"));
     CHECK(holds(warning(light(k_in_front)), "the scene has no objects"));
 }
 
-TEST_CASE("an observer who looks away, or past all objects, is told where they are") {
+TEST_CASE("if the observer looks away from all objects, the warning says where they are") {
     const std::string scene = light(k_in_front) + k_ball + "position = [0, 1, 0]\n";
     CHECK(holds(warning(scene, "[0, 0, 5]"), "looks away from all objects; object 'ball' is around [0, 1, "));
     CHECK(holds(warning(scene, "[4, 0, 1]"), "no object is within the view"));
@@ -46,13 +46,13 @@ TEST_CASE("an observer who looks away, or past all objects, is told where they a
                 "none is as large as a pixel"));
 }
 
-TEST_CASE("a light behind all that is seen is the reason, also with several lights") {
+TEST_CASE("a light behind everything visible is the reason, also with several lights") {
     CHECK(holds(warning(light("position = [0, 0, -3]\n") +
                         "[[light]]\ntype = \"directional\"\ndirection = [0, 0, 1]\n" + k_ball),
                 "every light is behind every face that the observer sees"));
 }
 
-TEST_CASE("a light that sends nothing is the reason: no intensity, black, or a cone that shines elsewhere") {
+TEST_CASE("a light that emits nothing is the reason: no intensity, black, or a cone that points elsewhere") {
     CHECK(holds(warning(light(k_in_front + "intensity = 0\n") + k_ball), "no light reaches an object"));
     CHECK(holds(warning(light(k_in_front + "color = [0, 0, 0]\n") + k_ball), "no light reaches an object"));
     CHECK(holds(warning("[[light]]\ntype = \"spot\"\nposition = [0, 4, 0]\ndirection = [0, 1, 0]\n" + k_ball),
@@ -70,7 +70,7 @@ TEST_CASE("light too weak for 8 bits is the reason, and a float picture of it is
     CHECK_FALSE(holds(warning(scene, "[0, 0, 0]", "a.exr"), "lit"));
 }
 
-TEST_CASE("a black object is not told to have more light") {
+TEST_CASE("a black object does not cause advice to add light") {
     const std::string black = "[object.material]\nka = 0\nkd = 0\nks = 1e-15\n";
     const std::string said = warning(light(k_in_front) + k_ball + black);
     CHECK(holds(said, "the objects reflect next to nothing"));

@@ -1,4 +1,4 @@
-// Ending all programs that were started, while others are being started.
+// Ends all child processes while others are being started.
 #include <catch2/catch_test_macros.hpp>
 
 #include <spawn.h>
@@ -30,7 +30,7 @@ bool is_gone(pid_t process) { return ::kill(process, 0) != 0 && errno == ESRCH; 
 
 }  // namespace
 
-TEST_CASE("all programs are ended, and those that another thread starts meanwhile do not hold it up") {
+TEST_CASE("all programs are ended, without waiting for those that another thread starts meanwhile") {
     std::vector<pid_t> started;
     std::atomic<bool> is_over = false;
     std::future<void> ending = std::async(std::launch::async, [&] {
@@ -44,7 +44,8 @@ TEST_CASE("all programs are ended, and those that another thread starts meanwhil
     is_over = true;
     const bool is_ended = ending.wait_for(std::chrono::seconds(60)) == std::future_status::ready;
     if (!is_ended)
-        for (const pid_t process : started) ::kill(process, SIGKILL);  // or it would wait for them
+        for (const pid_t process : started)
+            ::kill(process, SIGKILL);  // otherwise the test would wait for them
     CHECK(is_ended);
     ending.wait();
     for (const pid_t process : started) CHECK(is_gone(process));

@@ -1,4 +1,4 @@
-// candela diff against differences that are worked out by hand.
+// candela diff: compares its figures with differences computed by hand.
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -40,7 +40,7 @@ std::string plain(int width, int height, int level) {
     return ppm(width, height, Numbers(static_cast<std::size_t>(3 * width * height), level));
 }
 
-/// Rows from the bottom, as the format has it.
+/// Rows from the bottom, as in the format.
 std::string pfm(int width, int height, const std::vector<float>& numbers) {
     return "PF\n" + std::to_string(width) + ' ' + std::to_string(height) + "\n-1.0\n" +
            std::string(reinterpret_cast<const char*>(numbers.data()), sizeof(float) * numbers.size());
@@ -134,7 +134,7 @@ TEST_CASE("identical pictures differ by nothing, and have no finite PSNR") {
     CHECK(figures["perceptible"] == Json({{"pixels", 0}, {"share", 0.0}}));
 }
 
-TEST_CASE("the figures are those worked out by hand") {
+TEST_CASE("the figures are those computed by hand") {
     const Folder folder = folder_with_pictures();
     const Json figures = folder.figures({"a.ppm", "b.ppm"});
     CHECK(figures["width"] == 3);
@@ -167,7 +167,7 @@ TEST_CASE("they are aligned for people to read") {
                          "perceptible         "));
 }
 
-TEST_CASE("pixels under the mask's white are counted apart, white being above a half") {
+TEST_CASE("pixels under the mask's white (above a half) are counted separately") {
     const Folder folder = folder_with_pictures();
     const Json figures = folder.figures({"a.ppm", "b.ppm", "--mask", "mask.ppm"});
     const Json& interior = figures["interior"];
@@ -181,7 +181,7 @@ TEST_CASE("pixels under the mask's white are counted apart, white being above a 
     CHECK(edges["maximum"] == 12.0);
     CHECK(edges["mean"] == 4.0);
 
-    // Red is not white; and where all is white, nothing is left.
+    // Red is not white; a mask that is white everywhere leaves nothing.
     folder.write("red.ppm", ppm(3, 1, {255, 0, 0, 255, 0, 0, 255, 0, 0}));
     CHECK(folder.figures({"a.ppm", "b.ppm", "--mask", "red.ppm"})["edges"]["pixels"] == 0);
     folder.write("white.ppm", plain(3, 1, 255));
@@ -191,7 +191,7 @@ TEST_CASE("pixels under the mask's white are counted apart, white being above a 
     CHECK(nothing["interior"]["psnr"].is_null());
 }
 
-TEST_CASE("beyond the tolerance, which spares edges, the exit code is 4, and the figures are printed") {
+TEST_CASE("beyond the tolerance, which ignores edges, the exit code is 4 and the figures are printed") {
     const Folder folder = folder_with_pictures();
     CHECK(folder.diff({"a.ppm", "b.ppm"}).exit_code == 0);
     CHECK(folder.diff({"a.ppm", "b.ppm", "--tolerance", "12"}).exit_code == 0);
@@ -212,26 +212,26 @@ TEST_CASE("beyond the tolerance, which spares edges, the exit code is 4, and the
     CHECK(code("3") == 4);
 }
 
-TEST_CASE("a tolerance of some levels tolerates just these, whatever the levels") {
+TEST_CASE("a tolerance tolerates exactly that many levels, at any level") {
     const Folder folder;
     Numbers before, after, deep;
     for (int level = 0; level + 7 < 256; ++level) {
         for (int c = 0; c < 3; ++c) {
             before.push_back(level);
             after.push_back(level + 7);
-            deep.insert(deep.end(), {level, level});  // 257 level of 65535
+            deep.insert(deep.end(), {level, level});  // 257 * level, of 65535
         }
     }
     folder.write("a.ppm", ppm(249, 1, before));
     folder.write("b.ppm", ppm(249, 1, after));
     CHECK(folder.figures({"a.ppm", "b.ppm", "--tolerance", "7"})["interior"]["mean"] == 7.0);
     CHECK(folder.diff({"a.ppm", "b.ppm", "--tolerance", "6.999999"}).exit_code == 4);
-    // OpenImageIO's reader of deep PPMs may be off by 1 of 65535.
+    // OpenImageIO's reader of 16-bit PPMs may be off by 1 of 65535.
     folder.write("deep.ppm", "P6\n249 1\n65535\n" + bytes(deep));
     CHECK(folder.diff({"a.ppm", "deep.ppm", "--tolerance", "0.01"}).exit_code == 0);
 }
 
-TEST_CASE("alpha is ignored, and grey is red, green and blue alike") {
+TEST_CASE("alpha is ignored, and grey counts as equal red, green and blue") {
     const Folder folder;
     folder.write("color.ppm", ppm(2, 1, {30, 20, 10, 60, 60, 60}));
     folder.write("alpha.tga", tga(2, 1, {10, 20, 30, 0, 60, 60, 60, 128}));
@@ -241,7 +241,7 @@ TEST_CASE("alpha is ignored, and grey is red, green and blue alike") {
     CHECK(folder.figures({"color.ppm", "grey.pgm"})["interior"]["mean"].get<double>() == Approx(3.0 / 6));
 }
 
-TEST_CASE("floats are compared as they are, times 255, also beyond 1, below 0 and with whole numbers") {
+TEST_CASE("floats are compared unchanged, times 255, even beyond 1, below 0 and with whole numbers") {
     const Folder folder;
     folder.write("a.pfm", pfm(1, 2, {0.5f, -1.0f, 8.0f, 0.0f, 0.0f, 0.0f}));
     folder.write("b.pfm", pfm(1, 2, {0.5f, -2.0f, 8.0f, 0.0f, 0.0f, 0.25f}));
@@ -260,7 +260,7 @@ TEST_CASE("floats are compared as they are, times 255, also beyond 1, below 0 an
     CHECK(huge["interior"]["maximum"].get<double>() == Approx(255 * 6e38));
 }
 
-TEST_CASE("a number that is not finite is an error that says where it is") {
+TEST_CASE("a non-finite number is an error that says where it is") {
     const Folder folder;
     constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float k_infinity = std::numeric_limits<float>::infinity();
@@ -279,7 +279,7 @@ TEST_CASE("a number that is not finite is an error that says where it is") {
     CHECK_FALSE(fs::exists(folder / "heat.png"));
 }
 
-TEST_CASE("pictures of different sizes are an error that names both, and so is a mask") {
+TEST_CASE("pictures of different sizes are an error that names both, and so is a mask of another size") {
     const Folder folder;
     folder.write("a.ppm", plain(3, 2, 0));
     folder.write("b.ppm", plain(2, 3, 0));
@@ -288,7 +288,7 @@ TEST_CASE("pictures of different sizes are an error that names both, and so is a
                 "'a.ppm' has 3 x 2 pixels, 'b.ppm' has 2 x 3"));
 }
 
-TEST_CASE("what is no picture is an error that says why") {
+TEST_CASE("a file that is not a picture is an error with a reason") {
     const Folder folder = folder_with_pictures();
     CHECK(holds(folder.error({"a.ppm", "b.pmm"}, 1), "there is no file 'b.pmm'; did you mean 'b.ppm'?"));
     CHECK(holds(folder.error({"none/a.ppm", "a.ppm"}, 1), "there is no folder 'none' either"));
@@ -304,14 +304,14 @@ TEST_CASE("what is no picture is an error that says why") {
     CHECK(holds(folder.error({"short.ppm", "a.ppm"}, 1), "'short.ppm' cannot be read: "));
     folder.write("huge.ppm", "P6\n2000000 2000000\n255\n");
     const std::string huge = folder.error({"huge.ppm", "a.ppm"}, 1);
-    // The second where OpenImageIO has a limit of its own, from 2.5 on.
+    // The second message appears if OpenImageIO has a limit of its own, from 2.5 on.
     const bool has_limit = holds(huge, "2000000 x 2000000 pixels; 1 to 65536") ||
                            holds(huge, "'huge.ppm' is not a picture: pnm image resolution may not exceed");
     CHECK(has_limit);
     CHECK(holds(folder.error({"a.ppm", "a.ppm", "--mask", "text.png"}, 1), "'text.png' is not a picture"));
 }
 
-TEST_CASE("candela diff that is wrongly used says so, with what may have been meant") {
+TEST_CASE("wrong usage of candela diff is an error with a suggestion") {
     const Folder folder = folder_with_pictures();
     CHECK(holds(folder.error({}, 2), "needs two pictures"));
     CHECK(holds(folder.error({"a.ppm"}, 2), "needs two pictures"));
@@ -324,7 +324,7 @@ TEST_CASE("candela diff that is wrongly used says so, with what may have been me
     CHECK(holds(folder.diff({"--help"}).out, "Usage: candela diff A B [options]"));
 }
 
-TEST_CASE("no picture that is compared, and no mask, is replaced by what candela diff writes") {
+TEST_CASE("candela diff never overwrites a picture or a mask that it reads") {
     const Folder folder = folder_with_pictures();
     const std::string before = read_file(folder / "b.ppm"), mask = read_file(folder / "mask.ppm");
     for (const char* const flag : {"--output", "--decoded"}) {
@@ -337,7 +337,7 @@ TEST_CASE("no picture that is compared, and no mask, is replaced by what candela
     CHECK(read_file(folder / "mask.ppm") == mask);
 }
 
-TEST_CASE("the heat-map is black where nothing differs, and brightest where most does") {
+TEST_CASE("the heat-map is black where nothing differs, and brightest at the largest difference") {
     const Folder folder;
     Numbers numbers(std::size_t{3} * 5 * 4, 40);
     folder.write("a.ppm", ppm(5, 4, numbers));
@@ -355,7 +355,7 @@ TEST_CASE("the heat-map is black where nothing differs, and brightest where most
     CHECK(brightness(heat, 7) > 600);
     CHECK(brightness(heat, 7) > brightness(heat, 13));
 
-    // In every format the same picture.
+    // The same picture in every format.
     for (const char* const name : {"heat.png", "heat.bmp", "heat.tga"}) {
         INFO(name);
         CHECK(folder.diff({"a.ppm", "b.ppm", "-o", name}).exit_code == 0);
@@ -366,9 +366,9 @@ TEST_CASE("the heat-map is black where nothing differs, and brightest where most
     CHECK((read_file(folder / "black.ppm") == read_file(folder / "zero.ppm")));
 }
 
-TEST_CASE("the heat-map is whole or not there") {
+TEST_CASE("the heat-map is complete or not written") {
     const Folder folder = folder_with_pictures();
-    // It is also written beyond the tolerance: then it is wanted most.
+    // It is also written beyond the tolerance, when it is needed most.
     CHECK(folder.diff({"a.ppm", "b.ppm", "-o", "heat.png", "--tolerance", "0"}).exit_code == 4);
     CHECK(folder.figures({"heat.png", "heat.png"})["width"] == 3);
     folder.write("kept.png", "old");
@@ -387,10 +387,10 @@ TEST_CASE("the heat-map is whole or not there") {
               .exit_code == 1);
 }
 
-// On a uniform grey, what is seen is what Ward Larson's threshold says: at 47.4 cd/m² (between the levels 188
-// and 183) it is 3.03 cd/m², and these differ by 2.94; between 188 and 182 it is 3.02, and they differ by
-// 3.51. At 19.9 cd/m² it is 1.67: 128 and 124 differ by 1.43, 128 and 123 by 1.78.
-TEST_CASE("a difference of grey is seen from the eye's threshold on") {
+// On a uniform grey, the visible differences follow Ward Larson's threshold: at 47.4 cd/m² (between the
+// levels 188 and 183) it is 3.03 cd/m², and these differ by 2.94; between 188 and 182 it is 3.02, and they
+// differ by 3.51. At 19.9 cd/m² it is 1.67: 128 and 124 differ by 1.43, 128 and 123 by 1.78.
+TEST_CASE("a difference of grey is visible from the eye's threshold on") {
     const Folder folder;
     const auto seen = [&](int a, int b) {
         folder.write("a.ppm", plain(40, 30, a));
@@ -406,7 +406,7 @@ TEST_CASE("a difference of grey is seen from the eye's threshold on") {
     CHECK(seen(0, 255) == 1200);
 }
 
-TEST_CASE("a difference of colour alone is seen, and only where it is") {
+TEST_CASE("a difference of colour alone is visible, and only in its place") {
     const Folder folder;
     Numbers numbers(std::size_t{3} * 64 * 64, 128);
     folder.write("a.ppm", ppm(64, 64, numbers));
@@ -415,7 +415,7 @@ TEST_CASE("a difference of colour alone is seen, and only where it is") {
     CHECK(folder.figures({"a.ppm", "b.ppm"})["perceptible"]["pixels"] == 1);
 }
 
-TEST_CASE("a texture hides what is seen on a smooth surface") {
+TEST_CASE("a texture hides a difference that is visible on a smooth surface") {
     const Folder folder;
     const auto seen = [&](int low, int high) {
         Numbers before, after;

@@ -1,4 +1,4 @@
-// What the documentation shows must be so.
+// Checks what the documentation shows.
 #include "candela/abi.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ std::string table_rows(const fs::path& page, const std::string& first) {
     return rows;
 }
 
-/// What stands between backquotes.
+/// The texts between backquotes.
 std::set<std::string> code_in(const std::string& text) {
     std::set<std::string> words;
     for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', at + 1)) {
@@ -81,7 +81,7 @@ CommandResult check(const fs::path& file) { return run_candela({"check", file.st
 
 }  // namespace
 
-TEST_CASE("the README's scene is valid, and its mistake is explained as it says") {
+TEST_CASE("the README's scene is valid, and its mistake is explained as shown there") {
     const fs::path directory = scratch_directory();
     std::string scene = block("README.md", "toml");
     const CommandResult good = check(write_file(directory / "good.toml", scene));
@@ -106,7 +106,7 @@ TEST_CASE("the scene of docs/scene-file.md is valid") {
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("docs/versioning.md speaks of this interface version, and of this fingerprint") {
+TEST_CASE("docs/versioning.md states this interface version and this fingerprint") {
     const std::string text = read_file(k_source / "docs/versioning.md");
     const std::string version = std::to_string(CANDELA_INTERFACE_VERSION);
     CHECK(block("docs/versioning.md", "text") == std::string(CANDELA_ABI) + "\n");
@@ -127,7 +127,7 @@ TEST_CASE("the example scenes are valid") {
     CHECK(checked > 0);
 }
 
-// A model is its folder: adding one must not require a line here or there, but what is said must be so.
+// A model is its folder: adding one must not require a line here or there, but existing lines must be right.
 TEST_CASE("the README's table of models names shipped plugins, and nothing else") {
     std::string unknown;
     for (const auto& [kind, names] : shipped()) {
@@ -160,7 +160,7 @@ TEST_CASE("docs/equations.md has a row for every light, reflection model and sha
     CHECK(missing.empty());
 }
 
-TEST_CASE("the commands that the documentation shows can be run as they are printed") {
+TEST_CASE("the commands in the documentation can be run as printed") {
     const fs::path d = scratch_directory();
     const auto run = [&](const std::vector<std::string>& words) {
         return run_candela(words, {.input = "", .environment = {}, .directory = d});
@@ -181,7 +181,7 @@ TEST_CASE("the commands that the documentation shows can be run as they are prin
             std::vector<std::string> words;
             for (std::string word; text >> word;) words.push_back(word);
             if (words.size() < 2 || words[0] != "candela" || !verbs.contains(words[1])) continue;
-            // What a reader has built before, and what only a shell can do.
+            // Commands that need an earlier build by the reader, or a shell.
             if (line.find_first_of("|<>") != std::string::npos ||
                 line.find("--plugin-dir") != std::string::npos ||
                 line.find("reflection/cel") != std::string::npos)
@@ -198,7 +198,7 @@ TEST_CASE("the commands that the documentation shows can be run as they are prin
     CHECK(count > 20);
 }
 
-TEST_CASE("the command and the values that help gives as examples can be used as they are printed") {
+TEST_CASE("the commands and values that help gives as examples can be used as printed") {
     const fs::path d = scratch_directory();
     const auto run = [&](const std::vector<std::string>& words) {
         return run_candela(words, {.input = "", .environment = {}, .directory = d});
@@ -216,7 +216,7 @@ TEST_CASE("the command and the values that help gives as examples can be used as
         INFO(words[0] << ' ' << words[2] << ' ' << words.back() << ": " << result.err);
         CHECK(result.exit_code == 0);
     };
-    /// The words after "such as ", up to what ends them in a sentence.
+    /// The words after "such as ", up to the end of the example.
     const auto examples_in = [](const std::string& help) {
         std::set<std::string> examples;
         const std::string_view mark = "such as ";
@@ -256,7 +256,7 @@ TEST_CASE("the command and the values that help gives as examples can be used as
         ++count;
     }
     for (const std::string& example : examples_in(compare)) {
-        if (example.find(',') == std::string::npos) continue;  // of another option
+        if (example.find(',') == std::string::npos) continue;  // an example of another option
         std::vector<std::string> sheet = {"compare", "--vary", example};
         sheet.insert(sheet.end(), small.begin(), small.end());
         in_scene(sheet);

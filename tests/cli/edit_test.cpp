@@ -1,4 +1,4 @@
-// candela edit: what it writes, and what it says where it writes nothing.
+// candela edit: the text that it writes, and its messages when it writes nothing.
 #include <sys/ptrace.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -38,12 +38,12 @@ Edited edit(const std::vector<std::string>& options) {
     words.insert(words.end(), options.begin(), options.end());
     Edited edited{run_candela(words, {.input = "", .environment = {}, .directory = folder}), {}};
     edited.text = read_file(file);
-    // Neither a draft nor anything else is left beside the scene.
+    // Neither a draft nor any other file remains next to the scene.
     CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
     return edited;
 }
 
-/// Lets a traced program run to its first call of fsync, does something, and lets it go on; false if it ends
+/// Lets a traced program run to its first call of fsync, does something, and resumes it; false if it ends
 /// before that.
 bool act_before_sync(pid_t program, const std::function<void()>& act) {
     int status = 0;
@@ -62,7 +62,7 @@ bool act_before_sync(pid_t program, const std::function<void()>& act) {
 
 }  // namespace
 
-TEST_CASE("candela edit does not overwrite what somebody has saved since it read the file") {
+TEST_CASE("candela edit does not overwrite changes saved since it read the file") {
     const fs::path folder = scratch_directory();
     const fs::path file = write_file(folder / "scene.toml", k_scene);
     const std::string theirs = k_scene + "# Theirs.\n";
@@ -81,7 +81,7 @@ TEST_CASE("candela edit does not overwrite what somebody has saved since it read
     CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
 }
 
-TEST_CASE("candela edit writes values into the file, and says its name") {
+TEST_CASE("candela edit writes values into the file and reports its name") {
     const Edited edited = edit({"--change", "light.key.intensity=0.5", "--change=observer.position=[0,1,4]"});
     CHECK(edited.result.exit_code == 0);
     CHECK(edited.result.err == "scene.toml: changed\n");
@@ -92,7 +92,7 @@ TEST_CASE("candela edit writes values into the file, and says its name") {
           "[[object]]\ntype = \"sphere\"\nradius = 0.5\n");
 }
 
-TEST_CASE("candela edit writes nothing, and says why, if the scene would have errors") {
+TEST_CASE("candela edit writes nothing and says why if the scene would have errors") {
     struct Wrong {
         std::vector<std::string> options;
         int exit_code;
@@ -102,7 +102,7 @@ TEST_CASE("candela edit writes nothing, and says why, if the scene would have er
              Wrong{{"--change", "light.kye.intensity=1"}, 3, "no light is called 'kye'"},
              Wrong{{"--change", "light.key.intensity=-1"}, 3, "intensity"},
              Wrong{{"--change", "shading.model=gourad"}, 3, "gouraud"},
-             // Only the triangles tell.
+             // Only the triangles show this error.
              Wrong{{"--change", "light.key.position=[0,0,0]"}, 3, "is inside object"},
              Wrong{{"--change", "width"}, 2, "has no '='"},
              Wrong{{}, 2, "nothing to change"},
@@ -126,8 +126,7 @@ TEST_CASE("candela edit needs a file to write into") {
     CHECK(run_candela({"edit", "missing.toml", "--change", "image.width=9"}).exit_code != 0);
 }
 
-TEST_CASE(
-    "candela edit changes the first line of a file that begins with a byte order mark, and keeps the mark") {
+TEST_CASE("candela edit changes the first line of a file with a byte order mark, and keeps the mark") {
     const fs::path folder = scratch_directory();
     const std::string mark = "\xef\xbb\xbf";
     const fs::path file =
@@ -140,7 +139,7 @@ TEST_CASE(
     CHECK(read_file(file) == mark + "image = { width = 200, height = 50, samples = 4 }\n" + k_scene);
 }
 
-TEST_CASE("any number of objects, and of changes, is edited in one go") {
+TEST_CASE("any number of objects and changes is edited in one go") {
     const fs::path folder = scratch_directory();
     std::string scene = k_scene;
     std::vector<std::string> words{"edit", "scene.toml"};

@@ -1,4 +1,4 @@
-// Pictures that surround the scene, and what cannot be one.
+// Pictures that surround the scene, and files that cannot.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -29,7 +29,7 @@ const std::string k_picture = std::string("P6\n4 1\n255\n") + "\xff" + std::stri
 
 }  // namespace
 
-TEST_CASE("an environment picture, relative to the scene's file, is seen around the object") {
+TEST_CASE("an environment picture, relative to the scene's file, is visible around the object") {
     const fs::path d = scratch_directory();
     write_file(d / "sky.ppm", k_picture);
     const CommandResult result = render("environment = \"sky.ppm\"", d);
@@ -42,7 +42,7 @@ TEST_CASE("an environment picture, relative to the scene's file, is seen around 
     CHECK(static_cast<unsigned char>(picture[first + 15 * 3 + 2]) > 150);  // blue at the right
 }
 
-TEST_CASE("mistakes of the environment are said at its place") {
+TEST_CASE("mistakes in the environment are reported at its place") {
     const fs::path d = scratch_directory();
     write_file(d / "sky.ppm", k_picture);
     expect(render("environment = \"sea.ppm\"", d), 3, {"scene.toml:5:15: error: 'sea.ppm' does not exist"});
@@ -71,7 +71,7 @@ TEST_CASE("an environment that cannot be read as a picture is a failure that nam
 }
 
 TEST_CASE(
-    "without Embree, a scene with a transparent object is an error that names the package, any other "
+    "without Embree, a scene with a transparent object is an error that names the package; any other "
     "renders") {
     const fs::path d = scratch_directory();
     for (const char* const name : {"libembree3.so.3", "libembree4.so.4"})

@@ -1,5 +1,5 @@
-// candela exercise: answers by RE's equations match, RE's own mistakes are found in the term that they are
-// in, and what is hostile is refused.
+// candela exercise: answers by RE's equations match, RE's own mistakes are found in the right term, and
+// hostile answers are refused.
 #include <algorithm>
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
@@ -75,28 +75,28 @@ json grade_of(const std::string& body, const std::string& model = "reflection/ph
 double share_of(const json& grade, const std::string& name) {
     for (const json& term : grade["terms"])
         if (term["term"] == name) return term["share"];
-    FAIL("there is no term " << name);
+    FAIL("missing term " << name);
     return 0;
 }
 
 json term_of(const json& grade, const std::string& name) {
     for (const json& term : grade["terms"])
         if (term["term"] == name) return term;
-    FAIL("there is no term " << name);
+    FAIL("missing term " << name);
     return {};
 }
 
 }  // namespace
 
-TEST_CASE("exercise: Phong's equations as RE writes them give what the model gives") {
+TEST_CASE("exercise: Phong's equations as written in RE match the model") {
     const Graded result = graded({answer(scratch_directory() / "one.answer", k_phong).string()});
     CHECK(result.exit_code == 0);
     CHECK(result.grades.at(0)["result"] == "matches");
     CHECK(result.grades.at(0)["model"] == "reflection/phong");
 }
 
-TEST_CASE("exercise: RE's mistake, an even power of a negative R.V, is found in the highlight alone") {
-    // RE's third worked example: R.V = -0.5514, and 10 is even, so that there would be a highlight of 0.0026.
+TEST_CASE("exercise: RE's mistake, an even power of a negative R.V, is found only in the highlight") {
+    // RE's third worked example: R.V = -0.5514, and 10 is even, so there would be a highlight of 0.0026.
     const std::string mistaken =
         replaced(k_phong, "dot(R, s.to_observer) > 0.0 ? pow(dot(R, s.to_observer), m.shininess) : 0.0",
                  "pow(abs(dot(R, s.to_observer)), m.shininess)");
@@ -110,19 +110,19 @@ TEST_CASE("exercise: RE's mistake, an even power of a negative R.V, is found in 
     CHECK(share_of(grade, "ambient") == 0);
 }
 
-TEST_CASE("exercise: half of the diffuse light is half of it off, wherever there is any") {
+TEST_CASE("exercise: half of the diffuse light is off by half, wherever there is any") {
     const json grade = grade_of(replaced(k_phong, "m.kd * s.color", "0.5 * m.kd * s.color"));
     CHECK(grade["result"] == "differs");
     const json diffuse = term_of(grade, "diffuse");
     CHECK(diffuse["largest"].get<double>() == Approx(0.5).epsilon(1e-5));
     CHECK(diffuse["actual"].get<double>() == Approx(0.5 * diffuse["expected"].get<double>()).epsilon(1e-5));
-    // Half of all directions to the light are above the surface; where kd is 0 there is nothing to differ.
+    // Half of all directions to the light are above the surface; where kd is 0 nothing can differ.
     CHECK(diffuse["share"].get<double>() < 0.55);
     CHECK(diffuse["share"].get<double>() > 0.35);
     CHECK(share_of(grade, "specular") == 0);
 }
 
-TEST_CASE("exercise: ambient light is a function, and a term, of its own") {
+TEST_CASE("exercise: ambient light has a function and a term of its own") {
     CHECK(grade_of("return m.ka * s.color;", "reflection/phong", "phong_reflect_ambient")["result"] ==
           "matches");
     const json grade = grade_of("return s.color;", "phong", "reflect_ambient");
@@ -132,7 +132,7 @@ TEST_CASE("exercise: ambient light is a function, and a term, of its own") {
 }
 
 TEST_CASE(
-    "exercise: a folder is graded file by file, as a table, and nothing that is wrong in one disturbs the "
+    "exercise: a folder is graded file by file, as a table, and errors in one answer do not affect the "
     "others") {
     const fs::path folder = scratch_directory();
     answer(folder / "a.answer", k_phong);
@@ -147,14 +147,14 @@ TEST_CASE(
     CHECK(holds(result.out, "a.answer  reflection/phong phong_reflect  matches\n"));
     CHECK(holds(result.out, "b.answer  reflection/phong phong_reflect  differs\n"));
     CHECK(holds(result.out, "specular: "));
-    // What is missing at the end of line 1 is missed there.
+    // The error is where the text is missing, at the end of line 1.
     CHECK(
         holds(result.out, "does not compile: line 1, column 18: expected an operator or ';' before 'vec3'"));
     CHECK(holds(result.out, "it is not a JSON object"));
     CHECK(!holds(result.out, "notes.txt"));
 }
 
-TEST_CASE("exercise: what is not in the kernel language is refused before it is compiled, at its line") {
+TEST_CASE("exercise: text outside the kernel language is refused at its line, before it is compiled") {
     struct Hostile {
         const char* text;
         const char* message;
@@ -198,7 +198,7 @@ TEST_CASE("exercise: what is not in the kernel language is refused before it is 
     }
 }
 
-TEST_CASE("exercise: an answer that calls itself, or takes too long, is not run for ever") {
+TEST_CASE("exercise: an answer that calls itself, or takes too long, does not run forever") {
     const fs::path folder = scratch_directory();
     answer(folder / "recursion.answer", "return phong_reflect(m, s, to_light);");
     answer(folder / "steps.answer",
@@ -211,14 +211,14 @@ TEST_CASE("exercise: an answer that calls itself, or takes too long, is not run 
     CHECK(grades.at(1)["line"] == 2);
 }
 
-TEST_CASE("exercise: a name that C++ has a macro of is said, and nothing is put in its place") {
+TEST_CASE("exercise: a name that is a C++ macro is an error, and is not expanded") {
     const json grade = grade_of(
         "float UINT64_C = 1.0;\nfloat INT8_MAX = UINT64_C;\nreturn Reflected(s.color * INT8_MAX, s.color);");
     CHECK(grade["result"] == "does-not-compile");
     CHECK(holds(grade["message"], "is a macro of C++; choose another name"));
 }
 
-TEST_CASE("exercise: what is not assigned is zero, and no index or integer leads out of what there is") {
+TEST_CASE("exercise: unassigned variables are zero, and no index or integer overflow escapes its bounds") {
     const fs::path folder = scratch_directory();
     answer(
         folder / "a.answer",
@@ -227,14 +227,14 @@ TEST_CASE("exercise: what is not assigned is zero, and no index or integer leads
         "r.specular = vec3(0.0 * float(a));\nreturn r;");
     const json grade = graded({folder.string()}).grades.at(0);
     INFO(grade.dump());
-    // A right formula it is not, but it has numbers, all of them zero.
+    // The formula is wrong, but its results are numbers, all zero.
     CHECK(grade["result"] == "differs");
     for (const json& term : grade["terms"])
         if (term.contains("actual")) CHECK(term["actual"].get<double>() == 0);
 }
 
 TEST_CASE("exercise: the shipped models' own formulas are right answers", "[programs]") {
-    // The whole kernel, as it is written again from what was understood of it, gives the plugin's numbers.
+    // The whole kernel, written again from its parsed form, gives the plugin's results.
     const fs::path folder = scratch_directory(),
                    plugins = fs::path(CANDELA_TEST_SOURCE) / "plugins/reflection";
     std::size_t count = 0;
@@ -260,7 +260,7 @@ TEST_CASE("exercise: the shipped models' own formulas are right answers", "[prog
     }
 }
 
-TEST_CASE("exercise: files that are no answers say why, and do not stand in the way of those that are") {
+TEST_CASE("exercise: files that are not answers get a reason, and do not prevent grading the others") {
     const fs::path folder = scratch_directory();
     answer(folder / "a.answer", k_phong);
     answer(folder / "b.answer", k_phong, "reflection/phnog");
@@ -285,8 +285,8 @@ TEST_CASE("exercise: files that are no answers say why, and do not stand in the 
 }
 
 #if defined(__x86_64__)
-TEST_CASE("exercise: where the language does not stop it, a system call ends the process that computes") {
-    // Past the language check, which candela exercise grade makes: straight to the conformance kit.
+TEST_CASE("exercise: if the language does not prevent it, a system call ends the computing process") {
+    // Bypasses the language check of candela exercise grade by calling the conformance kit directly.
     const fs::path command = CANDELA_TEST_COMMAND, root = command.parent_path().parent_path();
     const std::string kernel =
         "struct PhongMaterial { vec3 ka; vec3 kd; vec3 ks; float shininess; };\n"
@@ -321,8 +321,8 @@ TEST_CASE("exercise: where the language does not stop it, a system call ends the
 }
 #endif
 
-TEST_CASE("exercise: the process that runs an answer has neither the plugin nor what the plugin gives") {
-    // Past the language check again, with the memory that a kernel cannot have: all of it that can be read.
+TEST_CASE("exercise: the process that runs an answer has neither the plugin nor its results") {
+    // Bypasses the language check again, and reads all readable memory, which a kernel cannot do.
     const fs::path command = CANDELA_TEST_COMMAND, root = command.parent_path().parent_path();
     const std::string kernel =
         "extern \"C\" int dl_iterate_phdr(int (*)(void*, unsigned long, void*), void*);\n"
@@ -343,29 +343,29 @@ TEST_CASE("exercise: the process that runs an answer has neither the plugin nor 
     INFO(result.out);
     const json checks = json::parse(result.out).at(0)["checks"];
     const json found = json::parse(checks.at(0)["messages"].at(0).get<std::string>());
-    // Of a light of intensity about 1: 2000 where it is not found, else 1000.
+    // For a light of intensity about 1: 2000 if nothing is found, otherwise 1000.
     CHECK(term_of(found, "diffuse")["actual"].get<double>() > 1500);
 }
 
-TEST_CASE("exercise: the page holds numbers of the model, and not the formula") {
+TEST_CASE("exercise: the page contains results of the model, but not the formula") {
     const fs::path page = scratch_directory() / "phong.html";
     const CommandResult result =
         run_candela({"exercise", "new", "reflection/phong", "--blank", "reflect", "-o", page.string()});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     const std::string text = read_file(page);
-    // Of phong.kernel, and of what candela describe says.
+    // From phong.kernel, and from the output of candela describe.
     for (const char* const part :
          {"n_dot_l * s.normal", "clamped_power(dot", "R = 2 N", "max(R.V", "kd C_o I_L", "m.ks *"})
         CHECK(!holds(text, part));
-    // What is not blank is there.
+    // The rest of the kernel is on the page.
     CHECK(holds(text, "return m.ka * s.color;"));
     CHECK(holds(text, "\"function\":\"phong_reflect\""));
     CHECK(!holds(text, "http://127"));
     CHECK(!holds(text, " src="));
 }
 
-TEST_CASE("exercise: there is one about every model whose kernel reads no table") {
+TEST_CASE("exercise: every model whose kernel reads no table has exercises") {
     const fs::path folder = scratch_directory();
     for (const char* const model :
          {"lambert", "half-lambert", "oren-nayar", "minnaert", "phong", "blinn-phong", "cook-torrance", "ggx",
@@ -378,7 +378,7 @@ TEST_CASE("exercise: there is one about every model whose kernel reads no table"
     }
 }
 
-TEST_CASE("exercise: what there is no exercise about is said, with what there is") {
+TEST_CASE("exercise: an impossible exercise is an error that lists the possible ones") {
     struct Wrong {
         std::vector<std::string> words;
         const char* message;
@@ -406,7 +406,7 @@ TEST_CASE("exercise: what there is no exercise about is said, with what there is
     CHECK(run_candela({"exercise", "new", "phnog", "--blank", "reflect"}).exit_code == 1);
 }
 
-TEST_CASE("exercise: what is off by thousands of times is called that, and not thousands of per cent") {
+TEST_CASE("exercise: an error by a factor of thousands is reported as such, not in per cent") {
     const fs::path file = answer(scratch_directory() / "one.answer",
                                  replaced(k_phong, "m.kd * s.color", "70000.0 * m.kd * s.color"));
     const CommandResult result = run_candela({"exercise", "grade", file.string()});

@@ -1,5 +1,5 @@
-// candela explain: its steps against the worked examples of the rendering-equation notes (RE) and against
-// formulas written here, its bytes against pictures.
+// candela explain: compares its steps with the worked examples of the rendering-equation notes (RE) and with
+// formulas written here, and its bytes with pictures.
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -20,12 +20,12 @@ namespace {
 struct Explained {
     json json_text;
     const json& point() const { return json_text.at("fragments").at(0).at("points").at(0); }
-    /// What arrives and is reflected of the light of that name.
+    /// The explanation of the light of that name.
     const json& light(const std::string& label) const {
         for (const json& light : point().at("lights")) {
             if (light.at("light") == "'" + label + "'") return light;
         }
-        FAIL("no light is called " << label);
+        FAIL("unknown light " << label);
         return json_text;
     }
 };
@@ -42,17 +42,17 @@ Explained explained(const std::string& scene, const std::string& mesh, const std
     return {json::parse(result.out)};
 }
 
-/// The value of a step: by its name, in the function that was called (depth 0) or one that it calls.
+/// The value of a step by its name, in the called function (depth 0) or in one that it calls.
 const json& value(const json& steps, const std::string& name, int depth = 0) {
     for (const json& step : steps) {
         if (step.at("name") == name && step.at("depth") == depth && step.contains("value"))
             return step.at("value");
     }
-    FAIL("no step is called " << name << " in " << steps.dump(1));
+    FAIL("unknown step " << name << " in " << steps.dump(1));
     return steps;
 }
 
-/// To four decimals, as the notes have them.
+/// To four decimals, as in the notes.
 void check_vector(const json& actual, double x, double y, double z, double margin = 6e-5) {
     INFO(actual.dump());
     CHECK(actual.at(0).get<double>() == Catch::Approx(x).margin(margin));
@@ -70,8 +70,8 @@ struct Face {
     std::string look_at = "[0, 0, 0]";
 };
 
-/// The pixel in the middle of a view of a triangle in a large room, with flat shading, so that light is
-/// evaluated at its centroid, and the material of RE's third example.
+/// The pixel in the middle of a view of a triangle in a large room, with the material of RE's third example
+/// and flat shading, so that light is evaluated at its centroid.
 Explained explained(const Face& face) {
     return explained("version = 1\n[room]\nwidth = 60\nheight = 60\ndepth = 60\n[observer]\nposition = " +
                          face.observer + "\nlook_at = " + face.look_at +
@@ -89,7 +89,7 @@ Explained explained(const Face& face) {
 }  // namespace
 
 // RE's three examples are at a corner of the face, or at a point without a face; here the face is moved so
-// that its centroid is that point. Orientation and lights are the notes' own.
+// that its centroid is that point. Orientation and lights are those of the notes.
 
 TEST_CASE("the first worked example of RE is explained: R for a light at (-4, 2, 0) and N = (0, 1, 0)") {
     const Explained e = explained({.corners = "v 1 0 1\nv 0 0 -2\nv -1 0 1\n",
@@ -115,13 +115,13 @@ TEST_CASE("the second worked example of RE is explained: cosines of 0.7071 and 0
     check_number(e.light("lamp").at("N.L"), 0.7071);
     const json& steps = e.light("lamp").at("reflection_steps");
     check_number(value(steps, "n_dot_l"), 0.7071);
-    check_number(value(steps, "base", 1), 0.8575);  // what clamped_power() is given: R.V
+    check_number(value(steps, "base", 1), 0.8575);  // the argument of clamped_power(): R.V
     check_number(value(steps, "highlight"), std::pow(0.8575, 10));
 }
 
-// RE sees the face from behind, where R.V is negative and it has no highlight; from in front, R.V is 0.5514.
+// RE sees the face from behind, where R.V is negative and it has no highlight; from the front, R.V is 0.5514.
 // The notes round after each step, hence the margin; the numbers that follow from the positions in double
-// precision are held to seven digits.
+// precision must agree to seven digits.
 TEST_CASE("the third worked example of RE is explained: N, L, R and the red intensity 0.4353") {
     constexpr double k_rounded = 1.5e-4;
     // V1 + (V2 - V1), V1 + (V3 - V1), V1 - both: the centroid is V1 = (.7, .1, .4).
@@ -152,7 +152,7 @@ TEST_CASE("the third worked example of RE is explained: N, L, R and the red inte
     CHECK(e.json_text.at("bytes").at(0) == std::lround(255 * sum));
 }
 
-TEST_CASE("a step is a statement of the kernel, with its file, its line and its text") {
+TEST_CASE("a step is a statement of the kernel, with its file, line and text") {
     const Explained e = explained({.corners = "v 1 0 1\nv 0 0 -2\nv -1 0 1\n",
                                    .light = "[-4, 2, 0]",
                                    .observer = "[0, 5, 1]",
@@ -171,11 +171,11 @@ TEST_CASE("a step is a statement of the kernel, with its file, its line and its 
         CHECK(step.at("line") == line);
     }
     CHECK(is_there);
-    // The text, compiled anew, computes what the plugin computes.
+    // The text, compiled again, computes the same as the plugin.
     CHECK(e.json_text.at("kernel_difference").get<double>() < 1e-5);
 }
 
-TEST_CASE("an explanation for a person has the same numbers, and ends with the byte") {
+TEST_CASE("an explanation as text has the same numbers and ends with the byte") {
     const CommandResult result = run_candela({"explain", "--pixel", "256,320"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
@@ -189,7 +189,7 @@ TEST_CASE("an explanation for a person has the same numbers, and ends with the b
     CHECK(holds("byte " + same.at("bytes").at(0).dump()));
 }
 
-TEST_CASE("where there is no compiler, explain says so, and tells what the renderer knows") {
+TEST_CASE("without a compiler, explain says so and reports the renderer's data") {
     const CommandResult result =
         run_candela({"explain", "--pixel", "256,320"},
                     {.input = "", .environment = {{"PATH", "/nowhere"}, {"CXX", ""}}, .directory = {}});
@@ -200,7 +200,7 @@ TEST_CASE("where there is no compiler, explain says so, and tells what the rende
     CHECK(result.out.find("n_dot_l") == std::string::npos);
 }
 
-TEST_CASE("a pixel that sees no object is explained by the background") {
+TEST_CASE("a pixel without an object is explained by the background") {
     const json e =
         json::parse(run_candela({"explain", "--pixel", "0,0", "--set", "image.background=[10, 20, 30]",
                                  "--set", "observer.look_at=[0, 9, 0]", "--json"})
@@ -210,7 +210,7 @@ TEST_CASE("a pixel that sees no object is explained by the background") {
     CHECK(e.at("bytes") == json({10, 20, 30}));
 }
 
-TEST_CASE("a pixel that is none is a usage error that says which there are") {
+TEST_CASE("a pixel outside the picture is a usage error that gives the valid range") {
     CHECK(run_candela({"explain"}).exit_code == 2);
     for (const char* const pixel :
          {"512,0", "0,512", "-1,0", "3", "a,b", "1,2,3", "", "1;2", "99999999999,0"}) {
@@ -222,7 +222,7 @@ TEST_CASE("a pixel that is none is a usage error that says which there are") {
     CHECK(run_candela({"explain", "--pixel", "512,0"}).err.find("0,0 to 511,511") != std::string::npos);
 }
 
-TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, and say what they said") {
+TEST_CASE("kept kernels explain other pixels without a compiler, with the same results") {
     const fs::path directory = scratch_directory(), kept = directory / "kept";
     fs::create_directory(kept);
     const auto explained_at = [&](const char* pixel, bool is_kept, bool has_compiler) {
@@ -240,7 +240,7 @@ TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, 
     CHECK(explained_at("256,300", true, true) == alone);
     CHECK(explained_at("256,300", true, false) == alone);
     CHECK(explained_at("250,290", true, false) == explained_at("250,290", false, true));
-    // A folder that others may write to, or a link to one, may hold anybody's program.
+    // A folder that others may write to, or a link to one, may contain anybody's program.
     const fs::path program = fs::directory_iterator(kept)->path();
     fs::permissions(program, fs::perms::group_write, fs::perm_options::add);
     CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
@@ -248,7 +248,7 @@ TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, 
     fs::rename(program, directory / "elsewhere");
     fs::create_symlink(directory / "elsewhere", program);
     CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
-    // A program whose source is another's is not used.
+    // A program made from another source is not used.
     fs::remove(program);
     CHECK(explained_at("256,300", true, true) == alone);
     for (const fs::directory_entry& each : fs::directory_iterator(kept))
@@ -261,7 +261,8 @@ TEST_CASE("kernels that are kept explain other pixels, too, without a compiler, 
 }
 
 TEST_CASE(
-    "pixels on standard input are explained line by line, as each of them alone; what is none is said") {
+    "pixels on standard input are explained line by line, like each of them alone; invalid lines are "
+    "errors") {
     CommandSetup setup;
     setup.input = "256,300\n9,9\nnothing\nno UTF-8: \xff\n512,0\n250,290\n";
     const CommandResult all = run_candela({"explain", "--pixel", "-", "--json", "--quiet"}, setup);

@@ -30,7 +30,7 @@ CommandResult check(const std::vector<std::string>& files, const fs::path& direc
 
 }  // namespace
 
-TEST_CASE("several files are one scene, in any order, on the command line and by include") {
+TEST_CASE("several files form one scene, in any order, on the command line and by include") {
     const fs::path d = scratch_directory();
     write_file(d / "a.toml", std::string("version = 1\n") + k_observer + k_models);
     write_file(d / "b.toml", std::string("version = 1\n") + k_light);
@@ -45,7 +45,7 @@ TEST_CASE("several files are one scene, in any order, on the command line and by
     CHECK(all.out.find("'box'") != std::string::npos);
 }
 
-TEST_CASE("what may stand once and stands twice names both places") {
+TEST_CASE("a repeated unique table is an error that names both places") {
     const fs::path d = scratch_directory();
     write_file(d / "a.toml", k_scene + "[image]\nwidth = 8\n[room]\nwidth = 9\n");
     const auto with = [&](const std::string& text) {
@@ -66,7 +66,7 @@ TEST_CASE("what may stand once and stands twice names both places") {
     CHECK(with("version = 1\n").exit_code == 0);
 }
 
-TEST_CASE("mistakes are shown file by file, in the order of reading") {
+TEST_CASE("mistakes are shown file by file, in reading order") {
     const fs::path d = scratch_directory();
     write_file(d / "z.toml", k_scene + "[image]\nwidth = 0\n");
     write_file(d / "a.toml", "[room]\nwidth = 0\n");
@@ -75,7 +75,7 @@ TEST_CASE("mistakes are shown file by file, in the order of reading") {
     CHECK(result.err.find("z.toml:16:9") < result.err.find("a.toml:2:9"));
 }
 
-TEST_CASE("includes that go round in circles, lead nowhere or come twice are errors at their line") {
+TEST_CASE("includes that are circular, missing or repeated are errors at their line") {
     const fs::path d = scratch_directory();
     const auto included = [&](const std::string& list) {
         write_file(d / "scene.toml", "version = 1\ninclude = " + list + "\n" + k_scene.substr(12));
@@ -101,7 +101,7 @@ TEST_CASE("includes that go round in circles, lead nowhere or come twice are err
     expect(check({"c.toml", "c.toml"}, d), 3, {"'c.toml' is read twice"});
 }
 
-TEST_CASE("R11: each way of not being readable has its own message and exit code") {
+TEST_CASE("R11: each kind of unreadable file has its own message and exit code") {
     const fs::path d = scratch_directory();
     write_file(d / "scene.toml", k_scene);
     expect(check({"scnee.toml"}, d), 1,
@@ -130,12 +130,12 @@ TEST_CASE("R11: each way of not being readable has its own message and exit code
            {"huge.toml:1:1: error: the file is too large: 100000000 bytes, where a scene may have"});
     fs::create_symlink("gone.toml", d / "link.toml");
     expect(check({"link.toml"}, d), 1, {"link.toml: error: there is no such file"});
-    // All files are looked at.
+    // All files are examined.
     expect(check({"scnee.toml", "empty.toml", "folder"}, d), 3,
            {"scnee.toml: error", "empty.toml:1:1: error", "folder: error"});
 }
 
-TEST_CASE("R11: a file without the right to read it says so") {
+TEST_CASE("R11: a file without read permission says so") {
     const fs::path d = scratch_directory();
     const fs::path file = write_file(d / "secret.toml", k_scene);
     fs::permissions(file, fs::perms::none);
@@ -144,7 +144,7 @@ TEST_CASE("R11: a file without the right to read it says so") {
                {"secret.toml:1:1: error: the file cannot be opened: Permission denied"});
         return;
     }
-    // To root nothing is forbidden; what the process gives up it can no longer do.
+    // Root may read everything; the process gives up that right.
     const CommandResult result =
         run_program({"setpriv", "--bounding-set=-dac_override,-dac_read_search", "--inh-caps=-all", "--",
                      CANDELA_TEST_COMMAND, "check", file.string()});

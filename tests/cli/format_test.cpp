@@ -1,4 +1,4 @@
-// --format-set: parameters of the format that a picture is written in.
+// --format-set: parameters of the format of a picture.
 #include <catch2/catch_test_macros.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +23,7 @@ CommandResult candela(const fs::path& directory, const std::vector<std::string>&
     return run_candela(words, {.input = "", .environment = {}, .directory = directory});
 }
 
-/// The size of a picture that render writes with `more`.
+/// The size of a picture that render writes with the arguments `more`.
 std::uintmax_t rendered_size(const fs::path& directory, const std::string& name,
                              std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"render", "scene.toml", "-o", name});
@@ -38,7 +38,7 @@ constexpr const char* k_two_frames = "[animation]\nframes = 2\nfps = 1\n[animati
 }  // namespace
 
 TEST_CASE(
-    "format: --format-set quality: the lower, the smaller the JPEG, and the default is what describe says") {
+    "format: --format-set quality: the lower, the smaller the JPEG, and the default is that of describe") {
     const fs::path d = with_scene();
     const auto at = [&](const std::string& quality) {
         return rendered_size(d, quality + ".jpg", {"--format-set", "quality=" + quality});
@@ -48,20 +48,20 @@ TEST_CASE(
     CHECK(rendered_size(d, "default.jpg") == at("95"));
 }
 
-TEST_CASE("format: --format-set compression=0: a PNG as large as its pixels, and with the same ones") {
+TEST_CASE("format: --format-set compression=0: a PNG as large as its pixels, with the same pixels") {
     const fs::path d = with_scene();
     const std::uintmax_t stored = rendered_size(d, "stored.png", {"--format-set", "compression=0"});
     CHECK(stored > 3 * 64 * 48);
     CHECK(rendered_size(d, "usual.png") < stored);
     CHECK(candela(d, {"diff", "stored.png", "usual.png"}).exit_code == 0);
-    // Given twice, the last one counts; on standard output, too.
+    // The last of two values counts, also on standard output.
     CHECK(rendered_size(d, "last.png", {"--format-set", "compression=9", "--format-set", "compression=0"}) ==
           stored);
     CHECK(candela(d, {"render", "scene.toml", "-o", "-", "--format-set", "compression=0"}).out.size() ==
           stored);
 }
 
-TEST_CASE("format: what is wrong with --format-set is said, and no picture is written") {
+TEST_CASE("format: a wrong --format-set is an error, and no picture is written") {
     const fs::path d = with_scene();
     const auto refused = [&](const std::string& setting, const std::vector<std::string>& parts) {
         expect(candela(d, {"render", "scene.toml", "-o", "a.jpg", "--format-set", setting}), 2, parts);
@@ -76,7 +76,7 @@ TEST_CASE("format: what is wrong with --format-set is said, and no picture is wr
     refused("=80", {"--format-set '=80' has no value"});
 }
 
-TEST_CASE("frames of another --format-set are other frames, and those of the same are left alone") {
+TEST_CASE("frames of another --format-set are rendered again, and those of the same are kept") {
     const fs::path d = with_scene(k_two_frames);
     const auto animated = [&](const std::string& quality) {
         return candela(d, {"animate", "scene.toml", "-o", "f%d.jpg", "--format-set", "quality=" + quality});
@@ -90,7 +90,7 @@ TEST_CASE("frames of another --format-set are other frames, and those of the sam
     CHECK(fs::last_write_time(d / "f0.jpg") == written);
 }
 
-TEST_CASE("tasks write what --format-set asked for, frames and assembled pictures alike") {
+TEST_CASE("tasks follow --format-set, for frames and assembled pictures") {
     const fs::path d = with_scene(k_two_frames);
     const std::uintmax_t stored = rendered_size(d, "whole.png", {"--format-set", "compression=0"});
     const auto submitted = [&](std::vector<std::string> more) {
@@ -105,7 +105,7 @@ TEST_CASE("tasks write what --format-set asked for, frames and assembled picture
     CHECK(fs::file_size(d / "parts.png") == stored);
 }
 
-TEST_CASE("a sheet of pictures is written as --format-set asks") {
+TEST_CASE("a sheet of pictures follows --format-set") {
     const fs::path d = with_scene();
     const auto size = [&](const std::string& compression) {
         const CommandResult result =

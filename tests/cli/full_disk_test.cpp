@@ -1,4 +1,4 @@
-// A file that does not fit is an error, whatever its format: nothing is left of it, and what was there stays.
+// A file that does not fit is an error in every format: nothing of it remains, and the old file stays.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -27,7 +27,7 @@ CommandResult in(const fs::path& directory, const std::vector<std::string>& word
     return run_candela(words, {.input = "", .environment = {}, .directory = directory});
 }
 
-/// What does not fit leaves the folder as it was; what fits has the bytes that it has without a limit.
+/// A file that does not fit leaves the folder unchanged; one that fits has the same bytes as without a limit.
 void check_limits(const std::string& file, std::vector<std::string> words) {
     const fs::path d = scratch_directory();
     words.insert(words.end(), {"-o", file});
@@ -54,7 +54,7 @@ const std::vector<std::string> k_formats{"png", "jpg", "jpeg", "tif", "tiff", "h
 
 }  // namespace
 
-TEST_CASE("a picture of any format that is larger than files may be is an error") {
+TEST_CASE("a picture of any format that exceeds the file size limit is an error") {
     for (const std::string& format : k_formats)
         check_limits("a." + format, {"render", "--width", "90", "--height", "61"});
 }
@@ -100,7 +100,7 @@ TEST_CASE("a full disk is an error for every format") {
     }
 }
 
-TEST_CASE("a limit on threads is a message or a picture, and no program that waits for ever") {
+TEST_CASE("a limit on threads gives a message or a picture, never a program that waits forever") {
     const fs::path d = scratch_directory();
     fs::permissions(d, fs::perms::all);
     const auto with = [&](const std::vector<std::string>& words, rlim_t most) {

@@ -1,5 +1,5 @@
-// Input that nobody writes on purpose, or somebody does to do harm: it ends in an error with a place, in
-// bounded time and memory. Inputs are as large as the point needs, not as large as they might be.
+// Input that nobody writes on purpose, except to do harm, gives an error with a place, in bounded time and
+// memory. The inputs are only as large as necessary.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -33,7 +33,7 @@ CommandResult check(const std::string& text, const std::vector<std::string>& mor
     return run_candela(words, {.input = "", .environment = {}, .directory = directory});
 }
 
-/// One of 4 GB of address space; not for sanitizers, which take terabytes of it.
+/// A limit of 4 GB of address space; not for sanitizers, which reserve terabytes.
 CommandResult in_four_gigabytes(const std::string& arguments) {
     return run_program({"sh", "-c", "ulimit -v 4000000; exec " CANDELA_TEST_COMMAND " " + arguments});
 }
@@ -47,7 +47,7 @@ constexpr bool k_has_shadow_memory =
 
 }  // namespace
 
-TEST_CASE("what nests deep is an error at the place where it becomes too deep") {
+TEST_CASE("deep nesting is an error at the place where it becomes too deep") {
     constexpr std::size_t k_deep = 200'000;
     const std::string many_parts = times(k_deep, "a.") + "a";
     expect(check("a = " + times(k_deep, "[")), 3, {"a.toml:1:37: error: this is nested more than 32 deep"});
@@ -71,12 +71,12 @@ TEST_CASE("brackets and points in strings and comments do not nest, nor do many 
         INFO(result.err);
         CHECK(result.exit_code == 0);
     }
-    // A bracket that was not closed before is what is wrong, not the many that follow.
+    // The error is the earlier unclosed bracket, not the many that follow.
     expect(check(times(40, "[a\n")), 3, {"a.toml:1:3: error: the header's closing ] is missing"});
     expect(check("a = [1, 2\n[b]\n" + times(40, "[")), 3, {"a.toml:2:1: error: expected ',' or ']'"});
 }
 
-TEST_CASE("more than a scene can have is an error that says how much it can have") {
+TEST_CASE("exceeding a scene's limits is an error that states the limit") {
     expect(check(k_start + times(100'001, "[[light]]\n")), 3,
            {"a.toml:100009:1: error: the scene has 100001 lights; it may have at most 100000"});
     expect(check(k_start + times(100'001, "[[object]]\n")), 3, {"100001 objects", "at most 100000"});
@@ -90,14 +90,14 @@ TEST_CASE("thousands of errors are counted, not all shown") {
            {"a.toml:10:8: error: no shape plugin is called 'cub'; did you mean 'cube'?", "and 9949 more"});
 }
 
-TEST_CASE("thousands of keys at the root, and in a table") {
+TEST_CASE("thousands of keys, at the root and in a table, are read") {
     std::string keys;
     for (int i = 0; i < 20'000; ++i) keys += "k" + std::to_string(i) + " = 1\n";
     expect(check(keys + k_start + "[room]\n" + keys), 3,
            {"a.toml:1:1: error: unknown key 'k0' in the scene", "and 39950 more"});
 }
 
-TEST_CASE("a message does not repeat megabytes of what was written") {
+TEST_CASE("a message does not quote megabytes of input") {
     const std::string megabyte(1'000'000, 'x');
     for (const std::string& text :
          {"[[light]]\ntype = \"" + megabyte + "\"\n", megabyte + " = 1\n",
@@ -111,7 +111,7 @@ TEST_CASE("a message does not repeat megabytes of what was written") {
     }
 }
 
-TEST_CASE("what somebody wrote is no command to the terminal that shows the message") {
+TEST_CASE("input quoted in a message is not a command to the terminal") {
     const CommandResult result =
         check(k_start +
               "[[light]]\nname = \"\\u001b[2J\"\ntype = \"\\u001b[31m\\u0007\\u009b\"\n"
@@ -123,7 +123,7 @@ TEST_CASE("what somebody wrote is no command to the terminal that shows the mess
     CHECK(result.err.find("no light plugin is called '\\u{1b}[31m\\u{7}\\u{9b}'") != std::string::npos);
 }
 
-TEST_CASE("files that include one another without end, or without number") {
+TEST_CASE("endless or countless includes are errors") {
     const fs::path d = scratch_directory();
     for (int i = 0; i < 40; ++i) {
         write_file(d / ("c" + std::to_string(i) + ".toml"),
@@ -143,7 +143,7 @@ TEST_CASE("files that include one another without end, or without number") {
     expect(run_candela({"check", "same.toml"}, there), 3, {"same.toml:1:23: error: 'w0.toml' is read twice"});
 }
 
-TEST_CASE("a file that does not know its size is read no farther than a scene may be long") {
+TEST_CASE("a file of unknown size is read no further than the longest scene") {
     if (!fs::exists("/proc/self/pagemap")) SKIP("there is no such file here");
     expect(run_candela({"check", "/proc/self/pagemap"}), 1,
            {"the file is too large: more than 67108864 bytes"});
@@ -164,9 +164,8 @@ TEST_CASE("a picture, and a shape, that do not fit into memory are errors that s
     CHECK_FALSE(fs::exists(directory / "a.pfm"));
 }
 
-TEST_CASE(
-    "wherever a library runs out of memory, while it is loaded or later, that is a message, and no abort",
-    "[whole]") {
+TEST_CASE("a library that runs out of memory, during loading or later, causes a message, not an abort",
+          "[whole]") {
     if (k_has_shadow_memory) SKIP("sanitizers need more address space");
     const fs::path directory = scratch_directory();
     const auto rendered = [&](rlim_t megabytes, const char* picture) {
@@ -178,7 +177,7 @@ TEST_CASE(
         return run_candela({"render", "--threads", "1", "-o", (directory / picture).string()}, setup);
     };
     CHECK(rendered(150, "a.png").exit_code == 0);
-    // OpenImageIO and its 255 libraries take some 400 MB; between that and what is enough it aborts.
+    // OpenImageIO and its 255 libraries take some 400 MB; between that and enough, it aborts.
     for (const rlim_t megabytes : {rlim_t{100}, rlim_t{392}, rlim_t{400}, rlim_t{412}, rlim_t{426}}) {
         const CommandResult result = rendered(megabytes, "a.exr");
         INFO(megabytes << " MB\n" << result.err);
@@ -189,7 +188,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("manifests that are none are refused, and the other plugins still work") {
+TEST_CASE("invalid manifests are refused, and the other plugins still work") {
     const fs::path d = scratch_directory();
     const auto plugin = [&](const std::string& name) {
         write_file(d / ("light-" + name + ".so"), "no library");

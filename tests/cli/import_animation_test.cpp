@@ -1,4 +1,4 @@
-// What candela import makes of a glTF file's animations.
+// candela import: the animations of glTF files.
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -43,7 +43,7 @@ class File {
         indices_ = accessor(bytes, 5121, "SCALAR", indices.size());
     }
 
-    /// Returns its node.
+    /// Adds a node and returns it.
     std::size_t box(const std::string& material, Json node = Json::object()) {
         json["materials"].push_back({{"name", material}});
         node["mesh"] = mesh(json["materials"].size() - 1);
@@ -102,7 +102,7 @@ class File {
     std::size_t position_ = 0, indices_ = 0;
 };
 
-/// A turn about y, as glTF has it.
+/// A rotation about y, in glTF's notation.
 std::array<float, 4> about_y(double degrees) {
     const double half = degrees * std::numbers::pi / 360;
     return {0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))};
@@ -125,7 +125,7 @@ CommandResult import(const fs::path& folder, const std::string& name) {
     return result;
 }
 
-/// The three numbers after `key` in what `check --print` says of a frame, after `section`.
+/// The three numbers after `key`, after `section`, in the output of `check --print` for a frame.
 std::array<double, 3> vector_in(const fs::path& folder, const std::string& scene, int frame,
                                 const std::string& section, const std::string& key) {
     const CommandResult printed =
@@ -155,7 +155,7 @@ void check_near(const std::array<double, 3>& is, const std::array<double, 3>& sh
     }
 }
 
-/// How many of its pixels' channels differ by more than a level.
+/// How many channels of the pixels differ by more than a level.
 std::size_t differing(const std::string& a, const std::string& b) {
     REQUIRE(a.size() == b.size());
     std::size_t count = 0;
@@ -166,7 +166,7 @@ std::size_t differing(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-TEST_CASE("a node that moves becomes tracks of its object, relative to where it is at rest") {
+TEST_CASE("a moving node becomes tracks of its object, relative to its rest position") {
     const fs::path folder = scratch_directory();
     File file;
     file.box("still", {{"translation", {-3, 0, 0}}});
@@ -191,7 +191,7 @@ TEST_CASE("a node that moves becomes tracks of its object, relative to where it 
     CHECK(fs::exists(folder / "f" / "048.ppm"));
 }
 
-TEST_CASE("a node that turns about a pivot of its own looks as one that rests where it is then") {
+TEST_CASE("a node that turns about its own pivot looks like one resting at that position") {
     const fs::path folder = scratch_directory();
     const auto file_at = [](double degrees) {
         File file;
@@ -231,17 +231,17 @@ TEST_CASE("a node that turns about a pivot of its own looks as one that rests wh
         const std::string is = picture("is.ppm", "moving.toml", frame);
         const std::string should = picture("should.ppm", name + ".toml", 0);
         INFO(frame);
-        // At edges, which are hundredths of a pixel off, samples fall on the other side.
+        // Edges are off by hundredths of a pixel, so some samples there differ.
         CHECK(differing(is, should) < 200);
     }
 }
 
-TEST_CASE("a model in place of a scene is shown at rest, and animated by animate") {
+TEST_CASE("a model in place of a scene is shown at rest by render and animated by animate") {
     const fs::path folder = scratch_directory();
     File still, moving;
     still.box("box", {{"translation", {1, 0, 0}}});
     still.write(folder, "still");
-    // At rest it is where it never is in its animation.
+    // Its rest position does not occur in its animation.
     moving.animate(moving.box("box", {{"translation", {1, 0, 0}}}), "translation", {0, 1},
                    {0, 3, 0, 0, 4, 0});
     moving.write(folder, "moving");
@@ -266,7 +266,7 @@ TEST_CASE("a model in place of a scene is shown at rest, and animated by animate
     CHECK(read_file(folder / "024.ppm") == read_file(folder / "a.ppm"));
 }
 
-TEST_CASE("steps, splines and turns beyond 180 degrees are followed") {
+TEST_CASE("steps, splines and rotations beyond 180 degrees are followed") {
     const fs::path folder = scratch_directory();
     File file;
     const std::size_t jumps = file.box("jumps"), swings = file.box("swings"), turns = file.box("turns"),
@@ -321,16 +321,16 @@ TEST_CASE("the camera and lights move with their nodes") {
     check_near(vector_in(folder, "a", 12, "\"lamp\"", "position"), {0, 4, 20}, 1e-4);
 }
 
-TEST_CASE("what no tracks describe stays at rest, and is counted") {
+TEST_CASE("motions that tracks cannot describe are left at rest and counted") {
     const fs::path folder = scratch_directory();
     File file;
     const std::size_t moves = file.box("moves");
     file.animate(moves, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
-    // A material on two nodes of which one moves.
+    // A material on two nodes, one of which moves.
     const std::size_t shared = file.box("shared", {{"translation", {0, 2, 0}}});
     file.add({{"mesh", file.json["nodes"][shared]["mesh"]}, {"translation", {0, 4, 0}}});
     file.animate(shared, "translation", {0, 1}, {0, 2, 0, 1, 2, 0});
-    // Sheared: turned within a node that is stretched along one axis.
+    // Sheared: rotated within a node that is stretched along one axis.
     const std::size_t sheared = file.box("sheared");
     file.add({{"scale", {1, 1, 3}}, {"children", {sheared}}});
     file.json["scenes"][0]["nodes"].erase(3);
@@ -352,7 +352,7 @@ TEST_CASE("an animation that cannot be read is left out") {
     const std::size_t box = file.box("box");
     file.animate(box, "translation", {1, 0}, {0, 0, 0, 1, 0, 0});  // times do not increase
     file.animate(box, "rotation", {0, 1}, {0, 0, 0, 1});           // a value is missing
-    file.animate(box, "scale", {0, 1}, {1, 1, 1, 0, 0, 0});        // it vanishes
+    file.animate(box, "scale", {0, 1}, {1, 1, 1, 0, 0, 0});        // the node vanishes
     file.write(folder, "a");
     CHECK(holds(import(folder, "a").err, "its animation is left out; the model is shown at rest"));
     CHECK_FALSE(holds(read_file(folder / "a.toml"), "animation]"));
@@ -363,7 +363,7 @@ TEST_CASE("an animation that cannot be read is left out") {
     CHECK(holds(import(folder, "b").err, "its animation is left out; the model is shown at rest"));
 }
 
-TEST_CASE("an object that leaves the frame is seen on its way, and the room holds it") {
+TEST_CASE("an object that leaves the frame is visible on its way, and the room contains it") {
     const fs::path folder = scratch_directory();
     File file;
     file.animate(file.box("box"), "translation", {0, 1}, {0, 0, 0, 40, 0, 0});

@@ -1,4 +1,4 @@
-// What candela import makes of a glTF file's materials, and of files that are not as they should be.
+// candela import: the materials of glTF files, and faulty files.
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
@@ -69,7 +69,7 @@ std::string png(int width, int height, const std::vector<Pixel>& pixels) {
            chunk("IDAT" + stored + raw + big_endian(b << 16 | a)) + chunk("IEND");
 }
 
-/// A GLB file: a square from (-1, -1) to (1, 1) that faces +z, or what replaces it.
+/// A GLB file: a square from (-1, -1) to (1, 1) that faces +z, or its replacement.
 class File {
   public:
     Json json =
@@ -177,11 +177,11 @@ std::string plain_png(Pixel pixel) { return png(1, 1, {pixel}); }
 
 }  // namespace
 
-TEST_CASE("import takes the mean of a texture of metalness and roughness") {
+TEST_CASE("import uses the mean of a texture of metalness and roughness") {
     File factors;
     factors.pbr() = {{"metallicFactor", 0.0}, {"roughnessFactor", 0.5}};
     File textured;
-    // Roughness is green, metalness blue, and neither is encoded.
+    // Roughness is green, metalness is blue, and neither is encoded.
     textured.pbr() = {{"metallicRoughnessTexture",
                        textured.texture(png(2, 1, {Pixel{9, 255, 0, 255}, Pixel{200, 0, 0, 255}}))}};
     const Imported imported = import(textured);
@@ -242,7 +242,9 @@ TEST_CASE("a material with a mask is cut out along its texture's opacity") {
     CHECK(greenish > 300);
     CHECK(others < greenish / 10);
 
-    SECTION("what is opaque everywhere stays whole, and so does what is blended and hardly ever opaque") {
+    SECTION(
+        "a surface that is opaque everywhere stays whole, and so does a blended one that is hardly ever "
+        "opaque") {
         file.material()["alphaCutoff"] = 0.0;
         CHECK_FALSE(holds(import(file).scene, "cutout"));
         File glass;
@@ -253,12 +255,12 @@ TEST_CASE("a material with a mask is cut out along its texture's opacity") {
         CHECK_FALSE(holds(whole.scene, "cutout"));
         CHECK(holds(whole.result.err, "the opacity of a material is left out"));
     }
-    SECTION("a scene that is printed has no place for the outline") {
+    SECTION("a printed scene has no place for the outline") {
         const fs::path folder = scratch_directory();
-        File beside = file;
+        File external = file;
         write_file(folder / "leaf.png", png(8, 8, pixels));
-        beside.json["images"] = {{{"uri", "leaf.png"}}};
-        write_file(folder / "a.glb", beside.glb());
+        external.json["images"] = {{{"uri", "leaf.png"}}};
+        write_file(folder / "a.glb", external.glb());
         const CommandResult printed = candela(folder, {"import", "a.glb", "-o", "-"});
         CHECK(printed.exit_code == 0);
         CHECK(holds(printed.err, "transparent parts are not cut out: that needs a file next to the scene"));
@@ -266,7 +268,7 @@ TEST_CASE("a material with a mask is cut out along its texture's opacity") {
     }
 }
 
-TEST_CASE("a file with a light of its own is given a little ambient light") {
+TEST_CASE("a file with a light of its own gets a little ambient light") {
     File file;
     file.pbr() = {{"metallicFactor", 0}};
     file.json["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", "directional"}}}}}}};
@@ -292,14 +294,14 @@ TEST_CASE("a light of the file's own may be inside its model") {
     import(file);
 }
 
-TEST_CASE("a glTF mesh without normals has facets, and one with normals has not") {
+TEST_CASE("a glTF mesh without normals has facets, and one with normals does not") {
     CHECK(holds(import(File(false)).scene, "crease_angle        = 0.0\n"));
     CHECK_FALSE(holds(import(File(true)).scene, "crease_angle"));
 }
 
-TEST_CASE("materials that are not double-sided are seen from the front alone") {
+TEST_CASE("materials that are not double-sided are visible only from the front") {
     File file;
-    // A room, whose walls face inwards, around a red square in its middle that faces the observer.
+    // A room whose walls face inwards, around a red square that faces the observer.
     file.primitive()["attributes"] = {
         {"POSITION", file.floats("VEC3", {-4, -4, -4, 4, -4, -4, 4, 4, -4, -4, 4, -4,
                                           -4, -4, 4,  4, -4, 4,  4, 4, 4,  -4, 4, 4})}};
@@ -322,7 +324,7 @@ TEST_CASE("materials that are not double-sided are seen from the front alone") {
     CHECK_FALSE(holds(imported.result.err, "inside out"));
 }
 
-TEST_CASE("a single-sided plane that faces away from the observer is drawn all the same") {
+TEST_CASE("a single-sided plane that faces away from the observer is still drawn") {
     File file;
     file.material() = {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
     CHECK(holds(import(file).scene, "sides               = \"front\""));
@@ -332,7 +334,7 @@ TEST_CASE("a single-sided plane that faces away from the observer is drawn all t
     CHECK(turned.middle() != turned.at(0, 0));
 }
 
-TEST_CASE("what is left out of materials is said in one line for each kind, with a count") {
+TEST_CASE("losses in materials are reported in one line per kind, with a count") {
     File file;
     const Json map = file.texture(plain_png({128, 128, 255, 255}));
     file.json["materials"] = {{{"normalTexture", map}}, {{"normalTexture", map}}, {{"normalTexture", map}}};
@@ -355,7 +357,7 @@ TEST_CASE("what is left out of materials is said in one line for each kind, with
     CHECK_FALSE(holds(said, "KHR_texture_transform"));
 }
 
-TEST_CASE("damaged pictures in a glTF file are said, by the number of a material without a name") {
+TEST_CASE("damaged pictures in a glTF file are reported, by number for materials without a name") {
     File file;
     const std::string whole = png(8, 8, std::vector<Pixel>(64, Pixel{0, 255, 0, 255}));
     file.pbr() = {{"metallicFactor", 0},
@@ -368,7 +370,7 @@ TEST_CASE("damaged pictures in a glTF file are said, by the number of a material
     CHECK(imported.middle()[1] < 50);
 }
 
-TEST_CASE("warnings about a model quote no scene that nobody has written") {
+TEST_CASE("warnings about a model do not quote a generated scene") {
     const fs::path folder = scratch_directory();
     File file;
     file.json["extensionsUsed"] = {"EXT_of_ours"};

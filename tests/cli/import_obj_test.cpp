@@ -1,4 +1,4 @@
-// OBJ and MTL files with the habits of the programs that wrote them, and the pictures that they name.
+// OBJ and MTL files with the peculiarities of the programs that wrote them, and the pictures they name.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::string square(const std::string& library, const std::string& material) {
            "\nf 1/1 2/2 3/3 4/4\n";
 }
 
-/// A ball of radius `r` at a place.
+/// A ball of radius `r` at a position.
 std::string ball(double r, std::array<double, 3> at, const std::string& begin = "") {
     constexpr int k_rings = 24, k_columns = 48;
     std::string text = begin;
@@ -108,7 +108,7 @@ std::string red_ppm() { return std::string("P6\n1 1\n255\n\xff\0\0", 14); }
 
 }  // namespace
 
-TEST_CASE("a library is found by the name that another system gives it") {
+TEST_CASE("a library is found by its name on another system") {
     const fs::path folder = scratch_directory();
     fs::create_directory(folder / "Materials");
     write_file(folder / "my paints.mtl", k_red);
@@ -132,7 +132,7 @@ TEST_CASE("a library is found by the name that another system gives it") {
     CHECK(holds(rendered(folder, "a.obj").result.err, "the material library 'no such.mtl' cannot be read"));
 }
 
-TEST_CASE("a texture is found with other capitals, with a note") {
+TEST_CASE("a texture is found despite other capitals, with a note") {
     const fs::path folder = scratch_directory();
     write_file(folder / "Red.ppm", red_ppm());
     write_file(folder / "a.mtl", "newmtl m\nmap_Kd textures\\RED.PPM\n");
@@ -142,7 +142,7 @@ TEST_CASE("a texture is found with other capitals, with a note") {
     CHECK(holds(model.result.err, "the texture 'textures\\RED.PPM' of material 'm' is read from 'Red.ppm'"));
 }
 
-TEST_CASE("names in encodings of 8 bits are found as bytes, and as what they mean") {
+TEST_CASE("names in 8-bit encodings are found as bytes and as decoded text") {
     const fs::path folder = scratch_directory();
     // Latin-1 in the files, UTF-8 on the disk.
     write_file(folder /
@@ -159,7 +159,7 @@ TEST_CASE("names in encodings of 8 bits are found as bytes, and as what they mea
     write_file(folder / "b.mtl", "newmtl m\nmap_Kd \x95\\.ppm\n");
     write_file(folder / "b.obj", square("b.mtl", "m"));
     CHECK(is_red(rendered(folder, "b.obj").picture.middle()));
-    // The same bytes on the disk, which no scene can name: the picture is written beside it.
+    // The same bytes on the disk, which a scene cannot name: the picture is written next to it.
     fs::remove(folder / "h\xc3\xb6lzern.ppm");
     write_file(folder / "h\xf6lzern.ppm", red_ppm());
     CHECK(is_red(rendered(folder, "a.obj").picture.middle()));
@@ -167,7 +167,7 @@ TEST_CASE("names in encodings of 8 bits are found as bytes, and as what they mea
     CHECK(is_red(rendered(folder, "c.toml").picture.middle()));
 }
 
-TEST_CASE("materials whose names have '#', tabs, blanks or a backslash at their end are told apart") {
+TEST_CASE("materials whose names contain '#', tabs, blanks or a final backslash are distinguished") {
     const fs::path folder = scratch_directory();
     write_file(folder / "a.mtl",
                "newmtl Paint #1 \nKd 1 0 0\nnewmtl Paint\t#2\nKd 0 1 0\nnewmtl wood\\\nKd 0 0 1\n"
@@ -206,7 +206,7 @@ TEST_CASE("a library that no face uses is noted") {
     CHECK(holds(rendered(folder, "a.obj").result.err, "no face uses a material (usemtl)"));
 }
 
-TEST_CASE("an ambient colour of white, or none, is the surface's own: unlit sides keep its hue") {
+TEST_CASE("an ambient colour of white, or none, becomes the surface's own: unlit sides keep its hue") {
     const fs::path folder = scratch_directory();
     for (const char* const ambient : {"Ka 1 1 1\n", "Ka 1.000000 1.000000 1.000000\nillum 1\n", ""}) {
         INFO(ambient);
@@ -217,7 +217,7 @@ TEST_CASE("an ambient colour of white, or none, is the surface's own: unlit side
         for (int y = 0; y < model.picture.height; ++y)
             for (int x = 0; x < model.picture.width; ++x) {
                 const auto pixel = model.picture.at(x, y);
-                bleached += pixel[1] > 70;  // the background has 43
+                bleached += pixel[1] > 70;  // the background's red is 43
             }
         CHECK(bleached == 0);
     }
@@ -225,7 +225,7 @@ TEST_CASE("an ambient colour of white, or none, is the surface's own: unlit side
     CHECK(holds(candela(folder, {"import", "a.obj", "-o", "-"}).out, "ka        = [0.1, 0.2, 0.3]\n"));
 }
 
-TEST_CASE("a texture's factor of zero is one") {
+TEST_CASE("a texture's factor of zero becomes one") {
     const fs::path folder = scratch_directory();
     write_file(folder / "red.ppm", red_ppm());
     write_file(folder / "a.mtl",
@@ -236,8 +236,7 @@ TEST_CASE("a texture's factor of zero is one") {
     CHECK_FALSE(holds(model.result.err, "transmission"));
 }
 
-TEST_CASE(
-    "imported materials send out no more than they receive, which is said once, and are not burnt out") {
+TEST_CASE("imported materials reflect no more than they receive, with one note, and are not burnt out") {
     const fs::path folder = scratch_directory();
     for (const char* const material :
          {"Ka 1 1 1\nKd .8 .8 .8\nKs .5 .5 .5\nNs 225\nillum 2\n",
@@ -260,7 +259,7 @@ TEST_CASE(
     CHECK(holds(without.out, "ks        = 0.0\n"));
 }
 
-TEST_CASE("a picture is known by its content: one of another name is read, with a note") {
+TEST_CASE("a picture's format follows from its content: a misnamed one is read, with a note") {
     const fs::path folder = scratch_directory();
     write_file(
         folder / "flat.toml",
@@ -285,7 +284,7 @@ TEST_CASE("a picture is known by its content: one of another name is read, with 
     }
 }
 
-TEST_CASE("a broken or empty picture is a note on import and the plain colour, and an error in a scene") {
+TEST_CASE("a broken or empty picture becomes a note and a plain colour on import, and an error in a scene") {
     const fs::path folder = scratch_directory();
     write_file(folder / "a.obj", square("a.mtl", "m"));
     write_file(folder / "cut.ppm", "P6\n100 100\n255\nabc");
@@ -340,7 +339,7 @@ TEST_CASE("with --allow-outside a model may name files outside its folder; messa
     CHECK(candela(folder, {"render", "models/b.gltf", "--allow-outside", "-o", "b.ppm"}).exit_code == 0);
 }
 
-TEST_CASE("a model far from its origin gives the picture that it has there") {
+TEST_CASE("a model far from its origin gives the same picture as at the origin") {
     const fs::path folder = scratch_directory();
     write_file(folder / "here.obj", ball(1, {0, 0, 0}));
     const Pixels here = rendered(folder, "here.obj").picture;
@@ -362,7 +361,7 @@ TEST_CASE("a model far from its origin gives the picture that it has there") {
     }
 }
 
-TEST_CASE("a small model far out is drawn, and its scene says where it lies") {
+TEST_CASE("a small model far from the origin is drawn, and its scene says where it lies") {
     const fs::path folder = scratch_directory();
     write_file(folder / "a.obj", ball(0.05, {500000.25, 4500000.75, 120}));
     const Rendered model = rendered(folder, "a.obj");
@@ -370,7 +369,7 @@ TEST_CASE("a small model far out is drawn, and its scene says where it lies") {
     REQUIRE(candela(folder, {"import", "a.obj", "-o", "a.toml"}).exit_code == 0);
     CHECK(holds(read_file(folder / "a.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
     CHECK(rendered(folder, "a.toml").picture.bytes == model.picture.bytes);
-    // Neither beyond what a scene may hold, nor turned so that z is up.
+    // Also beyond a scene's largest coordinates, and with z up.
     write_file(folder / "b.obj", ball(20000, {6.4e9, 0, -6.4e9}));
     CHECK(rendered(folder, "b.obj").picture.middle() != model.picture.at(0, 0));
     REQUIRE(candela(folder, {"import", "a.obj", "--up", "z", "-o", "z.toml"}).exit_code == 0);
@@ -378,7 +377,7 @@ TEST_CASE("a small model far out is drawn, and its scene says where it lies") {
     CHECK(rendered(folder, "z.toml").picture.middle() != model.picture.at(0, 0));
 }
 
-TEST_CASE("numbers of a scene read back as they were where six digits are too few") {
+TEST_CASE("numbers of a scene are read back unchanged even if six digits are too few") {
     const fs::path folder = scratch_directory();
     write_file(folder / "a.obj", ball(1, {99.015625, 0, 0}));
     const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
@@ -386,7 +385,7 @@ TEST_CASE("numbers of a scene read back as they were where six digits are too fe
     CHECK(holds(result.out, "= [99.015625, "));
 }
 
-TEST_CASE("a far glTF file's camera and lights are moved with it") {
+TEST_CASE("the camera and lights of a glTF file far from the origin are moved with it") {
     const fs::path folder = scratch_directory();
     const auto scene_at = [&](const char* name, double x, double y, double z) {
         write_file(folder / name,
@@ -413,7 +412,7 @@ TEST_CASE("a far glTF file's camera and lights are moved with it") {
     CHECK(most <= 2);
 }
 
-TEST_CASE("losses of one kind are one note with a count") {
+TEST_CASE("losses of one kind become one note with a count") {
     const fs::path folder = scratch_directory();
     std::string model = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n", library;
     for (int i = 0; i < 50; ++i) {

@@ -1,4 +1,4 @@
-// Models in place of scenes, and the scenes that candela import makes of them.
+// Models in place of scenes, and the scenes made by candela import.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct Pixels {
         return {static_cast<unsigned char>(bytes[i]), static_cast<unsigned char>(bytes[i + 1]),
                 static_cast<unsigned char>(bytes[i + 2])};
     }
-    /// Whether the outermost pixels are all of one colour.
+    /// Whether the outermost pixels all have the same colour.
     bool has_free_border() const {
         for (int x = 0; x < width; ++x)
             if (at(x, 0) != at(0, 0) || at(x, height - 1) != at(0, 0)) return false;
@@ -92,7 +92,7 @@ std::string base64(const std::string& bytes) {
     return text;
 }
 
-/// A glTF file of one triangle in z = 0, with what else it has.
+/// A glTF file of one triangle in z = 0, with additional contents.
 std::string gltf(const std::string& node_and_more, const std::string& primitive = "") {
     const std::array<float, 9> position = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
     const std::array<float, 6> uv = {0, 1, 1, 1, 0.5f, 0};
@@ -114,7 +114,7 @@ constexpr const char* k_plain_nodes = R"("nodes": [{"mesh": 0}, {}, {}])";
 
 }  // namespace
 
-TEST_CASE("a model in place of a scene is framed: it is seen whole, lit, and in the middle") {
+TEST_CASE("a model in place of a scene is framed: it is completely visible, lit and centred") {
     const fs::path folder = scratch_directory();
     // A cube of 200 metres, 1000 metres away from the origin.
     std::string text;
@@ -133,7 +133,7 @@ TEST_CASE("a model in place of a scene is framed: it is seen whole, lit, and in 
     CHECK(picture.has_free_border());
 }
 
-TEST_CASE("a model is seen whole in pictures of every proportion, by its scene too") {
+TEST_CASE("a model is completely visible in pictures of every proportion, also through its scene") {
     const fs::path folder = scratch_directory();
     std::string text;
     for (int i = 0; i < 8; ++i)
@@ -153,7 +153,7 @@ TEST_CASE("a model is seen whole in pictures of every proportion, by its scene t
             CHECK(picture.has_free_border());
         }
     }
-    // What is wide fills a narrow picture from side to side.
+    // A wide model fills a narrow picture from side to side.
     const CommandResult narrow =
         candela(folder, {"render", "scene.toml", "-o", "box.ppm", "--set", "image.width=300"});
     REQUIRE(narrow.exit_code == 0);
@@ -185,7 +185,7 @@ TEST_CASE("import writes the scene that render shows: both make the same picture
     CHECK(read_file(folder / "a.ppm") == read_file(folder / "b.ppm"));
 }
 
-TEST_CASE("import takes over what an MTL file says in Phong's words, and says what it leaves out, once") {
+TEST_CASE("import translates an MTL file's Phong parameters, and reports each loss once") {
     const fs::path folder = scratch_directory();
     write_file(folder / "two.obj", k_squares);
     write_file(folder / "two.mtl", k_two_materials);
@@ -210,7 +210,7 @@ TEST_CASE("import takes over what an MTL file says in Phong's words, and says wh
     }
 }
 
-TEST_CASE("import says which libraries, materials and textures are not there, and goes on") {
+TEST_CASE("import reports missing libraries, materials and textures, and goes on") {
     const fs::path folder = scratch_directory();
     write_file(folder / "two.obj", k_squares);
     CommandResult result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
@@ -228,7 +228,7 @@ TEST_CASE("import says which libraries, materials and textures are not there, an
     CHECK(holds(result.err, "the offset and scale of textures are left out"));
 }
 
-TEST_CASE("materials whose names are not UTF-8 are told apart by their numbers") {
+TEST_CASE("materials whose names are not UTF-8 are distinguished by their numbers") {
     const fs::path folder = scratch_directory();
     write_file(folder / "a.obj",
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl never\nusemtl \xe9\nf 1 2 3\nusemtl b\nf 1 3 2\n");
@@ -239,7 +239,7 @@ TEST_CASE("materials whose names are not UTF-8 are told apart by their numbers")
     CHECK(candela(folder, {"render", "a.obj", "-o", "a.ppm"}).exit_code == 0);
 }
 
-TEST_CASE("what an OBJ file names outside its folder is not opened") {
+TEST_CASE("files outside its folder that an OBJ file names are not opened") {
     const fs::path folder = scratch_directory();
     fs::create_directory(folder / "model");
     write_file(folder / "secret.mtl", "newmtl left\nKd 1 0 0\n");
@@ -254,7 +254,7 @@ TEST_CASE("what an OBJ file names outside its folder is not opened") {
     CHECK_FALSE(holds(result.out, "color_texture"));
 }
 
-TEST_CASE("an MTL file that is none, or hostile, leaves the model as it is") {
+TEST_CASE("an invalid or hostile MTL file leaves the model unchanged") {
     for (const std::string& library :
          {std::string("\0\1\2\xff\xfe newmtl", 12),
           std::string("newmtl\nKd\nKd x y z\nKd 1e999 nan -3\nNs -5\nillum 99\n"),
@@ -270,7 +270,7 @@ TEST_CASE("an MTL file that is none, or hostile, leaves the model as it is") {
     }
 }
 
-TEST_CASE("import takes over a glTF file's camera, lights and metallic-roughness materials") {
+TEST_CASE("import translates a glTF file's camera, lights and metallic-roughness materials") {
     const fs::path folder = scratch_directory();
     write_file(folder / "a.gltf", gltf(R"("nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0.5, 4]},
   {"translation": [0, 2, 3], "rotation": [-0.7071068, 0, 0, 0.7071068], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
@@ -299,7 +299,7 @@ TEST_CASE("import takes over a glTF file's camera, lights and metallic-roughness
     CHECK(candela(folder, {"render", "a.gltf", "-o", "a.ppm"}).exit_code == 0);
 }
 
-TEST_CASE("a texture inside a glTF file is written beside the scene, and shown by render without") {
+TEST_CASE("a texture inside a glTF file is written next to the scene, and render shows it without that") {
     const fs::path folder = scratch_directory();
     write_file(
         folder / "grey.toml",
@@ -325,9 +325,9 @@ TEST_CASE("a texture inside a glTF file is written beside the scene, and shown b
     const auto middle = picture.at(picture.width / 2, picture.height / 2);
     CHECK(middle[1] > 2 * middle[0]);
     CHECK(middle[1] > 2 * middle[2]);
-    CHECK(candela(folder, {"import", "a.gltf"}).exit_code == 1);  // it is there already
+    CHECK(candela(folder, {"import", "a.gltf"}).exit_code == 1);  // it exists already
     CHECK(candela(folder, {"import", "a.gltf", "--force"}).exit_code == 0);
-    // A link in the place of the folder, whose name Candela chooses, is not followed.
+    // A link in place of the folder, whose name Candela chooses, is not followed.
     fs::remove(folder / "a_textures" / "leaf_0.png");
     fs::rename(folder / "a_textures", folder / "elsewhere");
     fs::create_directory_symlink("elsewhere", folder / "a_textures");
@@ -367,7 +367,7 @@ TEST_CASE("textures of a glTF file that are broken, elsewhere or endless are lef
     }
 }
 
-TEST_CASE("values of the wrong type in a glTF file are defaults, and nodes in a circle are refused") {
+TEST_CASE("values of the wrong type in a glTF file become defaults, and cyclic nodes are refused") {
     const fs::path folder = scratch_directory();
     write_file(
         folder / "a.gltf",
@@ -386,7 +386,7 @@ TEST_CASE("values of the wrong type in a glTF file are defaults, and nodes in a 
     CHECK(holds(circle.err, "in two places, or within itself"));
 }
 
-TEST_CASE("lights that would burn out the picture, or leave it black, are scaled together, with a note") {
+TEST_CASE("lights that would burn out the picture, or leave it black, are scaled together with a note") {
     const fs::path folder = scratch_directory();
     for (const char* const intensity : {"1e6", "1e-9"}) {
         write_file(folder / "a.gltf", gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{}},
@@ -404,7 +404,8 @@ TEST_CASE("lights that would burn out the picture, or leave it black, are scaled
     }
 }
 
-TEST_CASE("lamps at the camera, or at one place, are moved apart with a note, and make a sound scene") {
+TEST_CASE(
+    "lamps at the camera, or at the same position, are moved apart with a note, and give a valid scene") {
     const fs::path folder = scratch_directory();
     const char* const lamp =
         R"({"translation": [0, 0, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}})";
@@ -426,7 +427,7 @@ TEST_CASE("lamps at the camera, or at one place, are moved apart with a note, an
     CHECK(positions.size() == 4);
 }
 
-TEST_CASE("colours of vertices are shown as they are, and z is up in STL files") {
+TEST_CASE("vertex colours are shown unchanged, and z is up in STL files") {
     const fs::path folder = scratch_directory();
     write_file(
         folder / "a.ply",
@@ -446,7 +447,7 @@ TEST_CASE("colours of vertices are shown as they are, and z is up in STL files")
     CHECK(candela(folder, {"import", "b.stl", "--up", "x", "-o", "-"}).exit_code == 2);
 }
 
-TEST_CASE("verbs that take a scene take a model; edit says what to do instead") {
+TEST_CASE("verbs that take a scene also take a model; edit says what to do instead") {
     const fs::path folder = scratch_directory();
     write_file(folder / "two.obj", k_squares);
     write_file(folder / "two.mtl", k_two_materials);
@@ -463,7 +464,7 @@ TEST_CASE("verbs that take a scene take a model; edit says what to do instead") 
     CHECK(holds(two.err, "which is shown on its own"));
 }
 
-TEST_CASE("import refuses what is no model, is not there or is broken, and writes nothing then") {
+TEST_CASE("import refuses files that are not models, missing or broken, and writes nothing") {
     const fs::path folder = scratch_directory();
     write_file(folder / "a.txt", "hello");
     write_file(folder / "broken.obj", "v 0 0\nf 1 2 3\n");
@@ -480,7 +481,7 @@ TEST_CASE("import refuses what is no model, is not there or is broken, and write
     CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 2);
 }
 
-TEST_CASE("a PLY file shows the texture that a comment of MeshLab's names") {
+TEST_CASE("a PLY file shows the texture named in MeshLab's comment") {
     const fs::path folder = scratch_directory();
     const auto write = [&](const char* picture) {
         write_file(folder / "a.ply",

@@ -1,5 +1,5 @@
-// Whatever happens while a picture is written, what stands in its place is whole, and nothing stands beside
-// it.
+// Whatever happens while a picture is written, the file in its place is complete, and no other file appears
+// next to it.
 #include <fcntl.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
@@ -57,8 +57,8 @@ std::vector<fs::path> files_in(const fs::path& directory) {
     return files;
 }
 
-/// Whether a process has a file of that directory open for as long as it writes: where the file system has
-/// files without names, nothing of them shows in the directory.
+/// Whether a process has a file of that directory open for as long as it writes: if the file system supports
+/// unnamed files, they are invisible in the directory.
 bool has_a_file_open_in(const fs::path& directory, pid_t process) {
     std::error_code problem;
     const fs::path descriptors = fs::path("/proc") / std::to_string(process) / "fd";
@@ -71,7 +71,7 @@ bool has_a_file_open_in(const fs::path& directory, pid_t process) {
     return false;
 }
 
-/// Waits until the program writes, or has ended.
+/// Waits until the program writes or has ended.
 bool wait_for_writing(const RunningProgram& program, const fs::path& directory) {
     while (!program.has_ended()) {
         if (has_a_file_open_in(directory, program.pid())) return true;
@@ -85,7 +85,7 @@ bool has_files_without_names(const fs::path& directory) {
     return descriptor >= 0;
 }
 
-/// In a child: the file system of a program that comes from here knows no files without names.
+/// In a child: makes the file system seem to lack unnamed files for programs started from here.
 void refuse_files_without_names() {
     constexpr auto k_flags = offsetof(seccomp_data, args) + 2 * sizeof(__u64);  // little endian
     constexpr auto k_tmpfile = static_cast<__u32>(O_TMPFILE & ~O_DIRECTORY);
@@ -122,10 +122,10 @@ struct TwoPictures {
     }
 
     std::string old_bytes, new_bytes;
-    double seconds = 0;  // that rendering and writing take
+    double seconds = 0;  // for rendering and writing
 };
 
-/// Kills renders at 100 moments or more, half of them while the picture is written; half of them had an old
+/// Kills renders at 100 moments or more, half of them while the picture is written; half of them have an old
 /// picture to replace.
 void kill_a_hundred_times(const std::string& extension) {
     const fs::path scratch = scratch_directory();
@@ -159,8 +159,8 @@ void kill_a_hundred_times(const std::string& extension) {
         if (replaces || exit_code == 0) REQUIRE(fs::exists(picture));
         const std::vector<fs::path> files = files_in(directory);
         for (const fs::path& file : files) REQUIRE(two.is_whole(file));
-        // Between two system calls, a whole new picture has a name beside the old one; nowhere else is
-        // litter.
+        // Between two system calls, a complete new picture has a name next to the old one; nowhere else is
+        // there litter.
         if (has_files_without_names(directory)) REQUIRE(files.size() <= (replaces ? 2 : 1));
     }
     INFO(killed << " killed, " << killed_writing << " of them while writing; " << finished
@@ -206,7 +206,7 @@ TEST_CASE("killed at any moment, an EXR leaves nothing in the directory of tempo
     CHECK(killed_writing >= 1);
 }
 
-TEST_CASE("SIGINT, SIGTERM and SIGHUP while a picture is written leave the old one, and nothing beside it") {
+TEST_CASE("SIGINT, SIGTERM and SIGHUP while a picture is written leave the old one, and nothing next to it") {
     const fs::path directory = scratch_directory();
     const fs::path picture = directory / "picture.png";
     for (const bool without_names : {true, false}) {
@@ -240,7 +240,7 @@ TEST_CASE("an ignored SIGHUP (nohup) stays ignored") {
     CHECK(program.wait().exit_code == 0);
 }
 
-TEST_CASE("where the file system knows no files without names, pictures are whole, and keep their rights") {
+TEST_CASE("on a file system without unnamed files, pictures are complete and keep their permissions") {
     const fs::path directory = scratch_directory();
     const fs::path picture = directory / "picture.png";
     CommandSetup setup;
@@ -257,7 +257,7 @@ TEST_CASE("where the file system knows no files without names, pictures are whol
     check_only_old(picture, bytes);
 }
 
-TEST_CASE("a picture beyond the limit of file sizes is an error, and the old one stays") {
+TEST_CASE("a picture beyond the file size limit is an error, and the old one stays") {
     const fs::path directory = scratch_directory();
     const fs::path picture = write_file(directory / "picture.ppm", "old");
     for (const bool without_names : {true, false}) {
@@ -276,7 +276,7 @@ TEST_CASE("a picture beyond the limit of file sizes is an error, and the old one
 }
 
 TEST_CASE("a directory that cannot be written to is an error, and the old picture stays") {
-    // Somewhere that others may enter; where the tests were built, they perhaps may not.
+    // Somewhere that others may enter; the build folder may not be such a place.
     const fs::path directory = fs::temp_directory_path() / ("candela-test-" + std::to_string(::getpid()));
     fs::create_directory(directory);
     const fs::path picture = write_file(directory / "picture.png", "old");
@@ -302,11 +302,12 @@ TEST_CASE("a directory that cannot be written to is an error, and the old pictur
         CHECK(result.err.find("cannot be created: Permission denied") != std::string::npos);
         check_only_old(picture, "old");
     }
-    fs::permissions(directory, fs::perms::owner_all);  // who is not root may remove nothing from it otherwise
+    fs::permissions(directory,
+                    fs::perms::owner_all);  // otherwise a user other than root could not clean it up
     fs::remove_all(directory);
 }
 
-TEST_CASE("a name as long as names can be, and a link to nowhere, are written through") {
+TEST_CASE("the longest possible name and a dangling link can be written to") {
     const fs::path directory = scratch_directory();
     const fs::path file = directory / (std::string(251, 'a') + ".ppm");
     for (int i = 0; i < 2; ++i) CHECK(run_program(render_to(file)).exit_code == 0);

@@ -1,4 +1,4 @@
-// Folders of jobs that somebody else has filled: links, pipes, files without end, and journals that lie.
+// Job folders filled by an attacker: links, pipes, endless files, and forged journals.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -28,7 +28,7 @@ namespace {
 const fs::path k_job = "frames/.candela/jobs/%04d.png";
 const Words k_submit = {"submit", "scene.toml", "-o", "frames/%04d.png", "--chunk", "2", "--jobs", "1"};
 
-/// A folder with a scene of two frames, and in another one what no command may touch.
+/// A folder with a scene of two frames, and another folder that no command may touch.
 struct Place {
     Place() : directory(scratch_directory()), victims(directory / "victims") {
         write_file(directory / "scene.toml", box_scene(20, 12) + "[animation]\nframes = 2\nfps = 12\n");
@@ -69,7 +69,7 @@ void put_pipe(const fs::path& at) {
     REQUIRE(::mkfifo(at.c_str(), 0600) == 0);
 }
 
-/// A file that nobody could hold in memory, and that takes no place on the disk.
+/// A file too large for any memory that takes no space on the disk.
 void put_endless(const fs::path& at) {
     write_file(at, "");
     fs::resize_file(at, std::uintmax_t{1} << 42);
@@ -77,7 +77,7 @@ void put_endless(const fs::path& at) {
 
 }  // namespace
 
-TEST_CASE("links in the place of a job's files and frames are replaced, and never followed") {
+TEST_CASE("links in place of a job's files and frames are replaced, never followed") {
     const std::vector<fs::path> names = {
         k_job / "plan.json", k_job / "tasks",   k_job / "0..1.json", k_job / "finish.json",
         k_job / "1.log",     "frames/0000.png", "frames/0001.png",   "frames/.candela/0000.png"};
@@ -95,7 +95,8 @@ TEST_CASE("links in the place of a job's files and frames are replaced, and neve
     }
 }
 
-TEST_CASE("other names of a file, in the place of a job's files and frames, are taken from it alone") {
+TEST_CASE(
+    "hard links in place of a job's files and frames are removed, and their other names are untouched") {
     const Place place;
     for (const fs::path& name : {k_job / "plan.json", k_job / "0..1.json", fs::path("frames/0000.png"),
                                  fs::path("frames/.candela/0000.png")}) {
@@ -106,7 +107,7 @@ TEST_CASE("other names of a file, in the place of a job's files and frames, are 
     place.check_victims();
 }
 
-TEST_CASE("links in the place of Slurm's scripts are replaced, and never followed") {
+TEST_CASE("links in place of Slurm's scripts are replaced, never followed") {
     const Place place;
     for (const char* const name : {"tasks", "tasks.sh", "finish.sh"})
         place.put_link(k_job / name, place.victim());
@@ -122,7 +123,7 @@ TEST_CASE("links in the place of Slurm's scripts are replaced, and never followe
     place.check_victims();
 }
 
-TEST_CASE("a link in the place of a frame is replaced, even if what it leads to is the right picture") {
+TEST_CASE("a link in place of a frame is replaced, even if its target is the right picture") {
     const Place place;
     REQUIRE(place.candela({"animate", "scene.toml"}).exit_code == 0);
     const fs::path frame = place.directory / "frames/0001.png";
@@ -132,7 +133,7 @@ TEST_CASE("a link in the place of a frame is replaced, even if what it leads to 
     CHECK(fs::is_regular_file(fs::symlink_status(frame)));
 }
 
-TEST_CASE("links in the place of a picture's parts are replaced, and never followed") {
+TEST_CASE("links in place of a picture's parts are replaced, never followed") {
     for (const bool is_dangling : {false, true}) {
         const Place place;
         const std::vector<fs::path> names = {"p.tif.parts/picture.json", "p.tif.parts/1-of-2.pixels",
@@ -150,7 +151,7 @@ TEST_CASE("links in the place of a picture's parts are replaced, and never follo
     }
 }
 
-TEST_CASE("links in the place of a job's or a picture's folders are refused by name") {
+TEST_CASE("links in place of a job's or a picture's folders are refused by name") {
     for (const char* const name :
          {"frames/.candela", "frames/.candela/jobs", "frames/.candela/jobs/%04d.png"}) {
         const Place place;
@@ -172,7 +173,7 @@ TEST_CASE("links in the place of a job's or a picture's folders are refused by n
     place.check_victims();
 }
 
-TEST_CASE("pipes in the place of a job's files are refused, and nobody waits for them") {
+TEST_CASE("pipes in place of a job's files are refused without waiting for them") {
     const std::vector<fs::path> names = {k_job / "plan.json", "frames/0001.png", "frames/.candela/0000.png"};
     for (const fs::path& name : names) {
         const Place place;
@@ -193,7 +194,7 @@ TEST_CASE("pipes in the place of a job's files are refused, and nobody waits for
     check_refused(place.candela({"status", "frames"}), 1, "plan.json' cannot be read");
 }
 
-TEST_CASE("files without end in a job's folder take neither memory nor time") {
+TEST_CASE("endless files in a job's folder take neither memory nor time") {
     const Place place;
     REQUIRE(place.candela(k_submit).exit_code == 0);
     const fs::path job = place.directory / k_job;
@@ -219,7 +220,7 @@ TEST_CASE("files without end in a job's folder take neither memory nor time") {
     CHECK(place.candela({"assemble", "p.tif"}).exit_code == 1);
 }
 
-TEST_CASE("a journal is only believed that its task runs if its process can be there, and now") {
+TEST_CASE("a journal's claim that its task runs is believed only if its process can exist now") {
     const Place place;
     REQUIRE(place.candela({"submit", "scene.toml", "--engine", "print", "--chunk", "2"}).exit_code == 0);
     const fs::path file = place.directory / k_job / "0..1.json";
@@ -229,7 +230,7 @@ TEST_CASE("a journal is only believed that its task runs if its process can be t
         REQUIRE(result.exit_code == 0);
         return json::parse(result.out).at(0).at("running") == 1;
     };
-    // Of a task that runs, and is stopped before it says that it is done.
+    // For a task that runs and is stopped before it records that it is done.
     RunningProgram task({CANDELA_TEST_COMMAND, "--task", k_job / "0..1.json", "animate", "scene.toml",
                          "--width", "3000", "--height", "3000"},
                         {.input = "", .environment = {}, .directory = place.directory});
@@ -250,7 +251,7 @@ TEST_CASE("a journal is only believed that its task runs if its process can be t
          {json(0), json(-1), json(1.5), json("1"), json(nullptr), json(std::int64_t{1} << 40),
           json((std::int64_t{1} << 32) + honest["pid"].get<std::int64_t>())})
         CHECK_FALSE(with("pid", pid));
-    CHECK_FALSE(with("pid", ::getpid()));  // there, but started at another time
+    CHECK_FALSE(with("pid", ::getpid()));  // exists, but was started at another time
     CHECK_FALSE(with("state", "sleeping"));
     CHECK_FALSE(with("began_seconds", honest["began_seconds"].get<double>() + 1e6));
 
@@ -271,7 +272,7 @@ TEST_CASE("a journal is only believed that its task runs if its process can be t
     static_cast<void>(task.wait());
 }
 
-TEST_CASE("a plan whose tasks name files elsewhere is not a plan") {
+TEST_CASE("a plan whose tasks name files elsewhere is invalid") {
     const Place place;
     REQUIRE(place.candela(k_submit).exit_code == 0);
     json plan = json::parse(read_file(place.directory / k_job / "plan.json"));
@@ -280,7 +281,7 @@ TEST_CASE("a plan whose tasks name files elsewhere is not a plan") {
     check_refused(place.candela({"status", "frames"}), 1, "is not a valid job plan");
 }
 
-TEST_CASE("names that job scripts cannot hold are refused by every engine, before anything is written") {
+TEST_CASE("names that job scripts cannot hold are refused by every engine before anything is written") {
     const Place place;
     struct Case {
         std::string folder;
@@ -323,7 +324,7 @@ TEST_CASE("names that job scripts cannot hold are refused by every engine, befor
                   2, "cannot print unchanged");
 }
 
-TEST_CASE("names that mean something to a shell or to sbatch are quoted in scripts and command lines") {
+TEST_CASE("names that are special to a shell or sbatch are quoted in scripts and command lines") {
     const Place place;
     for (const char* const name :
          {"$(touch t)", "`touch t`", "a'b", "; touch t", "# x", "-x", "100%", "~", "ü"}) {
@@ -332,7 +333,7 @@ TEST_CASE("names that mean something to a shell or to sbatch are quoted in scrip
         const CommandResult result =
             place.candela({"submit", "scene.toml", "--engine", "print", "--output=" + frames});
         INFO(result.err);
-        // "100%" is a pattern with a place that it does not have.
+        // "100%" is an invalid file name pattern.
         if (std::string(name) == "100%") {
             CHECK(result.exit_code == 2);
             continue;
@@ -349,7 +350,7 @@ TEST_CASE("names that mean something to a shell or to sbatch are quoted in scrip
     }
 }
 
-TEST_CASE("submit that is told to end lets its tasks clean up while ffmpeg works") {
+TEST_CASE("submit, told to end, lets its tasks clean up while ffmpeg works") {
     const Place place;
     const fs::path bin = place.directory / "bin", begun = place.directory / "begun";
     write_file(bin / "ffmpeg", "#!/bin/sh\nfor last; do :; done\necho part >\"$last\"\necho $$ >'" +
@@ -374,7 +375,7 @@ TEST_CASE("submit that is told to end lets its tasks clean up while ffmpeg works
     }
 }
 
-TEST_CASE("temporary folders are for nobody else, whatever the umask, and what comes of them is for all") {
+TEST_CASE("temporary folders are private whatever the umask, and the results are not") {
     const fs::path directory = scratch_directory();
     for (const mode_t mask : {0U, 022U, 0777U}) {
         const mode_t before = ::umask(mask);
@@ -390,7 +391,7 @@ TEST_CASE("temporary folders are for nobody else, whatever the umask, and what c
     CHECK(static_cast<int>(fs::status(directory / "program").permissions()) == 0750);
 }
 
-TEST_CASE("a link in the place of a folder in a report is refused, and nothing is moved", "[programs]") {
+TEST_CASE("a link in place of a folder in a report is refused, and nothing is moved", "[programs]") {
     const Place place;
     place.put_link("report/cpp", place.victims);
     check_refused(place.candela({"verify", "scene.toml", "--target", "cpp", "--report", "report"}), 1,
@@ -399,7 +400,7 @@ TEST_CASE("a link in the place of a folder in a report is refused, and nothing i
     CHECK_FALSE(fs::exists(place.directory / "report/index.html"));
 }
 
-TEST_CASE("status shows the other jobs of a folder that has a broken one") {
+TEST_CASE("status shows the other jobs of a folder with a broken one") {
     const Place place;
     REQUIRE(place.candela(k_submit).exit_code == 0);
     write_file(place.directory / "frames/.candela/jobs/a.png/plan.json", "[]");
@@ -411,7 +412,7 @@ TEST_CASE("status shows the other jobs of a folder that has a broken one") {
     CHECK(holds(result.err, "z.png/plan.json' cannot be read"));
 }
 
-TEST_CASE("a link in the place of a term's picture is replaced, and one that -o names is followed") {
+TEST_CASE("a link in place of a term's picture is replaced, and one named by -o is followed") {
     const Place place;
     place.put_link("p.diffuse.png", place.victim());
     place.put_link("p.png", place.directory / "elsewhere.png");
@@ -424,7 +425,7 @@ TEST_CASE("a link in the place of a term's picture is replaced, and one that -o 
     CHECK(fs::is_regular_file(place.directory / "elsewhere.png"));
 }
 
-TEST_CASE("a link is followed where a person has named it, and refused where its name is the default") {
+TEST_CASE("a link is followed if the user named it, and refused if its name is the default") {
     const Place place;
     struct Case {
         Words words;
@@ -454,7 +455,7 @@ TEST_CASE("a link is followed where a person has named it, and refused where its
     CHECK(read_file(place.directory / "there.png") != "old");
 }
 
-TEST_CASE("a film whose name is a directory's is an error that says so") {
+TEST_CASE("a film whose name is that of a directory is an error that says so") {
     const Place place;
     write_file(place.directory / "bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho film >\"$last\"\n");
     fs::permissions(place.directory / "bin/ffmpeg", fs::perms::owner_all);
@@ -464,7 +465,7 @@ TEST_CASE("a film whose name is a directory's is an error that says so") {
                   1, "'film.mp4' is a directory");
 }
 
-TEST_CASE("a picture that another program draws is not written through a link") {
+TEST_CASE("a picture drawn by another program is not written through a link") {
     const Place place;
     write_file(place.directory / "bin/povray",
                "#!/bin/sh\nfor word; do case $word in +O*) echo drawn >\"${word#+O}\";; esac; done\n");

@@ -1,4 +1,4 @@
-// Kernel text with notes, compiled and run: all forms of statement, against values worked out by hand.
+// Kernel text with notes, compiled and run: compares all forms of statement with values computed by hand.
 #include "explanation/kernel_trace.h"
 
 #include <catch2/catch_test_macros.hpp>
@@ -54,14 +54,14 @@ using Notes = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("declarations, assignments and results are noted, several in one statement too") {
+TEST_CASE("declarations, assignments and results are noted, even several in one statement") {
     CHECK(notes_of("KERNEL float any_f(float x) {\n"
                    "    float a = x + 1.0f, b = max(x, 5.0f);  // b = 9, as comments say\n"
                    "    float c;\n    c = a * b;\n    c += 2.0f;\n    return c;\n}\n",
                    "any_f(2.0f)") == Notes{"any_f()", "x 2", "a 3", "b 5", "c 15", "c 17", "return 17"});
 }
 
-TEST_CASE("branches and loops note what they do, with and without braces") {
+TEST_CASE("branches and loops are noted, with and without braces") {
     CHECK(
         notes_of(
             "KERNEL float any_f(int n) {\n"
@@ -75,7 +75,7 @@ TEST_CASE("branches and loops note what they do, with and without braces") {
         Notes{"any_f()", "n 3", "sum 0", "sum 0", "sum 1", "sum 3", "sum 10", "sum 5", "sum 4", "return 4"});
 }
 
-TEST_CASE("structs are noted member by member, and functions that are called below their caller") {
+TEST_CASE("structs are noted member by member, and called functions below their caller") {
     CHECK(
         notes_of("struct AnyPair {\n    float a, b;  // two\n    vec3 c;\n};\n#define ANY_TWO \\\n    2.0f\n"
                  "KERNEL float any_twice(float x) {\n    return ANY_TWO * x;\n}\n"
@@ -86,7 +86,7 @@ TEST_CASE("structs are noted member by member, and functions that are called bel
               "uv 8 4", "return.a 8", "return.b 4", "return.c 1 2 3"});
 }
 
-TEST_CASE("a step tells the statement's line and text, past comments and on one line") {
+TEST_CASE("a step has the statement's line and text, without comments and on one line") {
     TracedKernels kernels;
     kernels.traced(
         "/* one\n   two */\nKERNEL vec3 any_f(vec3 n) {\n    vec3 r =\n        2.0f * n;\n    return r;\n}\n",
@@ -98,7 +98,7 @@ TEST_CASE("a step tells the statement's line and text, past comments and on one 
     CHECK(kernels.steps[3].text == "return r");
 }
 
-TEST_CASE("text that is cut off or no kernel at all is taken to its end") {
+TEST_CASE("truncated text, or text that is not a kernel, is read to its end") {
     const std::string text =
         "struct A { float x; };\n#define B \\\n 1\nKERNEL float f(float x) { if (x > 1.0f) { x = 2.0f; } /* "
         "c */ return x; }";

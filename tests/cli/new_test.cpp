@@ -1,4 +1,4 @@
-// candela new: a scene to begin with.
+// candela new: starter scenes.
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>
 #include <filesystem>
@@ -19,7 +19,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 
 }  // namespace
 
-TEST_CASE("new writes scene.toml, which is valid without a warning, and says what to do next") {
+TEST_CASE("new writes scene.toml, valid without a warning, and says what to do next") {
     const fs::path directory = scratch_directory();
     const CommandResult result = run_candela({"new"}, in(directory));
     CHECK(result.exit_code == 0);
@@ -36,7 +36,7 @@ TEST_CASE("new writes scene.toml, which is valid without a warning, and says wha
     }
 }
 
-TEST_CASE("the picture of the new scene shows lit things of several colours") {
+TEST_CASE("the picture of the new scene shows lit objects of several colours") {
     const fs::path directory = scratch_directory();
     REQUIRE(run_candela({"new", "mine.toml"}, in(directory)).exit_code == 0);
     const CommandResult render = run_candela({"render", "mine.toml", "-o", "a.ppm"}, in(directory));
@@ -65,7 +65,7 @@ TEST_CASE("the picture of the new scene shows lit things of several colours") {
     CHECK(bright > 0);            // highlights
 }
 
-TEST_CASE("new leaves a file that is there alone, unless it is forced") {
+TEST_CASE("new keeps an existing file, unless --force is given") {
     const fs::path directory = scratch_directory();
     const fs::path file = write_file(directory / "scene.toml", "mine");
     const CommandResult refused = run_candela({"new"}, in(directory));
@@ -88,7 +88,7 @@ TEST_CASE("new - prints the scene, and writes nothing") {
     CHECK(printed.out == read_file(directory / "scene.toml"));
 }
 
-TEST_CASE("new where no file can be is an error, and one name is enough") {
+TEST_CASE("new in an impossible place, or with more than one name, is an error") {
     const fs::path directory = scratch_directory();
     const CommandResult gone = run_candela({"new", "gone/scene.toml"}, in(directory));
     CHECK(gone.exit_code == 1);
@@ -102,14 +102,14 @@ TEST_CASE("new where no file can be is an error, and one name is enough") {
     CHECK(fs::is_empty(directory / "directory"));
 }
 
-TEST_CASE("the command that new suggests is one that a shell understands") {
+TEST_CASE("the command suggested by new can be pasted into a shell") {
     const fs::path directory = scratch_directory();
     const CommandResult result = run_candela({"new", "it's a scene.toml"}, in(directory));
     CHECK(result.exit_code == 0);
     CHECK(holds(result.err, "candela render 'it'\\''s a scene.toml'"));
 }
 
-TEST_CASE("plugin new takes a kernel that is in the kernel language, and says where one is not") {
+TEST_CASE("plugin new accepts a kernel in the kernel language, and locates the error in another") {
     const fs::path directory = scratch_directory();
     const std::string kernel =
         "struct PhongMaterial { vec3 ka; vec3 kd; vec3 ks; float shininess; };\n"

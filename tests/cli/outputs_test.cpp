@@ -1,4 +1,4 @@
-// No verb writes over what it reads, whatever the name of its output.
+// No verb overwrites its inputs, whatever the name of its output.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <map>
@@ -17,7 +17,7 @@ constexpr const char* k_rest =
     "model = \"phong\"\n[animation]\nframes = 2\n[[animation.track]]\npath = \"object.mesh.rotation\"\n"
     "keys = [[0, [0, 0, 0]], [1, [0, 9, 0]]]\n";
 
-/// Its inputs have names that a picture may have, too.
+/// The inputs have names that a picture may also have.
 fs::path folder_with_scene() {
     const fs::path d = scratch_directory();
     for (const std::string environment : {"", "environment = \"sky.ppm\"\n"})
@@ -63,7 +63,7 @@ std::map<std::string, std::string> contents_of(const fs::path& directory) {
     return contents;
 }
 
-/// What is not as it was, or was not there.
+/// The files that are changed or new.
 std::string changes_in(const fs::path& directory, const std::map<std::string, std::string>& before) {
     const std::map<std::string, std::string> after = contents_of(directory);
     std::string changes;
@@ -94,7 +94,7 @@ std::vector<std::string> with_output(std::vector<std::string> words, const std::
 
 }  // namespace
 
-TEST_CASE("no verb writes over a file that it reads, by whatever name or link") {
+TEST_CASE("no verb overwrites a file that it reads, by whatever name or link") {
     const fs::path d = folder_with_scene();
     const std::vector<std::string> scene{"scene.ppm", "part.ppm", "sky.ppm", "texture.ppm", "buffer.ppm"};
     const std::vector<std::string> obj{"my library.ppm", "wood.ppm", "model.obj"},
@@ -129,7 +129,7 @@ TEST_CASE("no verb writes over a file that it reads, by whatever name or link") 
     }
 }
 
-TEST_CASE("files that a verb names itself, such as terms and frames, are no inputs either") {
+TEST_CASE("files that a verb names itself, such as terms and frames, do not overwrite inputs either") {
     const fs::path d = folder_with_scene();
     const std::map<std::string, std::string> before = contents_of(d);
     const std::string set = "object.mesh.color_texture=";
@@ -147,7 +147,7 @@ TEST_CASE("files that a verb names itself, such as terms and frames, are no inpu
     }
 }
 
-TEST_CASE("a task's journal is not an option of users, and replaces nothing but a journal") {
+TEST_CASE("a task's journal is not a user option, and overwrites only journals") {
     const fs::path d = folder_with_scene();
     const std::map<std::string, std::string> before = contents_of(d);
     for (const std::string verb : {"render", "animate", "assemble"})
@@ -159,7 +159,7 @@ TEST_CASE("a task's journal is not an option of users, and replaces nothing but 
     CHECK(in(d, {"--task", "journal", "render", "-o", "picture.png"}).exit_code == 0);
 }
 
-TEST_CASE("whatever file is there is kept with --no-clobber, before any work is done") {
+TEST_CASE("--no-clobber keeps any existing file, before any work is done") {
     const fs::path d = folder_with_scene();
     for (const char* const name : {"mine.png", "mine.svg", "mine.html", "mine.ppm"})
         write_file(d / name, "mine");
@@ -181,7 +181,7 @@ TEST_CASE("whatever file is there is kept with --no-clobber, before any work is 
     }
 }
 
-TEST_CASE("import keeps pictures that are there already, unless they are the same or --force is given") {
+TEST_CASE("import keeps existing pictures unless they are the same or --force is given") {
     const fs::path d = scratch_directory();
     const std::string picture =
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
@@ -211,7 +211,7 @@ TEST_CASE("import keeps pictures that are there already, unless they are the sam
     CHECK(read_file(texture) == content);
 }
 
-TEST_CASE("a folder that does not exist is called that, before any work is done") {
+TEST_CASE("a missing folder is reported before any work is done") {
     const fs::path d = folder_with_scene();
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"render", "-o", "gone/a.png"},
@@ -223,7 +223,7 @@ TEST_CASE("a folder that does not exist is called that, before any work is done"
     CHECK_FALSE(fs::exists(d / "gone"));
 }
 
-TEST_CASE("where one of the terms cannot be written, neither is the picture, nor any other") {
+TEST_CASE("if one of the terms cannot be written, neither the picture nor any other term is") {
     const fs::path d = scratch_directory();
     fs::create_directory(d / "a.specular.png");
     expect(in(d, {"render", "-o", "a.png", "--terms", "diffuse,specular"}), 1, {"is a directory"});
@@ -235,8 +235,7 @@ TEST_CASE("where one of the terms cannot be written, neither is the picture, nor
     CHECK(read_file(d / "a.png") != "old");
 }
 
-TEST_CASE(
-    "a file that replaces another may be run by whoever could run that, but with no rights of its owner") {
+TEST_CASE("a file that replaces another keeps the execute permissions, but not set-user-ID") {
     const fs::path d = scratch_directory();
     const fs::path file = write_file(d / "a.png", "old");
     fs::permissions(file, fs::perms::owner_all | fs::perms::group_exec | fs::perms::set_uid |
@@ -245,7 +244,7 @@ TEST_CASE(
     CHECK(fs::status(file).permissions() == (fs::perms::owner_all | fs::perms::group_exec));
 }
 
-TEST_CASE("CANDELA_PLUGIN_PATH with a file in it is a message, not silence") {
+TEST_CASE("a file in CANDELA_PLUGIN_PATH is reported") {
     const fs::path d = scratch_directory();
     write_file(d / "file", "");
     const auto with = [&](const std::string& path) {
@@ -257,7 +256,7 @@ TEST_CASE("CANDELA_PLUGIN_PATH with a file in it is a message, not silence") {
     CHECK(with(d.string() + "::" + (d / "gone").string()).exit_code == 0);
 }
 
-TEST_CASE("a page or a diagram is not written over a scene, whose name is not that of one") {
+TEST_CASE("a page or a diagram does not overwrite a scene, whose extension differs") {
     const fs::path d = scratch_directory();
     REQUIRE(in(d, {"new"}).exit_code == 0);
     const std::map<std::string, std::string> before = contents_of(d);

@@ -57,16 +57,17 @@ void check_parts_of(const std::string& extension) {
 
 }  // namespace
 
-TEST_CASE("parts put together are the picture in one go, in a format with rows and in another") {
+TEST_CASE(
+    "assembled parts equal the picture rendered in one go, in a format written by rows and in another") {
     check_parts_of("png");
     check_parts_of("jpg");
 }
 
-TEST_CASE("parts put together are the picture in one go, in every other format", "[whole]") {
+TEST_CASE("assembled parts equal the picture rendered in one go, in every other format", "[whole]") {
     for (const char* const extension : {"tif", "exr", "ppm", "pfm"}) check_parts_of(extension);
 }
 
-TEST_CASE("large pictures, which are written in tiles, are read as the same picture") {
+TEST_CASE("large pictures, which are written in tiles, read back unchanged") {
     const fs::path directory = with_scene();
     const std::vector<std::string> size = {"--width", "16384", "--height", "300"};
     for (const std::string extension : {"tif", "png"}) {
@@ -80,7 +81,7 @@ TEST_CASE("large pictures, which are written in tiles, are read as the same pict
     CHECK(holds(diff.out, "identical           100 %"));
 }
 
-TEST_CASE("assemble says which parts are missing, and which were made from something else") {
+TEST_CASE("assemble says which parts are missing and which were made from other inputs") {
     const fs::path directory = with_scene();
     for (const char* const part : {"1/6", "2/6", "4/6"}) render_part(directory, "poster.png", part);
     CommandResult result = candela(directory, {"assemble", "poster.png"});
@@ -102,7 +103,7 @@ TEST_CASE("assemble says which parts are missing, and which were made from somet
     CHECK(read_file(directory / "poster.png") == read_file(directory / "whole.png"));
 }
 
-TEST_CASE("a part that is up to date is left alone, one that was cut off is not, and repeating is harmless") {
+TEST_CASE("a part that is up to date is kept, a truncated one is not, and repeating is harmless") {
     const fs::path directory = with_scene();
     render_part(directory, "poster.tif", "1/2");
     const fs::path file = directory / "poster.tif.parts/1-of-2.pixels";
@@ -122,7 +123,7 @@ TEST_CASE("a part that is up to date is left alone, one that was cut off is not,
     CHECK_FALSE(fs::exists(directory / "poster.tif.parts"));
 }
 
-TEST_CASE("a part whose bytes have changed since goes into no picture, and is made again") {
+TEST_CASE("a part whose bytes have changed is not used, and is rendered again") {
     const fs::path directory = with_scene();
     for (const char* const part : {"1/2", "2/2"}) render_part(directory, "poster.tif", part);
     const fs::path file = directory / "poster.tif.parts/2-of-2.pixels";
@@ -160,7 +161,7 @@ TEST_CASE("a description that has changed since its parts were rendered makes no
     require(candela(directory, {"assemble", "poster.tif"}));
 }
 
-TEST_CASE("submit --parts makes the picture in one go, and status follows it") {
+TEST_CASE("submit --parts makes the same picture as in one go, and status follows it") {
     const fs::path directory = with_scene();
     require(candela(directory, {"submit", "scene.toml", "-o", "poster.tif", "--parts", "5", "--jobs", "2"}));
     require(candela(directory, {"render", "scene.toml", "-o", "whole.tif"}));
@@ -173,7 +174,7 @@ TEST_CASE("submit --parts makes the picture in one go, and status follows it") {
                 "5 of them already done"));
 }
 
-TEST_CASE("mistakes in parts are explained") {
+TEST_CASE("messages explain mistakes with parts") {
     const fs::path directory = with_scene();
     const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& part) {
         const CommandResult result = candela(directory, words);

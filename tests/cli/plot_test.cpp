@@ -1,4 +1,5 @@
-// candela plot against closed forms of the models' equations, and against a least-squares fit computed here.
+// candela plot: compares with closed forms of the models' equations, and with a least-squares fit computed
+// here.
 #include <algorithm>
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
@@ -20,7 +21,7 @@ constexpr double k_degree = 0.017453292519943295;
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// The first line's cells, of which some are quoted.
+/// The first line's cells, some of them quoted.
 std::vector<std::string> header_of(const std::string& line) {
     std::vector<std::string> cells(1);
     bool is_quoted = false;
@@ -70,7 +71,7 @@ Table plotted(std::vector<std::string> words) {
     return Table(result.out);
 }
 
-/// What lights send: "over,at,<light>...".
+/// The light emitted by lights: "over,at,<light>...".
 struct LightTable {
     explicit LightTable(std::vector<std::string> words) {
         words.insert(words.begin(), "plot");
@@ -101,7 +102,7 @@ struct LightTable {
     std::vector<std::pair<std::string, std::vector<double>>> rows;
 };
 
-/// cos, and nothing from behind.
+/// The cosine, and nothing from behind.
 double cosine(double degrees) { return std::max(0.0, std::cos(degrees * k_degree)); }
 
 double number_behind(const std::string& text, const std::string& words) {
@@ -112,7 +113,7 @@ double number_behind(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("plot: Phong's lobe is a power of the cosine to the mirror direction, over Lambert's constant") {
+TEST_CASE("plot: Phong's lobe is a power of the cosine to the mirror direction, plus Lambert's constant") {
     const std::string model = "phong:kd=0.5,ks=0.25,shininess=20";
     const Table table = plotted({"reflection/" + model, "--incidence", "30"});
     CHECK(table.rows.size() == 359);
@@ -125,10 +126,10 @@ TEST_CASE("plot: Phong's lobe is a power of the cosine to the mirror direction, 
     }
 }
 
-TEST_CASE("plot: a value for all models yields to a model's own, and lists stay together") {
+TEST_CASE("plot: a model's own value overrides the one for all models, and lists stay together") {
     const Table table = plotted({"phong:shininess=5", "blinn-phong", "lambert:kd=[0.2,0.2,0.2]",
                                  "--set=shininess=40", "--set", "kd=0", "--set", "ks=1"});
-    // Half of the light from 45 degrees, as seen along the normal: H is at 22.5 degrees.
+    // Half of the light from 45 degrees, seen along the normal: H is at 22.5 degrees.
     CHECK(table.at(0, "phong:shininess=5,kd=0,ks=1 specular") ==
           Approx(std::pow(std::cos(45 * k_degree), 5)).epsilon(1e-4));
     CHECK(table.at(0, "blinn-phong:shininess=40,kd=0,ks=1 specular") ==
@@ -140,8 +141,8 @@ TEST_CASE("plot: --match finds the exponent of Blinn-Phong's lobe that is neares
         {"plot", "phong:shininess=20", "blinn-phong", "--match", "shininess", "--incidence", "30"});
     INFO(result.out << result.err);
     REQUIRE(result.exit_code == 0);
-    // In this plane R.V = cos(a), N.H = cos(a / 2) with a from the mirror direction: the same least squares
-    // here.
+    // In this plane R.V = cos(a) and N.H = cos(a / 2), with a from the mirror direction: the same least
+    // squares fit here.
     double best = 0, least = 1e30;
     for (double n = 40; n < 160; n += 0.01) {
         double sum = 0;
@@ -159,15 +160,15 @@ TEST_CASE("plot: --match finds the exponent of Blinn-Phong's lobe that is neares
           Approx(100 * 0.3 * std::sqrt(least / 359) / (0.7 * std::cos(30 * k_degree) + 0.3)).epsilon(0.1));
 }
 
-TEST_CASE("plot: a diagram is SVG, with a curve for each model, whose radius is the intensity") {
+TEST_CASE("plot: a diagram is SVG with a curve for each model, whose radius is the intensity") {
     const fs::path file = scratch_directory() / "lobes.svg";
     const CommandResult result = run_candela(
         {"plot", "reflection/lambert:kd=0.5", "reflection/phong", "--incidence", "60", "-o", file.string()});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(result.out.empty());
-    // An independent parser. Lambert's: 0.5 cos 60 everywhere, on a diagram whose rim is a power of ten times
-    // 1, 2 or 5.
+    // Reads it with an independent parser. Lambert's curve is 0.5 cos 60 everywhere, on a diagram whose rim
+    // is a power of ten times 1, 2 or 5.
     const CommandResult parsed = run_program({"python3", "-c", R"(
 import math, sys, xml.etree.ElementTree as tree
 root = tree.parse(sys.argv[1]).getroot()
@@ -208,7 +209,7 @@ TEST_CASE("plot: a spot light fades between its cones, and with the square of th
     }
 }
 
-TEST_CASE("plot: RE's attenuation has no pole, and a value for all lights yields to a light's own") {
+TEST_CASE("plot: RE's attenuation has no pole, and a light's own value overrides the one for all lights") {
     const LightTable table({"light/point:attenuation=offset-linear,attenuation_offset=0.01", "light/point",
                             "--set=intensity=0.8"});
     for (const double distance : {0.1, 1.0, 10.0}) {
@@ -218,7 +219,7 @@ TEST_CASE("plot: RE's attenuation has no pole, and a value for all lights yields
     }
 }
 
-TEST_CASE("plot: the diagrams of a light have their curve where its equation has it") {
+TEST_CASE("plot: the curves in a light's diagrams follow its equation") {
     const fs::path file = scratch_directory() / "spot.svg";
     REQUIRE(
         run_candela({"plot", "light/spot:inner_angle=0,outer_angle=60,falloff=linear", "-o", file.string()})
@@ -235,7 +236,7 @@ TEST_CASE("plot: the diagrams of a light have their curve where its equation has
     CHECK(holds(svg, " 306.67,340.00 "));
 }
 
-TEST_CASE("plot: what it cannot draw is said, with what there is, and no file is made") {
+TEST_CASE("plot: an impossible diagram is an error with the possible choices, and no file is written") {
     struct Wrong {
         std::vector<std::string> words;
         const char* message;

@@ -1,4 +1,4 @@
-// What the command prints of what others have written: manifests, names, paths.
+// Printing text written by others: manifests, names, paths.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -28,7 +28,7 @@ std::string scene(const std::string& name) {
            name + "\n[[object]]\ntype = \"cube\"\nname = " + name + "\n";
 }
 
-/// A folder with a shipped plugin whose manifest says something else.
+/// A folder with a shipped plugin whose manifest is changed.
 fs::path folder_with_hostile_manifest() {
     const fs::path d = scratch_directory();
     const fs::path shipped = fs::path(CANDELA_TEST_PLUGINS);
@@ -89,7 +89,7 @@ TEST_CASE("a hostile file name, option, verb or plugin name is shown, not obeyed
     }
 }
 
-TEST_CASE("check prints names that hide or turn text as escapes, also as JSON") {
+TEST_CASE("check prints characters that hide or reverse text as escapes, also in JSON") {
     const std::string file =
         write_file(scratch_directory() / "scene.toml", scene("\"\\u202eabc\\u001b[31m\"")).string();
     const CommandResult text = run_candela({"check", file});
@@ -103,7 +103,7 @@ TEST_CASE("check prints names that hide or turn text as escapes, also as JSON") 
           "abc\x1b[31m'");
 }
 
-TEST_CASE("check --print keeps names whole: long ones, and those with control characters") {
+TEST_CASE("check --print keeps names complete, even long ones and those with control characters") {
     const std::string name = "\"" + std::string(300, 'n') + "\\u0001\\u202e\\t\\n'\\\"\xc3\xa9\"";
     const fs::path d = scratch_directory();
     const std::string file = write_file(d / "scene.toml", scene(name)).string();
@@ -119,7 +119,7 @@ TEST_CASE("check --print keeps names whole: long ones, and those with control ch
     CHECK(label(again) == "'" + std::string(300, 'n') + "\x01\xe2\x80\xae\t\n'\"\xc3\xa9'");
 }
 
-TEST_CASE("a message repeats a number as its author wrote it") {
+TEST_CASE("a message quotes a number as its author wrote it") {
     const fs::path d = scratch_directory();
     const std::string file =
         write_file(d / "scene.toml",
@@ -136,7 +136,7 @@ TEST_CASE("a message repeats a number as its author wrote it") {
 }
 
 TEST_CASE(
-    "everything that is wrong is said in one go: of a light, an observer, an object and what is beside "
+    "everything that is wrong is reported in one go: in a light, an observer, an object and what surrounds "
     "them") {
     const std::string file = write_file(scratch_directory() / "scene.toml", R"(version = 1
 [observer]
@@ -175,7 +175,7 @@ model = "phong"
         CHECK(holds(result.err, part));
 }
 
-TEST_CASE("of a file that is no part of a scene and lies elsewhere, nothing is shown") {
+TEST_CASE("a file elsewhere that is not part of a scene is never quoted") {
     const fs::path d = scratch_directory();
     const fs::path secret = write_file(d / "elsewhere" / "secret", "root:$y$hash:19000\n");
     const fs::path settings = write_file(d / "elsewhere" / "settings.toml", "password = \"hash\"\n");
@@ -196,12 +196,12 @@ TEST_CASE("of a file that is no part of a scene and lies elsewhere, nothing is s
     CHECK(holds(check(secret.string()).err, "it is not TOML at line 1, column 5"));
     // A part of a scene is quoted, wherever it is.
     CHECK(holds(check(lights.string()).err, "type = \"pint\""));
-    // And so is everything in the scene's own folder.
+    // And so is every file in the scene's own folder.
     write_file(d / "scene" / "mine.toml", "oops: 1\n");
     CHECK(holds(check("mine.toml").err, "oops: 1"));
 }
 
-TEST_CASE("what is included, an environment or a mesh is a regular file, and nothing waits for a pipe") {
+TEST_CASE("includes, environments and meshes must be regular files, and no command waits for a pipe") {
     const fs::path d = scratch_directory();
     REQUIRE(run_program({"mkfifo", (d / "pipe").string()}).exit_code == 0);
     const auto check = [&](const std::string& more) {

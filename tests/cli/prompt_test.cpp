@@ -1,4 +1,4 @@
-// Questions and progress: the command and a person, at a real (pseudo-)terminal.
+// Questions and progress: the command and a user at a real (pseudo-)terminal.
 #include <fmt/format.h>
 
 #include <catch2/catch_test_macros.hpp>
@@ -22,7 +22,7 @@ constexpr const char* k_reflection = "The scene names no reflection model. Use p
 constexpr const char* k_box = "[[object]]\ntype = \"cube\"\nposition = [0, 1, 0]\n";
 constexpr const char* k_ball = "[[object]]\ntype = \"sphere\"\nposition = [0, -1, 0]\n";
 
-/// A scene without models, but for what `more` says.
+/// A scene without models except those in `more`.
 std::string scene(const std::string& more) {
     return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight "
            "= 16\n"
@@ -38,7 +38,7 @@ int count(const std::string& text, const std::string& part) {
     return found;
 }
 
-/// A scene in a file, and a place for its picture.
+/// A scene in a file, and a name for its picture.
 struct Files {
     explicit Files(const std::string& text)
         : directory(scratch_directory()), scene_file(write_file(directory / "scene.toml", text).string()) {}
@@ -49,7 +49,7 @@ struct Files {
         return words;
     }
     fs::path picture() const { return directory / "a.png"; }
-    /// Whether there is a picture; there is none from then on.
+    /// Removes the picture; returns whether it existed.
     bool take_picture() const { return fs::remove(picture()); }
 
     fs::path directory;
@@ -58,7 +58,7 @@ struct Files {
 
 }  // namespace
 
-TEST_CASE("R13: nobody to ask is an error that names --defaults, which answers yes") {
+TEST_CASE("R13: without anybody to ask, the error names --defaults, which means yes") {
     const Files files(scene(k_box));
     const CommandResult nobody =
         run_candela(files.render(), {.input = "y\n", .environment = {}, .directory = {}});
@@ -72,7 +72,8 @@ TEST_CASE("R13: nobody to ask is an error that names --defaults, which answers y
 }
 
 TEST_CASE(
-    "R13: on a terminal the question says what is missing and what will be used; each answer is understood") {
+    "R13: on a terminal, the question says what is missing and what will be used; each answer is "
+    "understood") {
     const Files files(scene(k_box));
     for (const char* const yes : {"\n", "y\n", "Y\n", "yes\n", "Yes\n", " y \n"}) {
         INFO("answer " << yes);
@@ -90,7 +91,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("R13: what is no answer is asked again") {
+TEST_CASE("R13: the question is repeated after an invalid answer") {
     const Files files(scene(k_box));
     const std::string again = std::string("Please answer y or n. ") + k_both;
     const CommandResult yes =
@@ -101,7 +102,7 @@ TEST_CASE("R13: what is no answer is asked again") {
     CHECK_FALSE(files.take_picture());
 }
 
-TEST_CASE("R13: Ctrl-D is no answer, and Ctrl-C ends the command; neither makes a picture") {
+TEST_CASE("R13: Ctrl-D means no, and Ctrl-C ends the command; neither makes a picture") {
     const Files files(scene(k_box));
     const CommandResult end = talk_to_candela(files.render(), {{k_both, "\x04"}});
     CHECK(end.exit_code == 3);
@@ -120,7 +121,7 @@ TEST_CASE("R13: one question, however many objects need an answer") {
     CHECK(count(result.out, "[Y/n]") == 1);
 }
 
-TEST_CASE("R13: only what is missing is asked for") {
+TEST_CASE("R13: only the missing models are asked for") {
     const auto ask = [](const Files& files, const std::vector<std::string>& flags, const char* question) {
         const CommandResult result = talk_to_candela(files.render(flags), {{question, "\n"}});
         INFO(result.out);
@@ -134,12 +135,12 @@ TEST_CASE("R13: only what is missing is asked for") {
     ask(Files(scene(std::string("[shading]\nmodel = \"flat\"\n") + k_box)), {}, k_reflection);
     ask(Files(scene(std::string("[reflection]\nmodel = \"lambert\"\n") + k_box)), {}, k_shading);
     ask(Files(scene(std::string(k_box) + "shading = \"flat\"\n")), {}, k_reflection);
-    // One object that names nothing is enough.
+    // One object without a model is enough.
     ask(Files(scene(std::string(k_box) + "shading = \"flat\"\nreflection = \"lambert\"\n" + k_ball)), {},
         k_both);
 }
 
-TEST_CASE("R13: nobody is asked where nothing is missing, or the answer is known") {
+TEST_CASE("R13: there is no question if nothing is missing or the answer is known") {
     const std::string named = "shading = \"flat\"\nreflection = \"lambert\"\n";
     const auto silent = [](const Files& files, const std::vector<std::string>& flags) {
         const CommandResult result = talk_to_candela(files.render(flags), {});
@@ -154,8 +155,7 @@ TEST_CASE("R13: nobody is asked where nothing is missing, or the answer is known
     silent(Files(scene("")), {});  // no objects
 }
 
-TEST_CASE(
-    "R13: a question needs somebody who can answer it and see it, on stdin and stderr; stdout is free") {
+TEST_CASE("R13: a question needs terminals on stdin and stderr, but not on stdout") {
     const Files files(scene(k_box));
     for (const OnTerminal streams : {OnTerminal{.in = true, .out = true, .err = false},
                                      OnTerminal{.in = false, .out = true, .err = true}}) {
@@ -172,7 +172,7 @@ TEST_CASE(
     CHECK(holds(piped.out, "\x89PNG"));
 }
 
-TEST_CASE("R13: check never waits, and says what is missing wherever it runs") {
+TEST_CASE("R13: check never waits, and reports what is missing wherever it runs") {
     const Files files(scene(k_box));
     for (const CommandResult& result :
          {talk_to_candela({"check", files.scene_file}, {}), run_candela({"check", files.scene_file})}) {
@@ -183,18 +183,18 @@ TEST_CASE("R13: check never waits, and says what is missing wherever it runs") {
     CHECK(talk_to_candela({"check", files.scene_file, "--defaults"}, {}).exit_code == 0);
 }
 
-TEST_CASE("R13: a scene that is wrong already is not worth a question") {
+TEST_CASE("R13: there is no question about an invalid scene") {
     const Files files(scene(std::string("[room]\nheight = -1\n") + k_box));
     const CommandResult result = talk_to_candela(files.render(), {});
     CHECK(result.exit_code == 3);
     CHECK_FALSE(holds(result.out, "[Y/n]"));
-    // Where nobody could answer, that is one more error.
+    // If nobody can answer, that is one more error.
     const std::string all = run_candela(files.render()).err;
     CHECK(holds(all, "greater than 0"));
     CHECK(holds(all, "--defaults"));
 }
 
-TEST_CASE("with NO_COLOR, a question has no colour, nor has what follows from the answer") {
+TEST_CASE("with NO_COLOR, neither a question nor the messages after it have colour") {
     const Files files(scene(k_box));
     const CommandSetup plain{
         .input = "", .environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, .directory = {}};
@@ -203,7 +203,7 @@ TEST_CASE("with NO_COLOR, a question has no colour, nor has what follows from th
     CHECK_FALSE(holds(result.out, "\x1b["));
 }
 
-TEST_CASE("a long render shows its progress on a terminal, and nowhere else", "[whole]") {
+TEST_CASE("a long render shows its progress only on a terminal", "[whole]") {
     std::string text = scene(
         "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\ntype = \"sphere\"\n");
     for (int i = 0; i < 500; ++i) {
@@ -219,7 +219,7 @@ TEST_CASE("a long render shows its progress on a terminal, and nowhere else", "[
     CHECK(seen.exit_code == 0);
     CHECK(holds(seen.out, "\rrendering ["));
     CHECK(holds(seen.out, " %"));
-    // The bar is wiped away before the last line.
+    // The bar is erased before the last line.
     CHECK(holds(seen.out, "\r\x1b[K" + files.picture().string() + ": 1400 x 1400"));
     const CommandResult unseen = run_candela(words, slow);
     CHECK(unseen.exit_code == 0);
@@ -227,11 +227,11 @@ TEST_CASE("a long render shows its progress on a terminal, and nowhere else", "[
     CHECK(unseen.out.empty());
 }
 
-TEST_CASE("a long check shows its progress on a terminal, and nowhere else", "[whole]") {
+TEST_CASE("a long check shows its progress only on a terminal", "[whole]") {
     std::string text = scene(
         "[room]\nwidth = 40\nheight = 30\ndepth = 30\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = "
         "\"phong\"\n");
-    // Rods side by side, whose boxes meet those of thousands of others.
+    // Rods side by side, whose boxes overlap those of thousands of others.
     for (int i = 0; i < 6000; ++i)
         text += fmt::format(
             "[[object]]\ntype = \"cube\"\nscale = [10, 0.0002, 0.0002]\nrotation = [0, 0, 45]\nposition = "
@@ -245,7 +245,7 @@ TEST_CASE("a long check shows its progress on a terminal, and nowhere else", "[w
     INFO(seen.out.substr(0, 1000));
     CHECK(seen.exit_code == 0);
     CHECK(holds(seen.out, "\rreading ["));
-    // The bar is wiped away before what was found is said.
+    // The bar is erased before the diagnostics.
     CHECK(seen.out.rfind("\r\x1b[K") > seen.out.rfind("\rreading ["));
     CHECK(seen.out.find("The scene is valid.") > seen.out.rfind("\r\x1b[K"));
     CHECK_FALSE(holds(run_candela(words, slow).err, "reading ["));

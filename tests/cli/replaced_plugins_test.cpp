@@ -1,4 +1,4 @@
-// Which plugin of a name is used when one of them cannot be: never another without a word.
+// The choice between plugins of one name if one of them cannot be used: another is never used silently.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -23,7 +23,7 @@ struct Copy {
         library = folder / (id + ".so");
         manifest = folder / (id + ".json");
     }
-    /// Renders the default scene, which needs shape/cube, with the folder named by an option or by the
+    /// Renders the default scene, which needs shape/cube, with the folder given by an option or by the
     /// environment.
     CommandResult render(bool is_named, const std::vector<std::string>& more = {}) const {
         std::vector<std::string> words{"render", "-o", (folder.parent_path() / "a.png").string()};
@@ -50,7 +50,7 @@ struct Copy {
     fs::path folder, library, manifest;
 };
 
-/// What a refused copy means: a warning where it was only on the search path, an error where it was named.
+/// Expects a warning about a refused copy that was only on the search path, and an error about a named one.
 void check_refused(const Copy& copy, const std::string& reason) {
     const CommandResult found = copy.render(false);
     INFO(reason << '\n' << found.err);
@@ -65,7 +65,7 @@ void check_refused(const Copy& copy, const std::string& reason) {
     CHECK(holds(named.err, "error: plugin '" + copy.library.string() + "' is refused: "));
     CHECK(holds(named.err, reason));
     CHECK_FALSE(fs::exists(copy.folder.parent_path() / "a.png"));
-    // The doctor says the same of both.
+    // The doctor reports both the same way.
     const std::string diagnosis = copy.doctor(false);
     CHECK(holds(diagnosis, "refused: "));
     CHECK(holds(diagnosis, "in use: shape/cube"));
@@ -74,7 +74,7 @@ void check_refused(const Copy& copy, const std::string& reason) {
 
 }  // namespace
 
-TEST_CASE("a sound plugin comes before the shipped one, without a word") {
+TEST_CASE("a working plugin silently takes precedence over the shipped one") {
     const Copy copy("shape-cube");
     for (const bool is_named : {true, false}) {
         const CommandResult result = copy.render(is_named);
@@ -84,7 +84,7 @@ TEST_CASE("a sound plugin comes before the shipped one, without a word") {
     }
 }
 
-TEST_CASE("a library of which the end is missing is a message, not a bus error") {
+TEST_CASE("a truncated library causes a message, not a bus error") {
     const Copy copy("shape-cube");
     const auto size = fs::file_size(copy.library);
     for (const auto left : {size - 1, size - 4096, size / 2, size / 10, std::uintmax_t{64}, std::uintmax_t{5},
@@ -94,7 +94,7 @@ TEST_CASE("a library of which the end is missing is a message, not a bus error")
     }
 }
 
-TEST_CASE("a plugin without its manifest, with one of another, or with one that is none, is refused") {
+TEST_CASE("a plugin without its manifest, with another's, or with an invalid one is refused") {
     const Copy copy("shape-cube");
     const std::string manifest = read_file(copy.manifest);
     write_file(copy.manifest, "{}");
@@ -112,14 +112,14 @@ TEST_CASE("a plugin without its manifest, with one of another, or with one that 
     check_refused(copy, "it cannot be read: it is a dangling link");
 }
 
-TEST_CASE("a library that others can modify is refused, unless that is said to be all right") {
+TEST_CASE("a library that others can modify is refused, unless the user allows it") {
     const Copy copy("shape-cube");
     fs::permissions(copy.library, fs::perms::others_write, fs::perm_options::add);
     check_refused(copy, "is writable by every user");
     CHECK(copy.render(true, {"--allow-untrusted-plugins"}).exit_code == 0);
 }
 
-TEST_CASE("a picture format that --plugin-dir names is not replaced by another that can write it") {
+TEST_CASE("a picture format from --plugin-dir is not replaced by another plugin that can write it") {
     const Copy copy("image-png");
     fs::resize_file(copy.library, 1000);
     const CommandResult named = copy.render(true);
@@ -130,7 +130,7 @@ TEST_CASE("a picture format that --plugin-dir names is not replaced by another t
     CHECK(holds(found.err, "image-png.so' is refused"));
 }
 
-TEST_CASE("a quiet command keeps the warning back, not the error") {
+TEST_CASE("a quiet command suppresses the warning, not the error") {
     const Copy copy("shape-cube");
     fs::resize_file(copy.library, 1000);
     CHECK(copy.render(false, {"-q"}).err.empty());

@@ -1,4 +1,4 @@
-// candela schema, as a person at a shell meets it.
+// candela schema as used from a shell.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
@@ -27,7 +27,7 @@ std::map<std::string, std::vector<std::string>> sections(const std::string& page
     return result;
 }
 
-/// Whether a section lists plugins, one a line, rather than describing one.
+/// Whether a section lists plugins, one per line, rather than describing one.
 bool is_list(const std::string& heading) {
     return heading == "## Picture formats" || heading == "## Targets";
 }
@@ -41,7 +41,7 @@ bool is_part(const std::vector<std::string>& lines, const std::vector<std::strin
     });
 }
 
-/// The command with no plugins but the shipped ones.
+/// The command with only the shipped plugins.
 CommandResult schema(const std::vector<std::string>& arguments) {
     const fs::path nowhere = scratch_directory();
     std::vector<std::string> words = {"schema"};
@@ -54,8 +54,9 @@ CommandResult schema(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-// A model is its folder: adding one must not require a section here, but every section must be so.
-TEST_CASE("docs/scene-reference.md is what candela schema prints for the plugins that it describes") {
+// A model is its folder: adding one must not require a section here, but every existing section must be
+// right.
+TEST_CASE("docs/scene-reference.md is the output of candela schema for the plugins that it describes") {
     const CommandResult page = schema({"--format", "markdown"});
     CHECK(page.exit_code == 0);
     CHECK(page.err.empty());
@@ -80,7 +81,7 @@ TEST_CASE("docs/scene-reference.md is what candela schema prints for the plugins
     CHECK(stale.empty());
 }
 
-TEST_CASE("candela schema prints a JSON Schema unless told otherwise, on standard output alone") {
+TEST_CASE("candela schema prints a JSON Schema by default, only on standard output") {
     const CommandResult json = schema({});
     CHECK(json.exit_code == 0);
     CHECK(json.err.empty());
@@ -90,7 +91,7 @@ TEST_CASE("candela schema prints a JSON Schema unless told otherwise, on standar
     CHECK(schema({"--format=markdown"}).out.starts_with("# Scene reference\n"));
 }
 
-TEST_CASE("an unknown format of candela schema is a usage error with a suggestion") {
+TEST_CASE("an unknown format for candela schema is a usage error with a suggestion") {
     const CommandResult wrong = schema({"--format", "markdwon"});
     CHECK(wrong.exit_code == 2);
     CHECK(wrong.out.empty());

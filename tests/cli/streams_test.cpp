@@ -1,4 +1,4 @@
-// What a shell does with a command: pipes, files that are there already, terminals that are narrow, silence.
+// Interaction with a shell: pipes, existing files, narrow terminals, silence.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <csignal>
@@ -39,7 +39,7 @@ std::size_t widest_line(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a scene comes from standard input, and paths in it are relative to the current folder") {
+TEST_CASE("a scene can come from standard input, with paths relative to the current folder") {
     const fs::path d = scratch_directory();
     write_file(d / "cube.toml", "[[object]]\ntype = \"cube\"\n");
     const std::string scene = "include = [\"cube.toml\"]\n" + k_scene;
@@ -55,11 +55,11 @@ TEST_CASE("a scene comes from standard input, and paths in it are relative to th
     const CommandResult piped = run_program({"sh", "-c", "cat | " CANDELA_TEST_COMMAND " check -"},
                                             {.input = scene, .environment = {}, .directory = d});
     CHECK(piped.exit_code == 0);
-    // A part of the scene in a file, another from the pipe.
+    // A part of the scene is in a file, another comes from the pipe.
     CHECK(holds(in(d, {"check", "cube.toml", "-"}, k_scene).out, "1, 12 triangles"));
 }
 
-TEST_CASE("what is wrong in a scene from a pipe is said with its line") {
+TEST_CASE("errors in a scene from a pipe have their line") {
     const fs::path d = scratch_directory();
     const CommandResult wrong = in(d, {"check", "-"}, k_scene + "[[object]]\ntype = \"cub\"\n");
     CHECK(wrong.exit_code == 3);
@@ -72,7 +72,7 @@ TEST_CASE("what is wrong in a scene from a pipe is said with its line") {
                 "standard input:1:2: error: this is a binary"));
 }
 
-TEST_CASE("with --no-clobber, a picture that is there stays, and that is an error") {
+TEST_CASE("with --no-clobber, an existing picture stays, and that is an error") {
     const fs::path d = scratch_directory();
     CHECK(in(d, {"render", "-", "-o", "a.ppm", "--no-clobber"}, k_scene).exit_code == 0);
     write_file(d / "a.ppm", "mine");
@@ -83,7 +83,7 @@ TEST_CASE("with --no-clobber, a picture that is there stays, and that is an erro
     CHECK(in(d, {"render", "-", "-o", "a.ppm"}, k_scene).exit_code == 0);
 }
 
-TEST_CASE("what a picture is made from is never replaced by it, by whatever name it goes") {
+TEST_CASE("a picture never overwrites its inputs, under whatever name") {
     const fs::path d = scratch_directory();
     const std::string sky = "P6\n1 1\n255\nabc";
     write_file(d / "sky.ppm", sky);
@@ -112,7 +112,7 @@ TEST_CASE("what a picture is made from is never replaced by it, by whatever name
     CHECK(in(d, {"render", "scene.ppm", "-o", "other.ppm"}).exit_code == 0);
 }
 
-TEST_CASE("with --quiet, nothing is said but what is wrong") {
+TEST_CASE("with --quiet, only errors are printed") {
     const fs::path d = scratch_directory();
     const CommandResult silent = in(d, {"render", "-", "-o", "a.ppm", "--quiet", "--verbose"}, k_scene);
     CHECK(silent.exit_code == 0);
@@ -122,18 +122,18 @@ TEST_CASE("with --quiet, nothing is said but what is wrong") {
     const CommandResult wrong = in(d, {"check", "-", "-q"}, k_scene + "[[object]]\ntype = \"cub\"\n");
     CHECK(wrong.exit_code == 3);
     CHECK(holds(wrong.err, "no shape plugin is called 'cub'"));
-    // The scene has no objects, which is worth a warning otherwise.
+    // The scene has no objects, which otherwise causes a warning.
     CHECK(holds(in(d, {"check", "-"}, k_scene).err, "warning"));
     CHECK_FALSE(holds(wrong.err, "warning"));
 }
 
-TEST_CASE("a misspelt option is recognised with its value, too") {
+TEST_CASE("a misspelt option is also recognised with its value") {
     const CommandResult result = run_candela({"render", "--widht=100"});
     CHECK(result.exit_code == 2);
     CHECK(holds(result.err, "unknown option '--widht'; did you mean '--width'?"));
 }
 
-TEST_CASE("list, describe and help fit the width that COLUMNS says, else 80") {
+TEST_CASE("list, describe and help fit the width in COLUMNS, or 80 columns") {
     const fs::path d = scratch_directory();
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"list"},
@@ -153,7 +153,7 @@ TEST_CASE("list, describe and help fit the width that COLUMNS says, else 80") {
     CHECK(std::ranges::count(wide, '\n') < std::ranges::count(in(d, {"list"}).out, '\n'));
 }
 
-TEST_CASE("describe says what is allowed, in which unit, and whether it is required") {
+TEST_CASE("describe gives the allowed values, their unit, and whether they are required") {
     const std::string out = run_candela({"describe", "light/spot"},
                                         {.input = "", .environment = {{"COLUMNS", "120"}}, .directory = {}})
                                 .out;
@@ -163,7 +163,7 @@ TEST_CASE("describe says what is allowed, in which unit, and whether it is requi
     CHECK_FALSE(holds(out, "required m"));
 }
 
-TEST_CASE("Ctrl-C at a question leaves the prompt of the shell a line of its own") {
+TEST_CASE("Ctrl-C at a question leaves the shell's prompt a line of its own") {
     const fs::path d = scratch_directory();
     const std::string file = write_file(d / "scene.toml",
                                         "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
@@ -175,14 +175,14 @@ TEST_CASE("Ctrl-C at a question leaves the prompt of the shell a line of its own
     CHECK(result.out.ends_with("\n"));
 }
 
-TEST_CASE("more threads than there are cores are used without a word from the library that runs them") {
+TEST_CASE("the thread library prints nothing if there are more threads than cores") {
     const fs::path d = scratch_directory();
     const CommandResult result = in(d, {"render", "-", "-o", "a.ppm", "--threads", "33", "-q"}, k_scene);
     CHECK(result.exit_code == 0);
     CHECK(result.err.empty());
 }
 
-TEST_CASE("an object too far away is an error of the scene") {
+TEST_CASE("an object too far away is an error in the scene") {
     const fs::path d = scratch_directory();
     const CommandResult result =
         in(d, {"check", "-"},

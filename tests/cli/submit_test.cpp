@@ -1,4 +1,4 @@
-// candela submit and candela status: what many processes make is what one makes, however they end.
+// candela submit and candela status: many processes make the same files as one, however they end.
 #include <signal.h>
 #include <sys/stat.h>
 
@@ -63,7 +63,7 @@ std::string shell(const std::string& command, const fs::path& directory,
     return result.out;
 }
 
-/// What one process makes of the same scene, frame by frame.
+/// The files that one process makes of the same scene, frame by frame.
 void check_frames(const fs::path& directory, int count = 12) {
     REQUIRE(candela(directory, {"animate", "scene.toml", "-o", "alone/%04d.png"}).exit_code == 0);
     for (int i = 0; i < count; ++i) {
@@ -80,7 +80,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// A folder with a `sbatch` that keeps what it is told and given, and numbers jobs from 41 on.
+/// A folder with an `sbatch` that records its arguments and input, and numbers jobs from 41 on.
 std::string with_queue(const fs::path& directory) {
     const fs::path folder = directory / "bin";
     fs::create_directories(folder);
@@ -101,7 +101,7 @@ void wait_until(const Condition& is_so) {
     REQUIRE(is_so());
 }
 
-/// Names that are only there while something is written.
+/// Names that exist only while a file is being written.
 std::size_t unfinished_in(const fs::path& folder) {
     return static_cast<std::size_t>(
         std::count_if(fs::recursive_directory_iterator(folder), fs::recursive_directory_iterator(),
@@ -112,7 +112,7 @@ std::size_t unfinished_in(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("submit on this machine makes the frames that animate makes, and status says so") {
+TEST_CASE("submit on this machine makes the same frames as animate, and status reports them") {
     const fs::path directory = with_scene();
     const CommandResult result = candela(directory, {"submit", "scene.toml", "--jobs", "3", "--chunk", "5"});
     INFO(result.err);
@@ -128,7 +128,7 @@ TEST_CASE("submit on this machine makes the frames that animate makes, and statu
     CHECK(holds(candela(directory, {"submit", "scene.toml", "--chunk", "5"}).err, "3 of them already done"));
 }
 
-TEST_CASE("a task that fails leaves the others alone, says why, and is done by the same command again") {
+TEST_CASE("a failed task does not affect the others, says why, and is finished by the same command") {
     const fs::path directory = with_scene();
     fs::create_directories(directory / "frames/0007.png");
     CommandResult result = candela(directory, {"submit", "scene.toml", "--chunk", "4", "--jobs", "2"});
@@ -152,7 +152,7 @@ TEST_CASE("a task that fails leaves the others alone, says why, and is done by t
     check_frames(directory);
 }
 
-TEST_CASE("the command lines that submit prints do the job in any order, from any folder") {
+TEST_CASE("the command lines printed by submit do the job in any order, from any folder") {
     const fs::path directory = with_scene();
     const CommandResult result =
         candela(directory, {"submit", "scene.toml", "--engine", "print", "--chunk", "5", "--step", "2"});
@@ -169,7 +169,7 @@ TEST_CASE("the command lines that submit prints do the job in any order, from an
     CHECK_FALSE(fs::exists(directory / "frames/0001.png"));
 }
 
-TEST_CASE("Slurm is given an array of tasks, and a last one after it, whose scripts do the job") {
+TEST_CASE("Slurm gets an array of tasks and a last task after it, whose scripts do the job") {
     const fs::path directory = with_scene();
     const std::string queue = with_queue(directory);
     const std::vector<std::string> submit = {"submit",
@@ -207,13 +207,13 @@ TEST_CASE("Slurm is given an array of tasks, and a last one after it, whose scri
     CHECK(status_of(directory)["done"] == 3);
     check_frames(directory);
 
-    // Only what is not done is submitted again.
+    // Only the unfinished tasks are submitted again.
     fs::remove(directory / "frames/0006.png");
     REQUIRE(candela(directory, submit, queue).exit_code == 0);
     CHECK(holds(read_file(directory / "job-42.sh"), "\n#SBATCH --array=2\n"));
 }
 
-TEST_CASE("the film is the last task, which Slurm is told to begin when all others went well") {
+TEST_CASE("the film is the last task, which Slurm starts once all others have succeeded") {
     const fs::path directory = with_scene();
     const std::string queue = with_queue(directory);
     write_file(directory / "bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho film >\"$last\"\n");
@@ -231,7 +231,7 @@ TEST_CASE("the film is the last task, which Slurm is told to begin when all othe
     CHECK(status_of(directory)["last"]["state"] == "done");
 }
 
-TEST_CASE("a task is running while its process is there, and failed when that has ended without a word") {
+TEST_CASE("a task is running while its process exists, and failed if that has ended without a report") {
     const fs::path directory = with_scene();
     REQUIRE(candela(directory, {"submit", "scene.toml", "--engine", "print", "--chunk", "12"}).exit_code ==
             0);
@@ -248,12 +248,12 @@ TEST_CASE("a task is running while its process is there, and failed when that ha
     status = status_of(directory);
     CHECK(status["failed"] == 1);
     CHECK(holds(status["tasks"][0]["why"], "ended without a report"));
-    // What the queue has caught of it says more.
+    // The queue's log says more.
     write_file(directory / k_job / "1.log", "slurmstepd: error: Detected 1 oom_kill event\n");
     CHECK(holds(status_of(directory)["tasks"][0]["why"], "oom_kill"));
 }
 
-TEST_CASE("frames made from something else than was submitted are not counted as done") {
+TEST_CASE("frames made from other inputs than were submitted are not counted as done") {
     const fs::path directory = with_scene();
     REQUIRE(candela(directory, {"submit", "scene.toml"}).exit_code == 0);
     std::string scene = scene_text();
@@ -273,7 +273,7 @@ TEST_CASE("twenty kills at any moment leave a job that the same command complete
     const std::vector<std::string> submit = {
         CANDELA_TEST_COMMAND, "submit", "scene.toml", "--jobs", "2", "--chunk", "2"};
     for (int i = 0; i < 20; ++i) {
-        // Its tasks are in its group, and every other time outlive it.
+        // Its tasks are in its process group, and outlive it every other time.
         CommandSetup setup{.input = "", .environment = {}, .directory = directory};
         setup.prepare = [] { ::setpgid(0, 0); };
         RunningProgram job(submit, setup);
@@ -295,7 +295,7 @@ TEST_CASE("twenty kills at any moment leave a job that the same command complete
     CHECK(unfinished_in(directory) == 0);
 }
 
-TEST_CASE("submit ends its tasks when it is told to end") {
+TEST_CASE("submit, told to end, ends its tasks") {
     const fs::path directory = with_scene();
     RunningProgram job({CANDELA_TEST_COMMAND, "submit", "scene.toml", "--width", "4000", "--height", "4000",
                         "--jobs", "2", "--chunk", "6"},

@@ -1,4 +1,4 @@
-// What is no TOML, or no text: the place, and words for somebody who has not read the specification.
+// Invalid TOML or text: the place, and words for users who have not read the specification.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -28,7 +28,7 @@ void check_all(const std::vector<Case>& cases, const std::string& before = "") {
 
 }  // namespace
 
-TEST_CASE("mistakes in values are said at their place, with what is wrong") {
+TEST_CASE("mistakes in values are explained at their place") {
     check_all({
         {"a = \"srgb\nb = 3\n", "1:10", "this string has no closing quote on its line"},
         {"a = 'srgb\nb = 3\n", "1:10", "this string has no closing quote on its line"},
@@ -59,7 +59,7 @@ TEST_CASE("mistakes in values are said at their place, with what is wrong") {
     });
 }
 
-TEST_CASE("mistakes in keys and headers are said at their place, with what is wrong") {
+TEST_CASE("mistakes in keys and headers are explained at their place") {
     check_all({
         {"width 3\n", "1:7", "expected '=' after the key, found '3'"},
         {"width : 3\n", "1:7", "expected '=' after the key, found ':'"},
@@ -83,7 +83,7 @@ TEST_CASE("mistakes in keys and headers are said at their place, with what is wr
     });
 }
 
-TEST_CASE("a text that is not UTF-8 has the place of the first character that is none") {
+TEST_CASE("the error about invalid UTF-8 is at the first invalid character") {
     const std::string good =
         "# \xc2\xa2\xe2\x82\xac\xf0\x9f\x98\x80\xed\x9f\xbf\xee\x80\x80\xf4\x8f\xbf\xbf\n# \xc3\xa9";
     for (const std::string& bad :
@@ -96,7 +96,7 @@ TEST_CASE("a text that is not UTF-8 has the place of the first character that is
     }
 }
 
-TEST_CASE("UTF-16 is named; a byte-order mark of UTF-8 is no mistake, and no column") {
+TEST_CASE("UTF-16 is named; a UTF-8 byte order mark is accepted and takes no column") {
     const std::filesystem::path directory = scratch_directory();
     const auto checked = [&](const std::string& text) {
         const std::string file = write_file(directory / "a.toml", text).string();
@@ -111,7 +111,7 @@ TEST_CASE("UTF-16 is named; a byte-order mark of UTF-8 is no mistake, and no col
               .find("a.toml:1:5: error: 'b' is not a value") != std::string::npos);
 }
 
-TEST_CASE("letters of all alphabets stand in texts and comments, also after the end of a continued line") {
+TEST_CASE("letters of all alphabets are allowed in texts and comments, even after a continued line") {
     const std::filesystem::path directory = scratch_directory();
     const std::string file =
         write_file(

@@ -1,4 +1,4 @@
-// Pictures on objects, and what cannot be one.
+// Pictures on objects, and files that cannot be used as such.
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -30,7 +30,7 @@ CommandResult render(const std::string& texture, const fs::path& directory, cons
 
 }  // namespace
 
-TEST_CASE("mistakes of a texture are said at its place") {
+TEST_CASE("mistakes in a texture are reported at its place") {
     const fs::path d = scratch_directory();
     write_file(d / "wood.ppm", k_picture);
     REQUIRE(::mkfifo((d / "pipe.ppm").c_str(), 0600) == 0);
@@ -48,7 +48,7 @@ TEST_CASE("mistakes of a texture are said at its place") {
     CHECK(fs::exists(d / "out.ppm"));
 }
 
-TEST_CASE("a texture that cannot be read as a picture is one failure, which names the file") {
+TEST_CASE("a texture that cannot be read as a picture is one failure that names the file") {
     const fs::path d = scratch_directory();
     write_file(d / "wood.txt", "brown");
     write_file(d / "wood.png", "brown");
@@ -69,7 +69,7 @@ TEST_CASE("a texture that cannot be read as a picture is one failure, which name
     refused("plain.ppm", "cannot be read as a picture: it is neither a binary PPM (P6) nor a PFM (PF)");
     refused("short.ppm", "cannot be read as a picture: it ends before its last pixel");
     refused("none.pfm", "cannot be read as a picture: a pixel is non-finite");
-    // Within the header, the pixels and the last chunk, and without that one.
+    // Truncated within the header, the pixels and the last chunk, and before that one.
     for (const std::size_t length : {std::size_t{20}, png.size() / 2, png.size() - 1, png.size() - 12}) {
         write_file(d / "cut.png", png.substr(0, length));
         refused("cut.png", "cannot be read as a picture: it is cut off");
@@ -78,11 +78,11 @@ TEST_CASE("a texture that cannot be read as a picture is one failure, which name
     expect(render("color_texture = \"whole.png\"", d), 0, {});
 }
 
-TEST_CASE("a picture of a few bytes that speaks of 400 million pixels takes no memory for them") {
+TEST_CASE("a picture of a few bytes that claims 400 million pixels does not take memory for them") {
     const fs::path d = scratch_directory();
     write_file(d / "large.ppm", "P6\n20000 20000\n255\nabc");
     write_file(d / "large.pfm", "PF\n20000 20000\n-1.0\nabc");
-    // A header of TGA, then of BMP: true colour, 20000 x 20000 (0x4e20), nothing that is packed.
+    // A header of TGA, then of BMP: true colour, 20000 x 20000 (0x4e20), uncompressed.
     const std::string side("\x20\x4e", 2), zero(2, '\0');
     write_file(d / "large.tga",
                std::string("\0\0\2", 3) + std::string(9, '\0') + side + side + std::string("\x18\0abc", 5));
@@ -96,5 +96,5 @@ TEST_CASE("a picture of a few bytes that speaks of 400 million pixels takes no m
     }
     rusage usage{};
     REQUIRE(::getrusage(RUSAGE_CHILDREN, &usage) == 0);
-    CHECK(usage.ru_maxrss < (1 << 20));  // kilobytes, of the largest child so far
+    CHECK(usage.ru_maxrss < (1 << 20));  // in kilobytes, of the largest child so far
 }

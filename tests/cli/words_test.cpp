@@ -1,4 +1,4 @@
-// What somebody types who knows other programs, and what is said to them.
+// Words that users know from other programs, and the answers to them.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -12,7 +12,7 @@ namespace {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// A scene with one more line in one of its tables, which is named by what comes before it.
+/// A scene with one more line in one of its tables, which is identified by the preceding text.
 std::string scene_with(const std::string& table, const std::string& line) {
     std::string text =
         "version = 1\n[room]\nwidth = 20\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
@@ -35,7 +35,7 @@ struct Said {
 
 }  // namespace
 
-TEST_CASE("a key that another program has is answered by the one that is meant, or by its table") {
+TEST_CASE("a key from another program is answered with the intended one, or its table") {
     for (const Said& said : {
              Said{"", "camera = 1", "the camera is the table [observer]"},
              Said{"", "lights = 1", "write a [[light]] for each"},
@@ -86,7 +86,7 @@ TEST_CASE("a key that another program has is answered by the one that is meant, 
     }
 }
 
-TEST_CASE("a colour in another notation is answered by the three integers that it is") {
+TEST_CASE("a colour in another notation is answered with its three integers") {
     for (const Said& said :
          {Said{"[[object]]", "color = [0.5, 0.2, 0.1]", "did you mean [128, 51, 26]?"},
           Said{"[[object]]", "color = [1.0, 0.0, 0.0]", "did you mean [255, 0, 0]?"},
@@ -106,7 +106,7 @@ TEST_CASE("a colour in another notation is answered by the three integers that i
     }
 }
 
-TEST_CASE("a colour of zeros and ones is a warning that says what it would be in 0 to 255") {
+TEST_CASE("a colour of zeros and ones causes a warning with its values in 0 to 255") {
     for (const Said& said : {Said{"[[object]]", "color = [1, 1, 1]", "did you mean [255, 255, 255]?"},
                              Said{"[[object]]", "color = [1, 0, 0]", "did you mean [255, 0, 0]?"},
                              Said{"[[light]]", "color = [1, 1, 1]", "did you mean [255, 255, 255]?"},
@@ -119,7 +119,7 @@ TEST_CASE("a colour of zeros and ones is a warning that says what it would be in
     }
     for (const char* const fine : {"color = [0, 0, 0]", "color = [2, 1, 1]", "color = [255, 1, 0]"})
         CHECK_FALSE(holds(checked(scene_with("[[object]]", fine)).err, "almost black"));
-    // Frames between two keys are nobody's words.
+    // Values between two keys were written by nobody.
     const CommandResult film =
         checked(scene_with("[[object]]", "color = [2, 2, 2]") +
                 "[animation]\nframes = 4\nfps = 1\n[[animation.track]]\n"
@@ -129,7 +129,7 @@ TEST_CASE("a colour of zeros and ones is a warning that says what it would be in
     CHECK_FALSE(holds(film.err, "almost black"));
 }
 
-TEST_CASE("a light or an observer inside an object may be meant so, and is told how") {
+TEST_CASE("the error about a light or an observer inside an object says how to allow it") {
     const CommandResult light = checked(scene_with("[[object]]", "position = [1, 1, 3]"));
     CHECK(light.exit_code == 3);
     CHECK(holds(light.err, "is inside object 'ball'"));
@@ -139,7 +139,7 @@ TEST_CASE("a light or an observer inside an object may be meant so, and is told 
     CHECK(holds(observer.err, "encloses = true"));
 }
 
-TEST_CASE("options of other programs are answered by those of the verb") {
+TEST_CASE("options of other programs are answered with those of the verb") {
     struct Typed {
         std::vector<std::string> words;
         std::string hint;
@@ -170,7 +170,7 @@ TEST_CASE("options of other programs are answered by those of the verb") {
     CHECK(run_candela({"render", "-h"}).exit_code == 0);
 }
 
-TEST_CASE("quiet may be said twice, by a person and by a program for them") {
+TEST_CASE("--quiet may be given twice, by a user and by a program") {
     const fs::path d = scratch_directory();
     const CommandResult result = run_candela({"render", "-o", "a.png", "-q", "--quiet", "-q"},
                                              {.input = "", .environment = {}, .directory = d});
@@ -179,7 +179,7 @@ TEST_CASE("quiet may be said twice, by a person and by a program for them") {
     CHECK(result.err.empty());
 }
 
-TEST_CASE("the models in the help of candela plot can be plotted as they are printed") {
+TEST_CASE("the models in the help of candela plot can be plotted as printed") {
     std::string help =
         run_candela({"plot", "--help"}, {.input = "", .environment = {{"COLUMNS", "500"}}, .directory = {}})
             .out;
