@@ -51,7 +51,7 @@ CommandLine::CommandLine(std::string usage, std::string explanation)
       explanation_(std::move(explanation)),
       visible_("Options", static_cast<unsigned>(output_width() - 1),
                static_cast<unsigned>(output_width() / 2)) {
-    options()("help,h", "this help")("quiet,q", new RepeatableFlag, "print nothing on stderr but errors");
+    options()("help,h", "show this help")("quiet,q", new RepeatableFlag, "print only errors on stderr");
     hidden_.add_options()("help-as", po::value<std::string>());  // "man": for building manual pages
 }
 

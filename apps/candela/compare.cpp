@@ -222,10 +222,10 @@ int run_compare(const std::vector<std::string>& arguments) {
         "compare scene.toml --reflection lambert,phong,ggx --shading flat,phong. Give one or two of "
         "--reflection, --shading, --vary and --terms several values, separated by commas.");
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("comparison.png"),
-                   "the sheet; the format follows its extension");
+                   "the sheet; its extension selects the format");
     add_variant_options(line);
     line.options()("difference", "show how the other pictures differ from the first, in levels (1/255)")(
-        "columns", po::value<int>()->value_name("N"), "pictures side by side")(
+        "columns", po::value<int>()->value_name("N"), "how many pictures to put side by side")(
         "json", "print the sheet's layout and the differences as JSON");
     add_scene_options(line);
     add_format_option(line);

@@ -139,8 +139,8 @@ void plot_lights(const CommandLine& line, const std::vector<NamedModel>& models,
 int run_plot(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela plot MODEL... [options]",
-        "Plot the light that reflection models reflect from one direction, as a polar diagram in the plane "
-        "of incidence (SVG) or a table (CSV). MODEL is reflection/ggx, or with values of its parameters "
+        "Plot how reflection models reflect light from one direction, as a polar diagram in the plane of "
+        "incidence (SVG) or a table (CSV). MODEL is reflection/ggx or, with values of its parameters, "
         "reflection/ggx:roughness=0.3,ior=1.8. Several models share one diagram. For lights (light/spot), "
         "plot the emitted light over the angle with their axis and over the distance.");
     line.positional("model", -1);

@@ -61,7 +61,7 @@ double longest_from(const CommandLine& line) {
     if (longest > 0 && longest <= k_most) return longest;
     throw candela::Error(
         candela::ErrorCategory::bad_request,
-        fmt::format("--time-limit is {}; expected more than 0 and at most {} seconds", longest, k_most));
+        fmt::format("--time-limit is {}; it must be more than 0 and at most {} seconds", longest, k_most));
 }
 
 /// "refused: …" without the path, which has been printed already. The reason has it in absolute form if the

@@ -113,8 +113,8 @@ Json json_of(const JobState& job) {
 
 int run_status(const std::vector<std::string>& arguments) {
     CommandLine line("candela status [DIR] [options]",
-                     "Show each job that was submitted for a folder, by default this one: what is done, "
-                     "running, waiting, and failed and why. Reads only the files in the folder.");
+                     "Show the jobs that were submitted for a folder, by default this one: what is done, "
+                     "running and waiting, and what failed and why. Only the folder's files are read.");
     line.positional("directory", 1);
     line.options()("json", "print the state as JSON");
     if (!line.parse(arguments)) return 0;

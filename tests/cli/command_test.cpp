@@ -276,7 +276,7 @@ TEST_CASE("a broken mesh file is an error with the object's place, exit code 1")
     CHECK(holds(message("zero.obj", vertices + "f 1 2 0\n"), "index"));
     CHECK(holds(message("nofaces.obj", vertices), "no faces"));
     CHECK(holds(message("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "not a finite number"));
-    message("junk.obj", "this is no mesh\n");
+    message("junk.obj", "this is not a mesh\n");
     message("empty.obj", "");
     message("junk.glb", "glTF but not quite");
     CHECK(holds(
