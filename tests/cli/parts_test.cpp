@@ -154,7 +154,7 @@ TEST_CASE("a description that has changed since its parts were rendered makes no
         write_file(description, changed);
         const CommandResult result = candela(directory, {"assemble", "poster.tif"});
         CHECK(result.exit_code == 1);
-        CHECK(holds(result.err, "made from something else than the part that was rendered last: 1-2"));
+        CHECK(holds(result.err, "made from other inputs than the part rendered last: 1-2"));
         CHECK_FALSE(fs::exists(directory / "poster.tif"));
     }
     write_file(description, right);
