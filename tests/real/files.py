@@ -1,7 +1,7 @@
-"""Small mesh files of the kinds that programs write, each with what must be seen.
+"""Small mesh files of the kinds that programs write, each with the expected result.
 
-Every case is one file (and those beside it) with the number of triangles that it describes, whether they are closed,
-and the words that the warning about what is left out must hold. A case whose `like` is "cube" must look like the cube
+Every case is one file (and its companions) with the number of triangles that it describes, whether they are closed,
+and the words that the warning about contents left out must contain. A case whose `like` is "cube" must look like the cube
 from which it was written by hand here: eight corners, six faces, an edge of one metre, flat.
 """
 import base64
@@ -203,7 +203,7 @@ def obj_cases():
                options="vertex_colors = false")
     yield Case("obj-colours-of-some", {"a.obj": lines(*V[:5], *(v + " 1 1 1" for v in V[5:]), *F)}, silent=True)
     yield Case("obj-colours-too-large", {"a.obj": lines(*(v + " 2 0 1e9" for v in V), *F)}, color=(200, 0, 200),
-               says=("vertex colours beyond 0 to 1",))
+               says=("vertex colours outside 0 to 1",))
     back = ["f " + " ".join(str(c - 8) for c in f) for f in FACES]
     yield Case("obj-negative-indices", {"a.obj": lines(*V, *back)}, silent=True)
     yield Case("obj-continued-lines", {"a.obj": lines(*V, *(f[:4] + " \\\n" + f[4:] if f[3] == " " else f for f in F))},
@@ -231,7 +231,7 @@ def obj_cases():
     ring = [f"v {math.cos(2 * math.pi * i / n):.7f} {math.sin(2 * math.pi * i / n):.7f} 0" for i in range(n)]
     yield Case("obj-300-corners", {"a.obj": lines(*ring, "f " + " ".join(str(i + 1) for i in range(n)))}, n - 2, False,
                like="")
-    yield Case("obj-index-0", {"a.obj": lines(*V, "f 0 1 2")}, error="line 9: '0' is no index")
+    yield Case("obj-index-0", {"a.obj": lines(*V, "f 0 1 2")}, error="line 9: '0' is not a valid index")
     yield Case("obj-index-9", {"a.obj": lines(*V, *F, "f 1 2 9")}, error="line 15: vertex 9 of a face is out of range")
     yield Case("obj-index-huge", {"a.obj": lines(*V, "f 1 2 99999999999999999999")}, error="line 9")
     yield Case("obj-index-minus-9", {"a.obj": lines(*V, "f 1 2 -9")}, error="line 9: '-9' is out of range")
@@ -297,8 +297,8 @@ def gltf_cases():
     yield Case("gltf-data-uri", {"a.gltf": gltf_cube().text()}, silent=True)
     g = gltf_cube()
     yield Case("gltf-external-buffer", {"a.gltf": g.text("a%20b.bin"), "a b.bin": g.data}, silent=True)
-    yield Case("gltf-buffer-elsewhere", {"a.gltf": gltf_cube().text("../a.bin")}, error="not in its own folder")
-    yield Case("gltf-buffer-absolute", {"a.gltf": gltf_cube().text("/etc/hostname")}, error="not in its own folder")
+    yield Case("gltf-buffer-elsewhere", {"a.gltf": gltf_cube().text("../a.bin")}, error="outside its own folder")
+    yield Case("gltf-buffer-absolute", {"a.gltf": gltf_cube().text("/etc/hostname")}, error="outside its own folder")
     yield Case("gltf-buffer-missing", {"a.gltf": gltf_cube().text("no.bin")}, error="names 'no.bin'")
     yield Case("glb", {"a.glb": gltf_cube().binary()}, silent=True)
     yield Case("glb-unpadded-json", {"a.glb": gltf_cube().binary(pad=False, count_padding=False)}, silent=True)
@@ -320,7 +320,7 @@ def gltf_cases():
     yield Case("glb-mirrored", {"a.glb": g.binary()}, silent=True)
     g = gltf_cube()
     g.json["nodes"] = [{"mesh": 0, "children": [0]}]
-    yield Case("glb-node-in-itself", {"a.glb": g.binary()}, error="has a node 0 in two places, or within itself")
+    yield Case("glb-node-in-itself", {"a.glb": g.binary()}, error="has a node 0 that has two parents or contains itself")
 
     # Sparse: two corners are at the origin until they are replaced.
     g = Gltf()
@@ -371,7 +371,7 @@ def gltf_cases():
         says = ("the opacity of vertices",) if name == "opacity" else ()
         yield Case(f"glb-colours-{name}", {"a.glb": g.binary()}, color=(200, 0, 200), says=says, silent=not says)
 
-    # All that is left out.
+    # Everything that is left out.
     g = gltf_cube(targets=[{"POSITION": 0}])
     g.json |= {"materials": [{}, {}], "textures": [{"source": 0}], "images": [{"uri": "no.png"}],
                "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
@@ -393,7 +393,7 @@ def gltf_cases():
         g = gltf_cube()
         g.json["extensionsRequired"] = g.json["extensionsUsed"] = [name]
         yield Case(f"glb-needs-{name.lower()}", {"a.glb": g.binary()}, error=f"needs the glTF extension '{name}'")
-    # Not required, but without it there is nothing to read.
+    # Not required, but nothing can be read without it.
     g = gltf_cube(extensions={"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}})
     for accessor in g.json["accessors"]:
         del accessor["bufferView"]

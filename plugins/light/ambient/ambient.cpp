@@ -19,6 +19,6 @@ constexpr auto k_fields = fields(light_color(&AmbientLight::color),
 CANDELA_AMBIENT_LIGHT_PLUGIN(
     ambient, AmbientLight, k_fields,
     {.title = "Ambient light",
-     .summary = "Light from everywhere: approximates the light that other surfaces reflect.",
+     .summary = "Light from all directions, approximating light reflected by other surfaces.",
      .formula = "I_ambient = color intensity",
      .reference = "Shreiner, Angel (2012), Interactive computer graphics, 6th edition"})

@@ -18,7 +18,7 @@ namespace {
 constexpr auto k_fields =
     fields(light_color(&DirectionalLight::color),
            light_intensity(&DirectionalLight::intensity, "intensity, the same everywhere"),
-           direction(&DirectionalLight::direction, "direction", "the way the light travels"));
+           direction(&DirectionalLight::direction, "direction", "the direction in which the light travels"));
 
 constexpr candela::Property k_properties[] = {{"attenuation", "constant"}};
 

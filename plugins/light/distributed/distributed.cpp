@@ -21,7 +21,7 @@ constexpr auto k_fields = fields(
     light_color(&DistributedLight::color),
     light_intensity(&DistributedLight::intensity, "total intensity at one metre, before attenuation")
         .maximum(1e20f),
-    point(&DistributedLight::position, "position", "the middle of the line or rectangle"),
+    point(&DistributedLight::position, "position", "the centre of the line or rectangle"),
     three(&DistributedLight::edge_u, candela::ParamType::vector, "edge_u", vec3(1.0f, 0.0f, 0.0f),
           "one edge of the rectangle, or the line, from end to end")
         .range(-k_longest, k_longest)
@@ -41,7 +41,7 @@ constexpr candela::Property k_properties[] = {{"attenuation", "by distance"}};
 CANDELA_SAMPLED_LIGHT_PLUGIN(
     distributed, DistributedLight, k_fields,
     {.title = "Distributed light",
-     .summary = "A line or a rectangle that shines, like a tube or a panel: many point lights in one.",
+     .summary = "A luminous line or rectangle, like a tube or a panel, made of many point lights.",
      .formula = "p_ij = position + ((i + 1/2) / n_u - 1/2) edge_u + ((j + 1/2) / n_v - 1/2) edge_v\n"
                 "each a point light of intensity / (n_u n_v),  n_u = samples_u, n_v = samples_v",
      .reference = "O'Reilly, Rendering equation, lecture notes, Dundalk Institute of Technology",

@@ -12,7 +12,7 @@ using candela::Vec3Arrays;
 
 namespace {
 
-/// What sample `index` sends to one receiver.
+/// The light that one receiver gets from sample `index`.
 IncidentSample sample_at(const Light& light, int index, Vec3 position, Vec3 normal = {0, 1, 0}) {
     IncidentSample result;
     const auto in = [](const Vec3& v) { return candela::ConstVec3Span{&v.x, &v.y, &v.z}; };
@@ -32,8 +32,8 @@ double irradiance(const Light& light, Vec3 position, Vec3 normal) {
     return sum;
 }
 
-/// The same of a continuous rectangle of intensity 1: the mean over its area of max(N.d, 0) / |d|^3, d from
-/// the receiver to the source, by Gauss-Legendre quadrature of five points in each of 40 x 40 parts.
+/// The irradiance from a continuous rectangle of intensity 1: the mean over its area of max(N.d, 0) / |d|^3,
+/// with d from the receiver to the source, by five-point Gauss-Legendre quadrature in each of 40 x 40 parts.
 double exact_irradiance(Double3 middle, Double3 edge_u, Double3 edge_v, Double3 position, Double3 normal) {
     constexpr int k_parts = 40;
     const double a = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3,
@@ -68,7 +68,8 @@ double panel_error(std::int64_t samples, Vec3 position, Vec3 normal) {
 }  // namespace
 
 TEST_CASE(
-    "light/distributed is point lights in the middles of its equal parts, which share its intensity (RE)") {
+    "light/distributed places point lights at the centres of its equal parts and shares its intensity among "
+    "them (RE)") {
     const auto light = instance<Light>("distributed", {{"position", Vec3{1, 2, -0.5}},
                                                        {"edge_u", Vec3{1.5, 0, -3}},
                                                        {"edge_v", Vec3{0, 2, 0.5}},
@@ -106,7 +107,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("light/distributed of one sample is light/point, to the last bit") {
+TEST_CASE("light/distributed with one sample equals light/point to the last bit") {
     for (const char* const law : {"inverse-square", "offset-linear", "none"}) {
         const Given shared = {{"position", Vec3{1, 2, -0.5f}},
                               {"color", Vec3{255, 128, 51}},
@@ -135,11 +136,11 @@ TEST_CASE("light/distributed of one sample is light/point, to the last bit") {
     }
 }
 
-TEST_CASE("light/distributed: more samples come nearer to the integral over the rectangle") {
+TEST_CASE("light/distributed converges to the integral over the rectangle as the samples increase") {
     struct Receiver {
         Vec3 position, normal;
     };
-    // Below the panel, beside it, near it, and one that sees only a part of it.
+    // Receivers below the panel, next to it, close to it, and one that sees only part of it.
     for (const auto& [position, normal] :
          {Receiver{{0, 0, 0}, {0, 1, 0}}, Receiver{{3, 1, 1}, {-0.8f, 0.6f, 0}},
           Receiver{{0.5f, 1.5f, -0.5f}, {0, 1, 0}}, Receiver{{0.6f, 1.0f, -0.5f}, {1, 0, 0}}}) {
@@ -156,7 +157,7 @@ TEST_CASE("light/distributed: more samples come nearer to the integral over the 
     CHECK(ratio < 4.2);
 }
 
-TEST_CASE("light/distributed: a line seen from its foot gives the closed form of its integral") {
+TEST_CASE("light/distributed: a line seen from its foot matches the closed form of its integral") {
     // Intensity 1 on z = -a ... a at height h, seen from below its middle, N up:
     // 1/(2a) integral of h / (h^2 + z^2)^(3/2) dz = 1 / (h sqrt(h^2 + a^2)).
     constexpr double a = 1.5, h = 0.7;

@@ -14,13 +14,13 @@ constexpr auto k_fields = fields(
     color(&HemisphereLight::ground_color, "ground_color", vec3(0.0f), "received by surfaces facing down"),
     light_intensity(&HemisphereLight::intensity, "intensity, the same everywhere"),
     three(&HemisphereLight::up, candela::ParamType::direction, "up", vec3(0.0f, 1.0f, 0.0f),
-          "direction of the sky"));
+          "direction towards the sky"));
 
 }  // namespace
 
 CANDELA_AMBIENT_LIGHT_PLUGIN(
     hemisphere, HemisphereLight, k_fields,
     {.title = "Hemisphere light",
-     .summary = "Ambient light from a sky and a ground of two colours, as out of doors.",
+     .summary = "Ambient light of one colour from the sky and another from the ground, as outdoors.",
      .formula = "I_ambient = intensity (w sky_color + (1 - w) ground_color),  w = 1/2 + N.up / 2",
      .reference = "Microsoft DirectX SDK, HLSL workshop, Hemispheric lighting"})

@@ -83,7 +83,7 @@ TEST_CASE("light/hemisphere with one colour is ambient light") {
     }
 }
 
-TEST_CASE("light/hemisphere is never negative, also where rounding makes a normal a little longer than one") {
+TEST_CASE("light/hemisphere is never negative, even where rounding makes a normal slightly longer than one") {
     const auto light = instance<Light>("hemisphere", {{"intensity", 1e30}});
     CHECK(received(*light, {Vec3{0, -1.0001f, 0}})[0] == Vec3{});
     CHECK(received(*light, {Vec3{0, 1.0001f, 0}})[0] == Vec3{1e30f, 1e30f, 1e30f});

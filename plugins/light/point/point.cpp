@@ -26,7 +26,7 @@ constexpr candela::Property k_properties[] = {{"attenuation", "by distance"}};
 
 CANDELA_LIGHT_PLUGIN(point, PointLight, k_fields,
                      {.title = "Point light",
-                      .summary = "Light from one point, the same in every direction, like a bare bulb's.",
+                      .summary = "Light from one point, equal in every direction, like a bare bulb.",
                       .formula = "L = (position - p) / r,  r = |position - p|\n"
                                  "I_L = color intensity / r^2        attenuation = \"inverse-square\"\n"
                                  "I_L = color intensity / (r + k)    attenuation = \"offset-linear\"\n"

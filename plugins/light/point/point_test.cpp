@@ -10,7 +10,7 @@ namespace {
 
 constexpr Double3 k_position{1, 2, -0.5};
 
-/// A light at k_position, and what it must send.
+/// A light at k_position, and the light it must send.
 void check_law(const char* law, const std::function<double(double)>& attenuation) {
     INFO(law);
     const auto light = instance<Light>("point", {{"position", Vec3{1, 2, -0.5f}},
@@ -36,7 +36,7 @@ TEST_CASE("light/point fades with 1/r^2 (DD7), 1/(r + k) (RE) or not at all") {
     check_law("none", [](double) { return 1.0; });
 }
 
-TEST_CASE("light/point stays finite where a surface goes through it") {
+TEST_CASE("light/point stays finite where a surface passes through it") {
     for (const char* const law : {"inverse-square", "offset-linear", "none"}) {
         const auto light =
             instance<Light>("point", {{"position", Vec3{1, 1, 1}}, {"attenuation", std::string(law)}});

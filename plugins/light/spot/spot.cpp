@@ -26,13 +26,16 @@ constexpr auto k_fields =
     fields(light_color(&SpotLight::color),
            light_intensity(&SpotLight::intensity, "intensity at one metre, before attenuation"),
            point(&SpotLight::position, "position", "where the light is"),
-           direction(&SpotLight::direction, "direction", "the axis of the cone, the way the light travels"),
-           angle(&SpotLight::inner_angle, "inner_angle", 15, "half-angle of full light").minimum(0).below(90),
-           angle(&SpotLight::outer_angle, "outer_angle", 25, "half-angle beyond which there is none")
+           direction(&SpotLight::direction, "direction",
+                     "the axis of the cone, in the direction in which the light travels"),
+           angle(&SpotLight::inner_angle, "inner_angle", 15, "half-angle of the cone of full light")
+               .minimum(0)
+               .below(90),
+           angle(&SpotLight::outer_angle, "outer_angle", 25, "half-angle beyond which there is no light")
                .minimum(0)
                .below(90),
            choice(&SpotLight::falloff, "falloff", k_falloffs,
-                  "how the light fades between the two cones, by cosine"),
+                  "how the light fades between the two cones, as a function of the cosine"),
            attenuation(&SpotLight::attenuation), attenuation_offset(&SpotLight::attenuation_offset));
 
 constexpr candela::RelationSpec k_relations[] = {{candela::RelationType::less_or_equal, "inner_angle",

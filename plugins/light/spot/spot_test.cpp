@@ -45,7 +45,7 @@ TEST_CASE("light/spot is a point light times smoothstep, or linear, between the 
 
 TEST_CASE(
     "light/spot gives full light within the inner cone, none beyond the outer, and a hard edge where they "
-    "are one") {
+    "coincide") {
     const auto soft = instance<Light>(
         "spot",
         {{"position", Vec3{0, 4, 0}}, {"direction", Vec3{0, -1, 0}}, {"attenuation", std::string("none")}});

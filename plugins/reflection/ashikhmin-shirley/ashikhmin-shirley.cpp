@@ -26,8 +26,8 @@ constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}
 CANDELA_ANISOTROPIC_REFLECTION_PLUGIN(
     ashikhmin_shirley, AshikhminShirleyMaterial, k_fields,
     {.title = "Ashikhmin-Shirley",
-     .summary = "Phong's highlight, anisotropic, with Fresnel's gloss at grazing angles and a diffuse part "
-                "that gives way.",
+     .summary = "An anisotropic Phong highlight with Fresnel gloss at grazing angles, over a diffuse part "
+                "that yields to it.",
      .formula = "I_a = ka C_o I_ambient\n"
                 "I_d = 28/23 kd C_o (1 - ks) I_L (1 - (1 - N.L / 2)^5) (1 - (1 - N.V / 2)^5) N.L\n"
                 "I_s = I_L sqrt((n_u + 1)(n_v + 1)) / 8 (N.H)^(n_u cos(phi)^2 + n_v sin(phi)^2) F N.L / (V.H "

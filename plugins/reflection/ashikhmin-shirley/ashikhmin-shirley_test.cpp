@@ -39,8 +39,8 @@ TEST_CASE("reflection/ashikhmin-shirley is pi N.L times the paper's eqs. 4 and 5
 }
 
 TEST_CASE(
-    "reflection/ashikhmin-shirley reflects all that R_d = 1 and R_s = 0 allow, seen from above, up to the "
-    "gloss") {
+    "reflection/ashikhmin-shirley reflects everything that R_d = 1 and R_s = 0 allow, seen from above, up to "
+    "the gloss") {
     // The paper's 28/23 makes the diffuse albedo largest for k_2 = n: 28/23 * 31/32 * 23/28 = 31/32.
     const auto model = instance<ReflectionModel>("ashikhmin-shirley", {{"kd", 1.0}, {"ks", 0.0}});
     double albedo = 0;

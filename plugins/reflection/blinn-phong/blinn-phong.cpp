@@ -21,8 +21,8 @@ constexpr candela::Property k_properties[] = {{"isotropic"}};
 CANDELA_REFLECTION_PLUGIN(
     blinn_phong, BlinnPhongMaterial, k_fields,
     {.title = "Blinn-Phong",
-     .summary =
-         "Matt surface with a highlight where the normal comes near the half vector of light and observer.",
+     .summary = "A matt surface with a highlight where the normal is close to the half vector of light and "
+                "observer.",
      .formula = "H = (L + V) / |L + V|\n"
                 "I_a = ka C_o I_ambient\n"
                 "I_d = kd C_o I_L max(N.L, 0)\n"

@@ -15,7 +15,8 @@ constexpr auto k_fields = fields(
     specular_coefficient(&CookTorranceMaterial::ks),
     real(&CookTorranceMaterial::roughness, "roughness", 0.2f, "m, the root mean square slope of the facets")
         .range(0.05f, 1),
-    real(&CookTorranceMaterial::ior, "ior", 1.5f, "index of refraction: plastic 1.5; 10 mirrors like metal")
+    real(&CookTorranceMaterial::ior, "ior", 1.5f,
+         "index of refraction: 1.5 for plastic; 10 reflects like metal")
         .range(1, 100));
 
 constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}, {"isotropic"}};
@@ -24,8 +25,8 @@ constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}
 
 CANDELA_REFLECTION_PLUGIN(cook_torrance, CookTorranceMaterial, k_fields,
                           {.title = "Cook-Torrance",
-                           .summary = "A rough surface of small mirrors that shade one another, brightest at "
-                                      "grazing angles: plastic, metal.",
+                           .summary = "A rough surface of small mirrors that shadow one another, brightest "
+                                      "at grazing angles: plastic, metal.",
                            .formula = "I_a = ka C_o I_ambient\n"
                                       "I_d = kd C_o I_L max(N.L, 0)\n"
                                       "I_s = ks I_L F D G / (4 N.V),  D = exp(-tan(alpha)^2 / m^2) / (m^2 "

@@ -34,7 +34,7 @@ TEST_CASE("reflection/cook-torrance is k_s F D G / (4 N.V) with Beckmann's D, ov
 }
 
 TEST_CASE(
-    "Beckmann's distribution adds up to 1 over all facets, seen from above (Walter et al. 2007, eq. 4)") {
+    "Beckmann's distribution integrates to 1 over all facets, seen from above (Walter et al. 2007, eq. 4)") {
     for (const float m : {0.1f, 0.3f, 0.6f, 1.0f}) {
         const double sum = over_hemisphere([&](Double3 h) {
             return static_cast<double>(candela::kernel::beckmann_distribution(static_cast<float>(h.y), m)) /
@@ -45,8 +45,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "Beckmann's distribution has the values that follow by hand: m = 0.3, at 0, 10, 20 and 30 degrees") {
+TEST_CASE("Beckmann's distribution has hand-computed values for m = 0.3 at 0, 10, 20 and 30 degrees") {
     // exp(-tan^2 / 0.09) / (0.09 cos^4)
     const auto d = [](double degrees) {
         return static_cast<double>(candela::kernel::beckmann_distribution(
@@ -60,8 +59,7 @@ TEST_CASE(
 
 TEST_CASE(
     "fresnel_dielectric is 0.04 straight on glass, half of s-polarised light's at Brewster's angle, and 1 "
-    "beyond "
-    "the critical angle") {
+    "beyond the critical angle") {
     const auto f = [](double cosine, double ior) {
         return static_cast<double>(
             candela::kernel::fresnel_dielectric(static_cast<float>(cosine), static_cast<float>(ior)));

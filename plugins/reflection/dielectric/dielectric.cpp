@@ -7,23 +7,26 @@ namespace candela::kernel {
 using candela::kernel::DielectricMaterial;
 using namespace candela::sdk;
 
-constexpr auto k_fields = fields(
-    coefficient(&DielectricMaterial::ks, "ks", 1.0f, "brightness of lamp reflections"),
-    real(&DielectricMaterial::shininess, "shininess", 400, "the larger, the smaller the image of a lamp")
-        .minimum(0),
-    real(&DielectricMaterial::ior, "ior", 1.5f, "index of refraction: water 1.33, glass 1.5, diamond 2.42")
-        .range(1, 4),
-    real(&DielectricMaterial::depth, "depth", 1, "distance after which white light has the object's colour")
-        .minimum(1e-6f)
-        .unit("m"),
-    integer(&DielectricMaterial::internal_reflections, "internal_reflections", 4,
-            "largest number of internal reflections followed")
-        .range(0, 16));
+constexpr auto k_fields =
+    fields(coefficient(&DielectricMaterial::ks, "ks", 1.0f, "brightness of reflections of lights"),
+           real(&DielectricMaterial::shininess, "shininess", 400,
+                "the larger, the smaller the reflection of a light")
+               .minimum(0),
+           real(&DielectricMaterial::ior, "ior", 1.5f,
+                "index of refraction: 1.33 for water, 1.5 for glass, 2.42 for diamond")
+               .range(1, 4),
+           real(&DielectricMaterial::depth, "depth", 1,
+                "distance within the object after which white light has its colour")
+               .minimum(1e-6f)
+               .unit("m"),
+           integer(&DielectricMaterial::internal_reflections, "internal_reflections", 4,
+                   "maximum number of internal reflections followed")
+               .range(0, 16));
 
 CANDELA_REFRACTION_PLUGIN(
     dielectric, DielectricMaterial, k_fields,
     {.title = "Dielectric",
-     .summary = "Glass, water, diamond: mirrors and refracts what surrounds the object.",
+     .summary = "Glass, water, diamond: reflects and refracts the object's surroundings.",
      .formula = "n_1 sin(theta_1) = n_2 sin(theta_2)\n"
                 "F = (r_s^2 + r_p^2) / 2,  r_s = (n_1 cos(theta_1) - n_2 cos(theta_2)) / (n_1 cos(theta_1) + "
                 "n_2 cos(theta_2)),\n"

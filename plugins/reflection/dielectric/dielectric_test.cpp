@@ -78,7 +78,8 @@ class Wall final : public candela::Surroundings {
     int hits_ = 0;
 };
 
-/// What the observer sees of the ball at the point with normal +z, looking at `angle` to it from +x.
+/// The light that the observer sees from the ball at the point with normal +z, looking at `angle` to it from
+/// +x.
 Vec3 seen_at(const ReflectionModel& model, double angle, candela::Surroundings& around,
              candela::Rgb color = {1, 1, 1}) {
     float normal[] = {0, 0, 1}, position[] = {0, 0, 1};
@@ -130,8 +131,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "reflection/dielectric mirrors as Fresnel says at every angle: 7.4 % at glass's Brewster angle, all at "
-    "90") {
+    "reflection/dielectric follows Fresnel's equations at every angle: 7.4 % at glass's Brewster angle, all "
+    "at 90") {
     for (const double ior : {1.1, 1.5, 2.42}) {
         for (double degrees = 5; degrees < 89; degrees += 7) {
             INFO("ior " << ior << ", " << degrees << " degrees");
@@ -143,7 +144,7 @@ TEST_CASE(
     CHECK(mirrored_share(1.5, 89.99 * k_degree) > 0.99);
 }
 
-TEST_CASE("reflection/dielectric refracts as Snell says: sin(theta_1) = n sin(theta_2)") {
+TEST_CASE("reflection/dielectric obeys Snell's law: sin(theta_1) = n sin(theta_2)") {
     for (const double ior : {1.0, 1.33, 1.5, 4.0}) {
         for (const double degrees : {0.0, 10.0, 45.0, 80.0}) {
             INFO("ior " << ior << ", " << degrees << " degrees");
@@ -170,14 +171,14 @@ TEST_CASE("reflection/dielectric lets nothing out beyond the critical angle, 41.
 }
 
 TEST_CASE(
-    "reflection/dielectric makes the rainbow: light once mirrored within water is turned by 138 degrees at "
+    "reflection/dielectric makes the rainbow: light mirrored once within water is turned by 138 degrees at "
     "least") {
     // Descartes (1637), Les Météores, discourse 8: an angle of 42 degrees to the shadow of one's head.
     double least = 360;
     for (double degrees = 0; degrees < 89; degrees += 0.25) {
         BallSurroundings around;
         seen_at(*dielectric(4.0 / 3), degrees * k_degree, around);
-        // Looked at: the mirror image, straight through, once mirrored within.
+        // Directions looked in: the mirror image, straight through, and once mirrored within.
         const Double3 view{-std::sin(degrees * k_degree), 0, -std::cos(degrees * k_degree)};
         const double turned =
             std::acos(std::clamp(dot(view, unit(around.looked.at(2))), -1.0, 1.0)) / k_degree;
@@ -200,7 +201,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("reflection/dielectric follows light until less than 1/1024 of what is seen can be left of it") {
+TEST_CASE("reflection/dielectric follows light until it can contribute less than 1/1024 of the result") {
     // Straight through glass, 4 % are mirrored each time: 0.04, 0.0016, 6e-5, 2.6e-6, 1e-7 ... of 0.96.
     const auto rays = [](float most) {
         BallSurroundings around;
@@ -209,12 +210,12 @@ TEST_CASE("reflection/dielectric follows light until less than 1/1024 of what is
         return around.followed.size();
     };
     CHECK(rays(1) == 3);
-    CHECK(rays(1e3f) == 5);  // a sun: what little is left of it may be seen
+    CHECK(rays(1e3f) == 5);  // a sun: even the little that is left of it may be visible
     CHECK(rays(1e30f) == 17);
 }
 
 TEST_CASE("reflection/dielectric shows the sum of all reflections within, to a thousandth") {
-    // Straight through, the ways out are ahead and back in turns.
+    // On the straight path, light leaves forwards and backwards alternately.
     const double mirrored = 0.04, refracted = 0.96;
     for (const double behind : {0.0, 0.01, 1.0}) {
         for (const double ahead : {0.0, 0.02, 1.0}) {
@@ -230,7 +231,7 @@ TEST_CASE("reflection/dielectric shows the sum of all reflections within, to a t
     }
 }
 
-TEST_CASE("reflection/dielectric comes to an end where its surroundings are no numbers") {
+TEST_CASE("reflection/dielectric terminates in non-finite surroundings") {
     BallSurroundings around;
     around.intensity = [](Double3) { return std::numeric_limits<double>::quiet_NaN(); };
     CHECK(std::isnan(seen_at(*dielectric(1.5), 0.3, around).x));
@@ -239,7 +240,7 @@ TEST_CASE("reflection/dielectric comes to an end where its surroundings are no n
 }
 
 TEST_CASE(
-    "reflection/dielectric absorbs as Beer says: the object's colour after `depth`, its square after twice "
+    "reflection/dielectric obeys Beer's law: the object's colour after `depth`, its square after twice "
     "that") {
     // Straight through the ball, 2 m, with one reflection within: F + (1 - F) T ((1 - F) + F T).
     for (const double depth : {0.5, 1.0, 3.0}) {
@@ -255,8 +256,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "reflection/dielectric shows a lamp where Blinn's half vector is near the normal, as much as is mirrored "
-    "there") {
+    "reflection/dielectric shows a light where Blinn's half vector is near the normal, as much as is "
+    "mirrored there") {
     const auto model = instance<ReflectionModel>("dielectric", {{"ks", 1.0}, {"shininess", 100.0}});
     const double angle = 70 * k_degree;
     const ReflectionSample mirror{{0, 0, 1},

@@ -16,9 +16,9 @@ constexpr auto k_fields = fields(
     ambient_coefficient(&GgxMaterial::ka), diffuse_coefficient(&GgxMaterial::kd),
     specular_coefficient(&GgxMaterial::ks),
     real(&GgxMaterial::roughness, "roughness", 0.2f, "alpha, the width of the highlight").range(0.02f, 1),
-    real(&GgxMaterial::ior, "ior", 1.5f, "index of refraction: plastic 1.5; 10 mirrors like metal")
+    real(&GgxMaterial::ior, "ior", 1.5f, "index of refraction: 1.5 for plastic; 10 reflects like metal")
         .range(1, 100),
-    choice(&GgxMaterial::fresnel, "fresnel", k_fresnels, "Fresnel's equations, or Schlick's approximation"));
+    choice(&GgxMaterial::fresnel, "fresnel", k_fresnels, "Fresnel's equations or Schlick's approximation"));
 
 constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}, {"isotropic"}};
 
@@ -35,9 +35,8 @@ CANDELA_REFLECTION_PLUGIN(
                 "N.L^2))",
      .reference =
          "Walter, Marschner, Li, Torrance (2007), Microfacet models for refraction through rough surfaces, "
-         "EGSR, "
-         "195-206; Heitz (2014), Understanding the masking-shadowing function, JCGT 3(2); Schlick (1994), An "
-         "inexpensive BRDF model for physically-based rendering, Eurographics",
+         "EGSR, 195-206; Heitz (2014), Understanding the masking-shadowing function, JCGT 3(2); Schlick "
+         "(1994), An inexpensive BRDF model for physically-based rendering, Eurographics",
      .relations = k_diffuse_and_specular,
      .properties = k_properties,
      .presets = k_metal_presets})

@@ -20,7 +20,7 @@ double lambda(double cosine, double alpha) {
 }  // namespace
 
 TEST_CASE(
-    "reflection/ggx is k_s F D G / (4 N.V) with masking and shadowing of equal height, 1 / (1 + Lambda_V + "
+    "reflection/ggx is k_s F D G / (4 N.V) with height-correlated masking and shadowing, 1 / (1 + Lambda_V + "
     "Lambda_L)") {
     for (const double alpha : {0.1, 0.4, 1.0}) {
         for (const std::string fresnel : {"exact", "schlick"}) {
@@ -51,7 +51,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "GGX's distribution adds up to 1 over all facets, seen from above, and over those that are visible from "
+    "GGX's distribution integrates to 1 over all facets seen from above, and over the visible facets from "
     "any side") {
     for (const float alpha : {0.1f, 0.4f, 1.0f}) {
         const auto d = [&](Double3 h) {
@@ -72,7 +72,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("GGX's distribution has the values that follow by hand: alpha = 0.3, at 0, 10, 20 and 30 degrees") {
+TEST_CASE("GGX's distribution has hand-computed values for alpha = 0.3 at 0, 10, 20 and 30 degrees") {
     // 0.09 / (1 - 0.91 cos^2)^2
     const auto d = [](double degrees) {
         return static_cast<double>(candela::kernel::ggx_distribution(

@@ -32,7 +32,7 @@ TEST_CASE("every reflection model reflects k_a C_o I_ambient, whatever the direc
     }
 }
 
-TEST_CASE("a reflection model adds to what earlier lights sent") {
+TEST_CASE("a reflection model adds to the light of earlier sources") {
     const auto model = instance<ReflectionModel>("lambert", {{"kd", 0.5}});
     candela::Vec3Arrays n, sum, other;
     for (auto* arrays : {&n, &sum, &other}) arrays->resize(1);

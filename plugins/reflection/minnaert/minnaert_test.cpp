@@ -38,7 +38,7 @@ TEST_CASE("reflection/minnaert with k = 1/2 shows the full moon as a disc of eve
 }
 
 TEST_CASE(
-    "reflection/minnaert sends 2 (N.V)^(k - 1) / (k + 1) of even light from everywhere to an observer") {
+    "reflection/minnaert sends 2 (N.V)^(k - 1) / (k + 1) of uniform light from everywhere to an observer") {
     // The integral of (N.L)^k / pi over the hemisphere is 2 / (k + 1): above 1 for k < 1 and an observer at a
     // grazing angle, so not bounded.
     for (const double k : {0.5, 1.0, 2.5}) {

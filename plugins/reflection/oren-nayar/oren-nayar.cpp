@@ -32,8 +32,8 @@ constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}
 CANDELA_REFLECTION_PLUGIN(
     oren_nayar, OrenNayarMaterial, k_fields,
     {.title = "Oren-Nayar",
-     .summary = "A rough matt surface, flatter than Lambert's and brighter towards the light: plaster, clay, "
-                "the moon.",
+     .summary = "A rough matt surface that looks flatter than Lambert's and brighter towards the light: "
+                "plaster, clay, the moon.",
      .formula = "I_a = ka C_o I_ambient\n"
                 "I_d = kd C_o I_L max(N.L, 0) f,  s2 = sigma^2\n"
                 "full: f = C1 + cos(dphi) C2 tan(beta) + (1 - |cos(dphi)|) C3 tan((alpha + beta) / 2)\n"

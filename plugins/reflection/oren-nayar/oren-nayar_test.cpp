@@ -46,7 +46,7 @@ double full(const Angles& a, double sigma, double rho) {
     return std::max(once + twice, 0.0);
 }
 
-/// Fujii's (2012), in his own terms.
+/// Fujii's formula (2012), in his own terms.
 double fujii(Double3 n, Double3 v, Double3 l, double sigma, double rho) {
     const double s2 = sigma * sigma, s = dot(l, v) - dot(n, l) * dot(n, v);
     const double t = s <= 0 ? 1 : std::max(dot(n, l), dot(n, v));
@@ -86,7 +86,7 @@ double seen(const ReflectionModel& model, double light_degrees, double observer_
 
 }  // namespace
 
-TEST_CASE("reflection/oren-nayar is the paper's function of angles, in each form and at each roughness") {
+TEST_CASE("reflection/oren-nayar is the paper's function of angles in each form and at each roughness") {
     for (const double degrees : {0.0, 10.0, 30.0, 60.0, 90.0}) {
         for (const std::string form : {"full", "qualitative", "fujii"}) {
             INFO(form << ", sigma " << degrees << " degrees");
@@ -134,7 +134,7 @@ TEST_CASE(
     CHECK(agree(seen(*model, 60, 0), 0.9 * 0.5 * 0.7731, 1e-4));
     // Back along the light at 60 degrees: A + B sin(60) tan(60) = A + 1.5 B.
     CHECK(agree(seen(*model, 60, 60), 0.9 * 0.5 * (0.7731 + 1.5 * 0.3388), 1e-4));
-    // On the far side only A is left.
+    // On the far side only A remains.
     CHECK(agree(seen(*model, 60, -60), 0.9 * 0.5 * 0.7731, 1e-4));
 }
 

@@ -21,7 +21,8 @@ constexpr candela::Property k_properties[] = {{"isotropic"}};
 CANDELA_REFLECTION_PLUGIN(
     phong, PhongMaterial, k_fields,
     {.title = "Phong",
-     .summary = "Matt surface with a highlight around the direction in which a mirror would send the light.",
+     .summary =
+         "A matt surface with a highlight around the direction in which a mirror would reflect the light.",
      .formula = "R = 2 N (N.L) - L\n"
                 "I_a = ka C_o I_ambient\n"
                 "I_d = kd C_o I_L max(N.L, 0)\n"

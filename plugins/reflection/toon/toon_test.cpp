@@ -24,7 +24,7 @@ ReflectedPair seen(const ReflectionModel& model, double light_degrees, double ob
 
 }  // namespace
 
-TEST_CASE("reflection/toon has as many steps of brightness as it is told, of even height in N.L") {
+TEST_CASE("reflection/toon has as many steps of brightness as requested, equally spaced in N.L") {
     for (const std::int64_t bands : {1, 2, 5, 16}) {
         const auto model = instance<ReflectionModel>("toon", {{"kd", 1.0}, {"ks", 0.0}, {"bands", bands}});
         std::set<float> levels;

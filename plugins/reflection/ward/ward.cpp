@@ -17,7 +17,7 @@ constexpr auto k_fields = fields(
     real(&WardMaterial::roughness_u, "roughness_u", 0.1f, "slope of the surface along u").range(0.05f, 1),
     real(&WardMaterial::roughness_v, "roughness_v", 0.3f, "slope of the surface across u").range(0.05f, 1),
     choice(&WardMaterial::form, "form", k_forms,
-           "Ward's own, or the one that does not darken at grazing angles and whose energy is bounded"));
+           "Ward's own form, or the energy-bounded one that does not darken at grazing angles"));
 
 // Not "energy-bounded": Ward's original form is unbounded in the last half degree above the surface.
 constexpr candela::Property k_properties[] = {{"reciprocal"}};

@@ -62,7 +62,7 @@ Polyhedron uneven_corner() {
 
 }  // namespace
 
-TEST_CASE("shading/angle-weighted weighs a face by its angle at the vertex (Thuermer, Wuethrich 1998)") {
+TEST_CASE("shading/angle-weighted weights a face by its angle at the vertex (Thuermer, Wuethrich 1998)") {
     check_weighted_normals("angle-weighted", [](Double3 p, Double3 q) {
         return std::acos(std::clamp(dot(unit(p), unit(q)), -1.0, 1.0));
     });
@@ -88,7 +88,7 @@ TEST_CASE(
     CHECK(largest_angle({vertex_normals(*plain, corner)[0]}, {unit(Double3{1, 2, 5})}) < 1e-6);
 }
 
-TEST_CASE("shading/angle-weighted copes with triangles without area, smooth groups and authored normals") {
+TEST_CASE("shading/angle-weighted handles triangles without area, smooth groups and authored normals") {
     check_normals_of_odd_meshes("angle-weighted");
 }
 

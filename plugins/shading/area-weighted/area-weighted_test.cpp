@@ -7,7 +7,7 @@
 using candela::ShadingModel;
 using candela::Vec3;
 
-TEST_CASE("shading/area-weighted weighs a face by its area") {
+TEST_CASE("shading/area-weighted weights a face by its area") {
     check_weighted_normals("area-weighted", [](Double3 p, Double3 q) { return 0.5 * length(cross(p, q)); });
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("shading/area-weighted: a face four times as large counts four times")
                 1e-6));
 }
 
-TEST_CASE("shading/area-weighted copes with triangles without area, smooth groups and authored normals") {
+TEST_CASE("shading/area-weighted handles triangles without area, smooth groups and authored normals") {
     check_normals_of_odd_meshes("area-weighted");
 }
 

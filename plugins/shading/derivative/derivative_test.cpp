@@ -159,7 +159,7 @@ TEST_CASE("shading/derivative is the normalised dp/du x dp/dv, on the side of th
     });
 }
 
-TEST_CASE("shading/derivative takes the face's normal where the derivatives span no plane") {
+TEST_CASE("shading/derivative uses the face's normal where the derivatives do not span a plane") {
     const Vec3 face{0, 0, 1}, vertex{0, 0.6f, 0.8f};
     const Vec3 a{1, 0, 0}, b{0.5f, 0.1f, -0.2f};
     const float huge = 1e30f, tiny = 1e-30f;
@@ -177,7 +177,7 @@ TEST_CASE("shading/derivative takes the face's normal where the derivatives span
 }
 
 TEST_CASE(
-    "shading/derivative is nearer to the true normals of a coarse sphere and torus than Phong's, and exact "
+    "shading/derivative is closer to the true normals of a coarse sphere and torus than Phong's, and exact "
     "at vertices") {
     for (const std::int64_t segments : {12, 16, 24}) {
         INFO(segments << " segments");

@@ -7,7 +7,7 @@ using candela::ShadingModel;
 using candela::Vec3;
 using candela::Vec3Arrays;
 
-TEST_CASE("shading/flat takes the face's normal, once a face (DD8)") {
+TEST_CASE("shading/flat uses the face's normal, once per face (DD8)") {
     const auto model = instance<ShadingModel>("flat");
     CHECK(model->shading_rate() == candela::ShadingRate::face);
     Random random(5);

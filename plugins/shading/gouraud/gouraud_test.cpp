@@ -7,7 +7,7 @@ using candela::ShadingModel;
 using candela::Vec3;
 using candela::Vec3Arrays;
 
-TEST_CASE("shading/gouraud lights vertices, with their normals") {
+TEST_CASE("shading/gouraud lights vertices with their normals") {
     const auto model = instance<ShadingModel>("gouraud");
     CHECK(model->shading_rate() == candela::ShadingRate::vertex);
     Random random(7);
@@ -47,7 +47,7 @@ TEST_CASE("vertex normals are the normalised sum of the normals of the faces tha
     }
 }
 
-TEST_CASE("vertices of one smooth group share one normal, those of different groups do not") {
+TEST_CASE("vertices of one smooth group share one normal; those of different groups do not") {
     const std::vector<std::uint32_t> indices = {0, 1, 2, 3, 4, 5};
     Vec3Arrays position, face, normal;
     position.resize(6);

@@ -94,12 +94,12 @@ double error_on(const IrregularSphere& sphere, const char* shading) {
 
 }  // namespace
 
-TEST_CASE("shading/max-weighted weighs a face by sin(a) / (|P| |Q|) of its edges at the vertex (Max 1999)") {
+TEST_CASE("shading/max-weighted weights a face by sin(a) / (|P| |Q|) of its edges at the vertex (Max 1999)") {
     check_weighted_normals(
         "max-weighted", [](Double3 p, Double3 q) { return length(cross(p, q)) / (dot(p, p) * dot(q, q)); });
 }
 
-TEST_CASE("shading/max-weighted is exact on an irregular sphere, and no other weight is (Max 1999)") {
+TEST_CASE("shading/max-weighted is exact on an irregular sphere; no other weight is (Max 1999)") {
     const IrregularSphere sphere;
     REQUIRE(sphere.normal.size() == 258);  // Euler: F / 2 + 2
     REQUIRE(sphere.body.triangles() == 512);
@@ -127,7 +127,7 @@ TEST_CASE(
     CHECK(error("phong") > 0.05);
 }
 
-TEST_CASE("shading/max-weighted copes with triangles without area, smooth groups and authored normals") {
+TEST_CASE("shading/max-weighted handles triangles without area, smooth groups and authored normals") {
     check_normals_of_odd_meshes("max-weighted");
 }
 

@@ -59,5 +59,5 @@ constexpr candela::Property k_properties[] = {{"closed"}, {"euler-characteristic
 
 CANDELA_PLUGIN(shape, Cube, k_fields,
                {.title = "Cube",
-                .summary = "A cube about the object's position.",
+                .summary = "A cube centred on the object's position.",
                 .properties = k_properties})

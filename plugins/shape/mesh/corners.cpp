@@ -48,7 +48,7 @@ Corners::Corners(const Surface& surface)
     });
     std::ranges::copy_backward(begin_.begin(), begin_.end() - 1, begin_.end());
     begin_[0] = 0;
-    // Threads leave them in any order.
+    // The threads wrote them in arbitrary order.
     candela::parallel_for(place_.size(), k_per_task, [&](std::size_t first, std::size_t last) {
         for (std::size_t place = first; place < last; ++place)
             std::sort(corners_.begin() + begin_[place], corners_.begin() + begin_[place + 1]);
@@ -66,7 +66,7 @@ OpenEdges open_edges(const Surface& surface, const Corners& corners) {
         std::vector<Edge> edges;
         OpenEdges some;
         for (std::size_t place = begin; place < end; ++place) {
-            // Each edge is looked at from the lower one of its places.
+            // Each edge is visited from the lower of its two places.
             edges.clear();
             for (const std::uint32_t corner : corners.at(place)) {
                 const auto at = [&](std::uint32_t c) { return corners.place(surface.indices[c]); };

@@ -1,4 +1,4 @@
-// Which corners of triangles meet at one place.
+// Finds the corners of triangles that meet at one place.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class Corners {
     /// Per vertex.
     std::uint32_t place(std::uint32_t vertex) const { return place_[vertex]; }
     std::size_t places() const { return place_.size(); }
-    /// Positions in `surface.indices`, in rising order; empty for a vertex that is not the first at its
+    /// Positions in `surface.indices`, in ascending order; empty for a vertex that is not the first at its
     /// place.
     std::span<const std::uint32_t> at(std::size_t place) const {
         return std::span(corners_).subspan(begin_[place], begin_[place + 1] - begin_[place]);

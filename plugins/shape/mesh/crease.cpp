@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t k_per_task = 16384;
 
-/// Unit; zero where there is none: the file's own, which is exact even where a triangle is a sliver, or that
-/// of the corners.
+/// Unit normals per triangle: the file's, which are exact even for slivers, or else computed from the
+/// corners; zero where neither exists.
 Array<Vec3> normals_of(const Surface& surface) {
     Array<Vec3> normals(surface.triangles());
     candela::parallel_for(normals.size(), k_per_task, [&](std::size_t begin, std::size_t end) {
@@ -48,12 +48,12 @@ class Grouping {
         : surface_(surface),
           corners_(corners),
           normals_(normals),
-          // Faces that meet at just this angle are smooth, whatever rounding says.
+          // Faces that meet at exactly this angle are smooth in spite of rounding.
           least_cosine_(
               crease_angle >= std::numbers::pi ? -2.0f : static_cast<float>(std::cos(crease_angle)) - 1e-6f),
           joins_only_planes_(crease_angle == 0) {}
 
-    /// Afterwards root() says which corners, as positions in `here`, share a normal.
+    /// Afterwards root() tells which corners, as positions in `here`, share a normal.
     void run(std::span<const std::uint32_t> here) {
         here_ = here;
         const std::size_t n = here.size();
@@ -150,7 +150,7 @@ class Grouping {
         join_by(keyed);
     }
 
-    /// A triangle without area has no normal, and needs no vertex of its own.
+    /// A triangle without area has no normal and needs no vertex of its own.
     void attach_degenerate() {
         std::size_t sound = here_.size();
         for (std::size_t i = 0; i < here_.size() && sound == here_.size(); ++i)
@@ -169,13 +169,13 @@ class Grouping {
     std::vector<std::uint32_t> parent_;
 };
 
-/// Numbers the vertices that a place needs: one for each group and vertex of the surface in it, or, if
-/// vertices are nothing but positions, one for each group.
+/// Numbers the vertices that a place needs: one per group and vertex of the surface in it, or one per group
+/// if vertices consist only of positions.
 class Numbering {
   public:
     explicit Numbering(bool merges) : merges_(merges) {}
 
-    /// Writes, for each of the corners, the number of its vertex and of the first vertex of its group.
+    /// Writes for each corner the number of its vertex and of the first vertex of its group.
     std::uint32_t run(const Surface& surface, std::span<const std::uint32_t> here, Grouping& grouping,
                       Array<std::uint32_t>& number, Array<std::uint32_t>& first) {
         keys_.clear();
@@ -214,7 +214,7 @@ SplitVertices split_at_creases(const Surface& surface, const Corners& corners, d
     const bool merges = surface.u.empty() && surface.color.empty() && surface.normal.empty();
     const std::size_t places = corners.places();
     SplitVertices split;
-    // For now within their places.
+    // Numbered within each place for now.
     split.indices.resize(surface.indices.size());
     Array<std::uint32_t> first_of_group(merges ? 0 : surface.indices.size());
     Array<std::uint32_t> begin(places + 1);

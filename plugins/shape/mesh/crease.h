@@ -1,4 +1,4 @@
-// Where a surface is smooth, and where it has hard edges.
+// Separates the smooth parts of a surface at its hard edges.
 #pragma once
 
 #include "corners.h"
@@ -9,15 +9,15 @@ namespace mesh {
 /// The vertices that a surface needs so that normals differ across hard edges.
 struct SplitVertices {
     Array<std::uint32_t> source;   // per vertex, the vertex of the surface that it is a copy of
-    Array<std::uint32_t> group;    // per vertex: its smooth group; empty: each is its own
+    Array<std::uint32_t> group;    // per vertex: its smooth group; empty: each vertex is its own group
     Array<std::uint32_t> indices;  // three per triangle
 };
 
-/// Vertices with a normal of the file's own stay as they are. At each place, the corners of all other
-/// triangles fall into smooth groups: two triangles belong together if they have the same smoothing group or,
-/// where the file has none, if the angle between their normals is at most `crease_angle` (radians), and so do
-/// those that are connected by others. Where more than a few dozen triangles meet, only neighbours are
-/// compared. Vertices that no triangle uses are left out.
+/// Vertices with a normal from the file stay as they are. At each place, the corners of all other triangles
+/// fall into smooth groups: two triangles belong together, directly or through others, if they have the same
+/// smoothing group or, where the file has none, if the angle between their normals is at most `crease_angle`
+/// (radians). Where more than a few dozen triangles meet, only neighbours are compared. Vertices that no
+/// triangle uses are left out.
 SplitVertices split_at_creases(const Surface& surface, const Corners& corners, double crease_angle);
 
 }  // namespace mesh

@@ -38,8 +38,8 @@ Piece clipped(const Piece& piece, Distance distance) {
     return result.size() < 3 ? Piece() : result;
 }
 
-/// Squares between the centres of pixels, joined four by four up to a single one: where all of a square is
-/// within, or without, nothing has to be cut.
+/// Squares between the centres of pixels, joined four by four up to a single one: a square that lies entirely
+/// inside or outside needs no cutting.
 class Squares {
   public:
     Squares(const Opacity& opacity, float level, bool clamps)
@@ -69,7 +69,7 @@ class Squares {
         }
     }
 
-    /// Gives `take` the parts of a triangle that are within.
+    /// Passes the parts of a triangle that lie inside to `take`.
     template <class Take>
     void cut(const Piece& triangle, Take take) const {
         const auto tiles = [](double low, double high, int size) {
@@ -128,7 +128,7 @@ class Squares {
                 cut(piece, level - 1, i, j, tile_x, tile_y, take);
     }
 
-    /// Between four pixels, by two triangles in which the opacity is linear.
+    /// Cuts between four pixels, with two triangles in which the opacity is linear.
     template <class Take>
     void cut_square(const Piece& piece, int x, int y, double left, double top, Take take) const {
         const double a = value(x, y), b = value(x + 1, y), c = value(x, y + 1), d = value(x + 1, y + 1);
@@ -157,7 +157,7 @@ class Cutter {
         result_.notes = from.notes;
     }
 
-    /// Nothing if there would be more than `most` triangles.
+    /// Returns nothing if there would be more than `most` triangles.
     std::optional<Surface> cut(const Opacity& opacity, float level, bool clamps, std::size_t most) {
         const Squares squares(opacity, level, clamps);
         for (std::size_t t = 0; t < from_.triangles(); ++t) {
@@ -223,8 +223,7 @@ Opacity Opacity::read(std::string_view pgm) {
     const auto pixels = static_cast<std::size_t>(header[0]) * static_cast<std::size_t>(header[1]);
     is_pgm = is_pgm && header[0] <= k_most && header[1] <= k_most && header[2] == 255 && at < end &&
              static_cast<std::size_t>(end - at - 1) >= pixels;
-    if (!is_pgm)
-        throw BadFile(fmt::format("is not a binary PGM of 8 bits and at most {0} x {0} pixels", k_most));
+    if (!is_pgm) throw BadFile(fmt::format("is not an 8-bit binary PGM of at most {0} x {0} pixels", k_most));
     ++at;
     Opacity result;
     result.width_ = header[0];
@@ -268,7 +267,7 @@ Surface cut_out(const Surface& surface, const Opacity& opacity, float level, boo
         if (result->triangles() == 0) throw BadFile("is transparent everywhere");
         if (is_coarser)
             result->notes.emplace_back(fmt::format(
-                "would have too many triangles along its cut-outs, which are as coarse as {} x {} pixels",
+                "would have too many triangles along its cut-outs, so these were coarsened to {} x {} pixels",
                 finest.width(), finest.height()));
         return std::move(*result);
     }

@@ -1,4 +1,4 @@
-// Triangles cut along the outline of a picture of opacity: leaves, fences and hair on cards.
+// Cuts triangles along the outline of an opacity map: leaves, fences and hair on cards.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace mesh {
 
-/// How opaque a surface is, by its texture coordinates; rows from the top.
+/// The opacity of a surface by its texture coordinates; rows from the top.
 class Opacity {
   public:
-    /// A binary greymap (PGM, P5) of 8 bits. Throws BadFile.
+    /// Reads an 8-bit binary greymap (PGM, P5). Throws BadFile.
     static Opacity read(std::string_view pgm);
 
     int width() const { return width_; }
     int height() const { return height_; }
-    /// 0 to 1; repeats, or goes on as at the edge.
+    /// 0 to 1. Beyond the edges the map repeats, or continues with its edge pixels if it `clamps`.
     float at(int x, int y, bool clamps) const;
-    /// Half as wide and high, by means.
+    /// Half as wide and high; pixels are averaged.
     Opacity halved() const;
 
   private:
@@ -27,9 +27,9 @@ class Opacity {
     std::vector<float> values_;
 };
 
-/// What is left of a surface where the opacity, interpolated between the centres of its pixels, is at least
-/// `level`. A surface without texture coordinates stays whole. Where it would become too many triangles, the
-/// outline is coarser, with a note. Throws BadFile if nothing is left.
+/// The part of a surface where the opacity, interpolated between the centres of its pixels, is at least
+/// `level`. A surface without texture coordinates stays whole. If that needs too many triangles, the outline
+/// is made coarser and a note is added. Throws BadFile if nothing is left.
 Surface cut_out(const Surface& surface, const Opacity& opacity, float level, bool clamps);
 
 }  // namespace mesh

@@ -1,4 +1,4 @@
-// Partial derivatives of position from texture coordinates.
+// Partial derivatives of position with respect to texture coordinates.
 #pragma once
 
 #include <cstddef>

@@ -37,7 +37,7 @@ class Descriptor {
             const ::ssize_t done = ::pread(number_, to, count, static_cast<::off_t>(begin));
             if (done < 0 && errno == EINTR) continue;
             if (done < 0) throw BadFile(fmt::format("cannot be read: {}", reason()));
-            if (done == 0) throw BadFile("became shorter while it was read");
+            if (done == 0) throw BadFile("was truncated while it was being read");
             const auto some = static_cast<std::size_t>(done);
             to += some, begin += some, count -= some;
         }
@@ -51,10 +51,10 @@ class Descriptor {
 
 constexpr std::string_view k_pointer = "version https://git-lfs.github.com/spec/";
 
-/// What a repository's clone without Git LFS has in a file's place.
+/// The text that a clone without Git LFS has in place of the file.
 void require_no_pointer(std::string_view text) {
     if (text.starts_with(k_pointer))
-        throw BadFile("is a pointer of Git LFS, not the file itself, which `git lfs pull` fetches");
+        throw BadFile("is a Git LFS pointer, not the file itself; run `git lfs pull` to fetch it");
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ FileState state_of(const std::filesystem::path& file) {
 
 std::string_view without_mark(std::string_view text) {
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-        throw BadFile("is text in UTF-16; expected UTF-8: save it as that");
+        throw BadFile("is UTF-16 text; save it as UTF-8");
     constexpr std::string_view k_mark = "\xef\xbb\xbf";
     if (text.starts_with(k_mark)) text.remove_prefix(k_mark.size());
     return text;
@@ -116,8 +116,8 @@ std::filesystem::path part_named(const std::filesystem::path& file, const std::f
     const auto [end, unused] = std::ranges::mismatch(root, real);
     if (end != root.end())
         throw BadFile(
-            fmt::format("names '{}', which is not in its own folder or below; if that is as it should be, "
-                        "give the object allow_outside = true, or the command --allow-outside",
+            fmt::format("names '{}', which is outside its own folder; if that is intended, set allow_outside "
+                        "= true on the object or pass --allow-outside to the command",
                         file.string()));
     return real;
 }

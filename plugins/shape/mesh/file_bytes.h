@@ -1,4 +1,4 @@
-// A file's content.
+// Reads a file's content.
 #pragma once
 
 #include <array>
@@ -11,23 +11,23 @@
 
 namespace mesh {
 
-/// A whole file, read at once: what happens to the file afterwards cannot be seen (a mapped file that shrinks
-/// ends the process). Throws BadFile if it is no regular file or cannot be read; a pipe is not waited for.
+/// Reads a whole file at once, so that later changes to the file have no effect (a mapped file that shrinks
+/// kills the process). Throws BadFile if it is not a regular file or cannot be read; never blocks on a pipe.
 Array<char> read_file(const std::filesystem::path& file);
 
-/// A file that is read piece by piece, so that a large one needs no memory of its own size.
+/// A file that is read in pieces, so that a large one does not need to fit into memory.
 class Pieces {
   public:
-    /// Throws BadFile as read_file() does.
+    /// Throws BadFile like read_file().
     explicit Pieces(const std::filesystem::path& file);
     Pieces(const Pieces&) = delete;
     Pieces& operator=(const Pieces&) = delete;
     ~Pieces();
 
-    /// When it was opened.
+    /// The size when the file was opened.
     std::size_t size() const { return size_; }
-    /// Bytes that lie within the size, until the next call. Throws BadFile if the file has become shorter or
-    /// cannot be read.
+    /// A range of bytes within size(), valid until the next call. Throws BadFile if the file has been
+    /// truncated or cannot be read.
     std::string_view at(std::size_t begin, std::size_t count);
 
   private:
@@ -38,21 +38,21 @@ class Pieces {
     Array<char> piece_;
 };
 
-/// What differs once a file has been changed: where it is, its size and its times; all zero if it is absent.
+/// Values that differ once a file has changed: its location, size and times; all zero if it is absent.
 using FileState = std::array<std::int64_t, 7>;
 FileState state_of(const std::filesystem::path& file);
 
-/// Which files a file may name as parts of itself.
+/// The files that a file may name as parts of itself.
 enum class Reach : bool { its_folder, anywhere };
 
-/// The path of `file`, a name in a file in `folder`. Throws BadFile if it lies, once links are resolved,
-/// where `reach` does not allow.
+/// The path of `file`, as named by a file in `folder`. Throws BadFile if `reach` does not allow its location
+/// after links are resolved.
 std::filesystem::path part_named(const std::filesystem::path& file, const std::filesystem::path& folder,
                                  Reach reach);
 
 inline std::string_view text_of(const Array<char>& bytes) { return {bytes.data(), bytes.size()}; }
 
-/// The text behind a UTF-8 byte order mark, if it begins with one. Throws BadFile for UTF-16.
+/// The text without its UTF-8 byte order mark, if any. Throws BadFile for UTF-16.
 std::string_view without_mark(std::string_view text);
 
 }  // namespace mesh

@@ -15,7 +15,7 @@ namespace mesh {
 
 namespace {
 
-/// In a loop that compilers make vectors of: the product is NaN for what is not finite.
+/// A loop that compilers vectorise: the product is NaN if any value is not finite.
 bool are_finite(const Array<float>& values) {
     constexpr std::size_t k_lanes = 16;
     std::array<float, k_lanes> sum{};
@@ -36,8 +36,8 @@ void require_finite_positions(Surface& surface, std::string_view face) {
         const Vec3 p = position[index];
         if (!is_finite(p))
             throw BadFile(
-                fmt::format("has a {} with the corner [{:g}, {:g}, {:g}] (vertex {}, counted from 0); a "
-                            "position must be finite",
+                fmt::format("has a {} with the corner [{:g}, {:g}, {:g}] (vertex {}, counted from 0); "
+                            "positions must be finite",
                             face, p.x, p.y, p.z, index));
     }
     const Vec3 some = surface.indices.empty() ? Vec3{} : position[surface.indices[0]];
@@ -57,7 +57,7 @@ void require_finite(Surface& surface, std::string_view face) {
             normals->span().set(i, {});
             ++count;
         }
-        surface.notes.push_back(fmt::format("has {} that {} not finite; computed ones take their place",
+        surface.notes.push_back(fmt::format("has {} that {} not finite; computed ones are used instead",
                                             counted(count, "normal"), count == 1 ? "is" : "are"));
     }
     if (are_finite(surface.u) && are_finite(surface.v)) return;
@@ -67,7 +67,7 @@ void require_finite(Surface& surface, std::string_view face) {
         surface.u[i] = surface.v[i] = 0;
         ++count;
     }
-    surface.notes.push_back(fmt::format("has {} that are not finite; zeros take their place",
+    surface.notes.push_back(fmt::format("has {} that are not finite; zeros are used instead",
                                         counted(count, "pair") + " of texture coordinates"));
 }
 

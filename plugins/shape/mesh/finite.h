@@ -1,4 +1,4 @@
-// What in a file is not a finite number.
+// Handles the numbers of a file that are not finite.
 #pragma once
 
 #include <string_view>
@@ -7,9 +7,9 @@
 
 namespace mesh {
 
-/// Throws BadFile that names the first triangle (`face`, in the file's word) with a position that is not
-/// finite. A vertex that no triangle has, as scanners write where they saw nothing, is moved to one that is
-/// finite; normals and texture coordinates that are not finite become zero, with a note that counts them.
+/// Throws BadFile naming the first triangle (`face`, in the file's terms) with a position that is not finite.
+/// A vertex that no triangle uses, as scanners write where they saw nothing, is moved to a finite one;
+/// normals and texture coordinates that are not finite become zero, with a note that counts them.
 void require_finite(Surface& surface, std::string_view face);
 
 }  // namespace mesh

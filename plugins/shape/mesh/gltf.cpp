@@ -65,7 +65,7 @@ class Reader {
         return *no_material_;
     }
 
-    /// Throws for a file that has only these.
+    /// Throws if the file has nothing else.
     void require_no_points_or_lines() const {
         std::size_t points = 0, lines = 0;
         for (const tinygltf::Mesh& mesh : document_.model.meshes)
@@ -119,7 +119,7 @@ class Reader {
         const bool is_mirrored = (count > 0 ? pose.of(0) : placed.to_world).determinant() < 0;
         std::array<Array<double>, 3> values = read(position);
         pose.morph("POSITION", values);
-        // Of many primitives, each would move all that is there.
+        // With many primitives, each would move everything read so far.
         if (first == 0)
             for (Vectors* const each : {&surface_.position, &surface_.normal})
                 for (Array<float>* const axis : {&each->x, &each->y, &each->z})
@@ -225,7 +225,8 @@ class Reader {
                 fmt::format("has a primitive of {} positions and {} {}", count, accessor.count(), what));
     }
 
-    /// Triangles as most files have them; false, and nothing added, for others and for what is wrong.
+    /// Reads triangles stored as in most files. Returns false and adds nothing for any other layout or an
+    /// invalid one.
     bool add_whole_triangles(const Placed& placed, std::size_t first, std::size_t count, bool is_mirrored) {
         const int mode = placed.primitive->mode;
         if (placed.primitive->indices < 0 || (mode >= 0 && mode != TINYGLTF_MODE_TRIANGLES)) return false;
@@ -278,7 +279,7 @@ class Reader {
                 break;
             default:
                 if (corners.size() % 3 != 0)
-                    throw BadFile(fmt::format("has triangles of {} corners, which is no multiple of three",
+                    throw BadFile(fmt::format("has triangles of {} corners, which is not a multiple of three",
                                               corners.size()));
                 for (std::size_t i = 0; i < corners.size(); i += 3) triangle(i, i + 1, i + 2);
         }
@@ -288,7 +289,7 @@ class Reader {
     const Origin& origin_;
     Surface surface_;
     std::vector<Affine> nodes_;                 // where there are skins
-    std::optional<std::uint32_t> no_material_;  // its number, where a primitive has none
+    std::optional<std::uint32_t> no_material_;  // its number, for primitives without a material
     bool has_normals_ = false;
     bool has_uv_ = false;
     bool has_color_ = false;

@@ -33,7 +33,7 @@ T load(const unsigned char* from) {
     return value;
 }
 
-/// As KHR_mesh_quantization says.
+/// As KHR_mesh_quantization defines.
 template <class T>
 double scaled(const unsigned char* from, bool is_normalized) {
     const double value = load<T>(from);
@@ -72,7 +72,7 @@ Accessor::Accessor(const Document& document, int index, int components) : docume
         throw BadFile(fmt::format("has an accessor {} whose sparse elements have no buffer view", index));
     if (size_of(a.sparse.indices.componentType) == 0 ||
         a.sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
-        throw BadFile(fmt::format("has an accessor {} whose sparse indices are no integers", index));
+        throw BadFile(fmt::format("has an accessor {} whose sparse indices are not integers", index));
     sparse_indices_ = bytes(a.sparse.indices.bufferView, offset(a.sparse.indices.byteOffset),
                             a.sparse.indices.componentType, 1, sparse_count_);
     sparse_values_ = bytes(a.sparse.values.bufferView, offset(a.sparse.values.byteOffset), a.componentType,

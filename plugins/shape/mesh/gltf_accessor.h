@@ -1,4 +1,4 @@
-// Numbers out of the accessors of a glTF file.
+// Reads numbers from the accessors of a glTF file.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace mesh::gltf {
 
-/// An accessor whose bytes have been found to be there: read() cannot go wrong.
+/// An accessor whose bytes are known to exist, so that read() cannot fail.
 class Accessor {
   public:
     /// Throws BadFile unless accessor `index` has `components` numbers per element, in views that
@@ -18,11 +18,11 @@ class Accessor {
 
     std::size_t count() const { return count_; }
 
-    /// Of the elements of an accessor that exists: 1 to 4, or 16; 0 for others.
+    /// The components per element of an existing accessor: 1 to 4, or 16; 0 for other types.
     static int components_of(const Document& document, int index);
     /// Component `c` of all elements.
     Array<double> read(int c) const;
-    /// The only component of all elements, where they are nothing but whole numbers in one piece.
+    /// The only component of all elements, if they are contiguous integers.
     std::optional<Array<std::uint32_t>> whole_numbers() const;
 
   private:

@@ -21,7 +21,7 @@ struct Affine {
         for (std::size_t row = 0; row < 3; ++row) r[row] += column[3][row];
         return r;
     }
-    /// Normals are transformed by its cofactors: the inverse transposed, but for a factor.
+    /// Normals are transformed by its cofactors: the inverse transpose, up to a factor.
     Affine cofactors() const {
         Affine r;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -43,7 +43,7 @@ inline Affine operator*(const Affine& a, const Affine& b) {
     return r;
 }
 
-/// A rotation as glTF has it, x y z w.
+/// A rotation as stored in glTF, x y z w.
 inline Affine rotation_of(const std::array<double, 4>& q) {
     const auto [x, y, z, w] = q;
     Affine r;
@@ -53,7 +53,7 @@ inline Affine rotation_of(const std::array<double, 4>& q) {
     return r;
 }
 
-/// Scales, then turns, then moves.
+/// Scales, then rotates, then translates.
 inline Affine affine_of(const std::array<double, 3>& translation, const std::array<double, 4>& rotation,
                         const std::array<double, 3>& scale) {
     Affine r = rotation_of(rotation);

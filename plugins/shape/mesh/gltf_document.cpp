@@ -41,14 +41,14 @@ std::string_view chunk_at(std::string_view bytes, std::size_t at) {
     return bytes.substr(at + 8, size);
 }
 
-/// Of a binary file. Some programs do not pad the JSON to a multiple of four bytes, or pad it and do not
-/// count that.
+/// The chunks of a binary file. Some programs do not pad the JSON to a multiple of four bytes, or do not
+/// count the padding.
 Chunks chunks_of(std::string_view bytes) {
     const std::uint32_t version = word_at(bytes, 4);
     if (version != 2)
         throw BadFile(
-            fmt::format("is binary glTF of version {}; Candela reads version 2, into which "
-                        "gltf-pipeline converts it: npx gltf-pipeline -i OLD.glb -o NEW.glb",
+            fmt::format("is binary glTF of version {}; Candela reads version 2. Convert it with: npx "
+                        "gltf-pipeline -i OLD.glb -o NEW.glb",
                         version));
     const std::size_t length = word_at(bytes, 8);
     if (length > bytes.size())
@@ -95,7 +95,7 @@ Buffer data_of(std::string_view uri, std::size_t number) {
         const std::string bytes = candela::target::base64_decoded(uri.substr(comma + 1));
         return Buffer(Array<char>(bytes.begin(), bytes.end()));
     } catch (const std::invalid_argument&) {
-        throw BadFile(fmt::format("has a data: URI for buffer {} that is not base64", number));
+        throw BadFile(fmt::format("has a data: URI for buffer {} that is not valid base64", number));
     }
 }
 
@@ -186,7 +186,7 @@ Document read_document(std::string_view bytes, const std::filesystem::path& fold
     } catch (const std::exception& problem) {
         problems = problem.what();
     }
-    if (!is_read) throw BadFile("is no valid glTF: " + first_line(problems));
+    if (!is_read) throw BadFile("is not valid glTF: " + first_line(problems));
     document.skins = std::move(geometry.skins);
     document.is_hidden = std::move(geometry.is_hidden);
     document.instances = std::move(geometry.instances);

@@ -1,7 +1,7 @@
-// What a glTF file says about triangles, read by tinygltf from no more than that.
+// The parts of a glTF file that concern triangles, and only those, as read by tinygltf.
 #pragma once
 
-// Images are not decoded, and files are read by us.
+// Images are not decoded, and Candela reads the files itself.
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_INCLUDE_STB_IMAGE
@@ -25,7 +25,7 @@
 
 namespace mesh::gltf {
 
-/// The bytes of a buffer: its own, or some of the file's.
+/// The bytes of a buffer: its own, or a range of the file's.
 struct Buffer {
     Buffer() = default;
     explicit Buffer(Array<char> own) : owned(std::move(own)), bytes(owned.data(), owned.size()) {}
@@ -46,21 +46,21 @@ struct Document {
     std::vector<Skin> skins;
     std::vector<bool> is_hidden;                 // per node
     std::map<std::size_t, Instances> instances;  // by node
-    std::vector<Loss> losses;                    // what else the file has
+    std::vector<Loss> losses;                    // what the file has besides triangles
     std::vector<std::string> materials;
     std::vector<std::filesystem::path> files;  // of buffers
     std::size_t bytes = 0;                     // of the file and of its buffers
 
-    /// The bytes of a view. Throws BadFile if they are not there.
+    /// The bytes of a view. Throws BadFile if they are missing.
     std::string_view view(std::size_t index) const;
-    /// A new view of a new buffer.
+    /// Adds a buffer and a view of it.
     std::size_t add_view(Array<char> content);
-    /// A new accessor of `count` elements without gaps: TINYGLTF_COMPONENT_TYPE_..., TINYGLTF_TYPE_...
+    /// Adds an accessor of `count` contiguous elements: TINYGLTF_COMPONENT_TYPE_..., TINYGLTF_TYPE_...
     int add_accessor(Array<char> content, int component_type, int type, std::size_t count);
 };
 
-/// Buffers outside the file are read from `folder`, and as far from it as `reach` allows; what is compressed
-/// is decompressed. The document refers to `bytes`. Throws BadFile.
+/// Reads buffers outside the file from `folder`, and from elsewhere if `reach` allows; decompresses
+/// compressed data. The document refers to `bytes`. Throws BadFile.
 Document read_document(std::string_view bytes, const std::filesystem::path& folder, Reach reach);
 
 }  // namespace mesh::gltf

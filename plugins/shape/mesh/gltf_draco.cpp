@@ -18,8 +18,8 @@ namespace mesh::gltf {
 
 namespace {
 
-/// How much the file's primitives may still become: corners and points, each for every set of attributes. A
-/// stream of a few bytes can declare billions, which its decoder would allocate first.
+/// How many corners and points the file's primitives may still have, for every set of attributes. A stream of
+/// a few bytes can declare billions, which the decoder would allocate before it reads them.
 struct Budget {
     std::uint64_t numbers;
     bool is_exceeded = false;
@@ -31,7 +31,7 @@ struct Budget {
     }
 };
 
-/// Draco's decoder, which stops before it allocates more than the budget allows.
+/// Draco's decoder, stopped before it allocates more than the budget allows.
 template <class Decoder>
 class Bounded final : public Decoder {
   public:
@@ -42,7 +42,7 @@ class Bounded final : public Decoder {
         draco::DecoderBuffer ahead = *this->buffer();
         constexpr bool k_is_edgebreaker = std::is_same_v<Decoder, draco::MeshEdgebreakerDecoder>;
         std::uint64_t sum = 0;
-        // Of old versions the number of new vertices; vertices and faces, in whichever order.
+        // The number of new vertices in old versions; vertices and faces, in either order.
         const int counts = k_is_edgebreaker && this->bitstream_version() < 0x0202 ? 3 : 2;
         const bool is_fixed = this->bitstream_version() < (k_is_edgebreaker ? 0x0200 : 0x0202);
         for (int i = 0; i < counts; ++i) {
@@ -97,7 +97,7 @@ std::unique_ptr<draco::Mesh> decoded(std::string_view bytes, Budget& budget) {
     return mesh;
 }
 
-/// What an integer of an accessor's type stands for as 1.
+/// The integer of an accessor's type that stands for 1.
 double one_of(const tinygltf::Accessor& accessor) {
     if (!accessor.normalized) return 1;
     switch (accessor.componentType) {

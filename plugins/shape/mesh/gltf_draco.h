@@ -8,8 +8,8 @@
 
 namespace mesh::gltf {
 
-/// Gives the primitives accessors of what was compressed. Throws BadFile if it is damaged, or declares more
-/// than so many bytes can hold.
+/// Gives the primitives accessors of the decompressed data. Throws BadFile if the stream is damaged, or
+/// declares more than its bytes can hold.
 void decompress(Document& document, const std::vector<DracoPrimitive>& primitives);
 
 }  // namespace mesh::gltf

@@ -17,9 +17,9 @@ namespace mesh::gltf {
 
 namespace {
 
-/// A copy with only those members that are named.
+/// A copy with only the named members.
 Json only(const Json& object, std::initializer_list<const char*> members) {
-    if (!object.is_object()) return object;  // for tinygltf to complain about
+    if (!object.is_object()) return object;  // left for tinygltf to reject
     Json result = Json::object();
     for (const char* const name : members)
         if (const auto found = object.find(name); found != object.end()) result[name] = *found;
@@ -39,12 +39,12 @@ const Json* meshopt_of(const Json& view) {
     return extension_of(view, "EXT_meshopt_compression", "KHR_meshopt_compression");
 }
 
-/// The file, from its parts to what of them says something about triangles.
+/// Extracts the members of the file that concern triangles.
 class Geometries {
   public:
     Geometries(const Json& json, bool has_binary)
         : json_(json), has_binary_(has_binary), accessors_(array_of(json, "accessors")) {
-        // Without skins and weights, joints and targets change nothing.
+        // Without skins and weights, joints and targets have no effect.
         is_skinned_ = !array_of(json, "skins").empty();
         for (const char* const array : {"meshes", "nodes"})
             for (const Json& one : array_of(json, array))
@@ -156,7 +156,7 @@ class Geometries {
         return result;
     }
 
-    /// Takes what is compressed out of `attributes` and `primitive`, unless it is there uncompressed, too.
+    /// Removes compressed data from `attributes` and `primitive`, unless an uncompressed form exists as well.
     void take_draco(const Json& draco, std::size_t mesh, std::size_t number, Json& attributes,
                     Json& primitive) {
         const Json* const position = element(accessors_, index_of(attributes, "POSITION"));
@@ -230,7 +230,7 @@ class Geometries {
                 throw BadFile(fmt::format("has no data for buffer {}", number));
             const auto length = index_of(buffer, "byteLength");
             if (source.is_needed && !length)
-                throw BadFile(fmt::format("is no valid glTF: buffer {} has no byteLength", number));
+                throw BadFile(fmt::format("is not valid glTF: buffer {} has no byteLength", number));
             source.length = length.value_or(0);
             geometry_.buffers.push_back(std::move(source));
         }
@@ -246,14 +246,13 @@ class Geometries {
 
 void require_version_2(const Json& json) {
     std::string version = text_of(object_of(json, "asset"), "version");
-    // Not every file of version 1 says so, but its arrays were objects.
+    // Not every version 1 file declares its version, but its arrays were objects.
     if (version.empty() && !object_of(json, "meshes").empty()) version = "1.0";
-    if (version.empty()) throw BadFile("is no glTF file: it has no asset with a version");
+    if (version.empty()) throw BadFile("is not a glTF file: it has no asset with a version");
     if (version.starts_with("2.")) return;
     const bool is_old = version.starts_with("1.") || version.starts_with("0.");
-    throw BadFile(fmt::format(
-        "is glTF {}; Candela reads glTF 2{}", in_quotes(version),
-        is_old ? ", into which gltf-pipeline converts it: npx gltf-pipeline -i OLD.gltf -o NEW.gltf" : ""));
+    throw BadFile(fmt::format("is glTF {}; Candela reads glTF 2{}", in_quotes(version),
+                              is_old ? ". Convert it with: npx gltf-pipeline -i OLD.gltf -o NEW.gltf" : ""));
 }
 
 }  // namespace

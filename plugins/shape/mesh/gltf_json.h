@@ -14,9 +14,9 @@ namespace mesh::gltf {
 
 /// Where the bytes of a buffer are.
 struct BufferSource {
-    bool is_needed = false;            // it holds something about triangles; the others need not even exist
-    std::optional<std::string> uri{};  // none: the file brings them itself
-    std::uint64_t length = 0;          // that the file declares
+    bool is_needed = false;            // it concerns triangles; other buffers need not even exist
+    std::optional<std::string> uri{};  // none: the file itself contains them
+    std::uint64_t length = 0;          // as the file declares it
 };
 
 /// A buffer view that EXT_meshopt_compression compresses. The view itself is that of the compressed bytes.
@@ -25,8 +25,8 @@ struct CompressedView {
     std::string mode{}, filter{};
 };
 
-/// A primitive that KHR_draco_mesh_compression compresses, and that has no other form. Its accessors say how
-/// the numbers are meant.
+/// A primitive that KHR_draco_mesh_compression compresses, without an uncompressed form. Its accessors tell
+/// how to interpret the numbers.
 struct DracoPrimitive {
     struct Attribute {
         std::size_t accessor = 0;
@@ -47,8 +47,8 @@ struct Skin {
 };
 
 struct Geometry {
-    std::string json;                    // nothing but what triangles depend on, and no buffers
-    std::vector<Loss> losses;            // what else there is
+    std::string json;                    // only what triangles depend on, without buffers
+    std::vector<Loss> losses;            // everything else in the file
     std::vector<std::string> materials;  // their names, in order; empty where one has none
     std::vector<BufferSource> buffers;
     std::vector<CompressedView> compressed_views;
@@ -58,8 +58,8 @@ struct Geometry {
     std::map<std::size_t, Instances> instances;  // by node
 };
 
-/// Refuses what is no JSON, is nested too deeply, or needs an extension that we do not read. `has_binary`:
-/// whether the file brings the first buffer itself. Throws BadFile.
+/// Refuses text that is not JSON, is nested too deeply, or needs an unsupported extension. `has_binary`:
+/// whether the file itself contains the first buffer. Throws BadFile.
 Geometry geometry_of(std::string_view json, bool has_binary);
 
 }  // namespace mesh::gltf

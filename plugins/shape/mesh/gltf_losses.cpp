@@ -14,7 +14,7 @@ namespace mesh::gltf {
 
 namespace {
 
-/// Extensions that change nothing about triangles.
+/// Extensions that do not affect triangles.
 bool is_about_appearance(std::string_view extension) {
     constexpr std::array<std::string_view, 9> k_prefixes = {
         "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "GOOGLE_texture_",
@@ -22,7 +22,7 @@ bool is_about_appearance(std::string_view extension) {
     return std::ranges::any_of(k_prefixes, [&](std::string_view p) { return extension.starts_with(p); });
 }
 
-/// Those that change triangles, and are read.
+/// Supported extensions that affect triangles.
 bool is_read(std::string_view extension) {
     constexpr std::array<std::string_view, 6> k_names = {
         "KHR_mesh_quantization",   "KHR_draco_mesh_compression", "EXT_meshopt_compression",
@@ -79,7 +79,7 @@ std::vector<Loss> losses_of(const Json& json) {
     note_sets(lines, "lines");
     if (has_more_colors) losses.emplace_back("further vertex colours");
     if (has_second_uv) losses.emplace_back("further texture coordinates", true);
-    if (has_other_attributes) losses.emplace_back("attributes of vertices of its own");
+    if (has_other_attributes) losses.emplace_back("custom vertex attributes");
     const std::size_t scenes = array_of(json, "scenes").size();
     if (scenes > 1) note(losses, scenes - 1, "other scene");
     std::set<std::string> extensions;

@@ -1,4 +1,4 @@
-// What a glTF file has and a mesh leaves out.
+// The contents of a glTF file that a mesh leaves out.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace mesh::gltf {
 
-/// Throws BadFile if the file needs an extension that we do not read.
+/// Throws BadFile if the file needs an unsupported extension.
 void require_known_extensions(const Json& json);
 
 std::vector<Loss> losses_of(const Json& json);

@@ -13,7 +13,7 @@ namespace mesh::gltf {
 
 namespace {
 
-/// What a compressed byte can become at most, in any of the modes: 256 equal bytes are four times two bits.
+/// The largest expansion of a compressed byte in any mode: 256 equal bytes take four times two bits.
 constexpr std::uint64_t k_most_ratio = 64;
 
 [[noreturn]] void refuse(const CompressedView& view, std::string_view why) {
@@ -57,8 +57,9 @@ void decompress(Document& document, const std::vector<CompressedView>& views) {
     for (const CompressedView& view : views) {
         const std::string_view from = document.view(view.view);
         if (view.stride == 0 || view.count > left / view.stride)
-            refuse(view, fmt::format("that declares {} times {} bytes, more than so small a file can hold",
-                                     view.count, view.stride));
+            refuse(view,
+                   fmt::format("that declares {} times {} bytes, more than a file of this size can hold",
+                               view.count, view.stride));
         left -= std::uint64_t{view.count} * view.stride;
         Array<char> bytes(view.count * view.stride);
         if (view.count > 0 && decoded(view, from, bytes) != 0)

@@ -8,8 +8,8 @@
 
 namespace mesh::gltf {
 
-/// Puts the bytes that were compressed in place of `views`. Throws BadFile if they are damaged, or declare
-/// more than so many bytes can hold.
+/// Replaces `views` by their decompressed bytes. Throws BadFile if they are damaged, or declare more than
+/// their bytes can hold.
 void decompress(Document& document, const std::vector<CompressedView>& views);
 
 }  // namespace mesh::gltf

@@ -12,7 +12,7 @@ namespace mesh::gltf {
 
 namespace {
 
-/// Of each joint of a skin, from the place where the mesh was bound to it to where it is now.
+/// The transformation of each joint of a skin from where the mesh was bound to it to where it is now.
 std::vector<Affine> joint_matrices(const Document& document, int index, const std::vector<Affine>& nodes) {
     if (static_cast<std::size_t>(index) >= document.skins.size())
         throw BadFile(fmt::format("has no skin {}", index));
@@ -100,7 +100,7 @@ Affine Pose::of(std::size_t vertex) const {
         for (std::size_t c = 0; c < 4; ++c)
             for (std::size_t row = 0; row < 3; ++row) sum.column[c][row] += weight * matrix.column[c][row];
     }
-    if (std::abs(all) < 1e-9) {  // without weights it goes with its first joint
+    if (std::abs(all) < 1e-9) {  // without weights it follows its first joint
         const double first = joints_[0][vertex];
         if (matrices_.empty()) return {};
         return first >= 0 && first < static_cast<double>(matrices_.size())

@@ -1,4 +1,4 @@
-// Vertices as morph targets and skins place them, at rest.
+// Places vertices by morph targets and skins, in the rest pose.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace mesh::gltf {
 
-/// What moves a primitive's vertices, `count` of them. Refers to the document.
+/// The morph targets and joints that move a primitive's `count` vertices. Refers to the document.
 class Pose {
   public:
-    /// `nodes`: of node_transformations(). Throws BadFile.
+    /// `nodes`: from node_transformations(). Throws BadFile.
     Pose(const Document& document, const Placed& placed, std::size_t count, const std::vector<Affine>& nodes);
 
     /// Adds the morph targets of `attribute`, "POSITION" or "NORMAL", to its components.
     void morph(const char* attribute, std::array<Array<double>, 3>& values) const;
     /// The transformation to the world of a vertex.
     Affine of(std::size_t vertex) const;
-    /// Whether all vertices have the same.
+    /// Whether all vertices have the same transformation.
     bool is_rigid() const { return joints_.empty(); }
 
   private:

@@ -1,5 +1,5 @@
-// What of a glTF file changes its triangles: skins, morph targets, instances, compression; and files that
-// are not as they should be.
+// Features of glTF files that change triangles: skins, morph targets, instances, compression; and invalid
+// files.
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <fmt/format.h>
@@ -80,7 +80,7 @@ class File {
 const std::vector<float> k_tetrahedron = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 const std::vector<std::uint32_t> k_faces = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 
-/// A tetrahedron, with more of its primitive.
+/// A tetrahedron, with further members of its primitive.
 File tetrahedron(const Json& attributes = Json::object(), const Json& more = Json::object()) {
     File file;
     Json primitive = {{"attributes", {{"POSITION", file.accessor(k_float, "VEC3", 4, k_tetrahedron)}}},
@@ -133,7 +133,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 
-/// A mesh, compressed: a strip of `cells` squares.
+/// A compressed mesh: a strip of `cells` squares.
 std::vector<char> compressed_by_draco(int cells, bool is_sequential) {
     draco::TriangleSoupMeshBuilder builder;
     builder.Start(2 * cells);
@@ -173,7 +173,7 @@ File of_draco(const std::vector<char>& bytes, std::size_t points, std::size_t co
     return file;
 }
 
-/// The tetrahedron, by meshoptimizer.
+/// The tetrahedron, compressed by meshoptimizer.
 struct Meshopt {
     std::vector<unsigned char> positions = std::vector<unsigned char>(meshopt_encodeVertexBufferBound(4, 12));
     std::vector<unsigned char> indices = std::vector<unsigned char>(meshopt_encodeIndexBufferBound(12, 4));
@@ -209,7 +209,7 @@ struct Meshopt {
 
 }  // namespace
 
-TEST_CASE("shape/mesh: a skin's joints place its vertices, at rest, and not the node of the mesh") {
+TEST_CASE("shape/mesh: vertices are placed by the rest pose of the skin's joints, not by the mesh's node") {
     File file = tetrahedron();
     // Both joints turn z up to y up, the second is ten times as large; their weights need not add up to 1.
     Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
@@ -259,7 +259,7 @@ TEST_CASE("shape/mesh: morph targets are added by their default weights, a node'
     CHECK(holds(read(file.glb()).refusal, "has a primitive of 4 positions and a morph target of 3"));
 }
 
-TEST_CASE("shape/mesh: instances of a node are drawn, hidden nodes are not") {
+TEST_CASE("shape/mesh: instances of a node are drawn; hidden nodes are not") {
     File file = tetrahedron();
     const std::size_t moves =
         file.accessor(k_float, "VEC3", 3, std::vector<float>{0, 0, 0, 5, 0, 0, 9, 0, 0});
@@ -280,7 +280,8 @@ TEST_CASE("shape/mesh: instances of a node are drawn, hidden nodes are not") {
     CHECK(read(file.glb()).mesh.triangle_count() == 16);
 }
 
-TEST_CASE("shape/mesh: numbers that are not finite are repaired and counted, positions refused by name") {
+TEST_CASE(
+    "shape/mesh: non-finite numbers are repaired and counted; non-finite positions are refused by name") {
     File file = tetrahedron();
     Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
     attributes["NORMAL"] =
@@ -302,7 +303,7 @@ TEST_CASE("shape/mesh: numbers that are not finite are repaired and counted, pos
                 "has a vertex that is not finite: number 2 of accessor 4, (0, nan, 0)"));
 }
 
-TEST_CASE("shape/mesh: a buffer may have more bytes than are declared, and not fewer") {
+TEST_CASE("shape/mesh: a buffer may have more bytes than declared, but not fewer") {
     const std::string data =
         "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
     const auto text = [&](int length, const std::string& uri) {
@@ -319,11 +320,11 @@ TEST_CASE("shape/mesh: a buffer may have more bytes than are declared, and not f
     CHECK(holds(read(text(37, data), "a.gltf").refusal,
                 "is cut off: its data: URI has 36 bytes, but buffer 0 declares 37"));
     const std::string refusal = read(text(36, "data:,hello"), "a.gltf").refusal;
-    CHECK(holds(refusal, "has a data: URI for buffer 0 that is not base64"));
+    CHECK(holds(refusal, "has a data: URI for buffer 0 that is not valid base64"));
     CHECK_FALSE(holds(refusal, "hello"));
 }
 
-TEST_CASE("shape/mesh: a glTF file of points and lines alone is refused as that") {
+TEST_CASE("shape/mesh: a glTF file with only points and lines is refused as such") {
     File file;
     const std::size_t corners = file.accessor(k_float, "VEC3", 3, std::vector<float>(9));
     for (const int mode : {0, 1, 3}) file.mesh({{"attributes", {{"POSITION", corners}}}, {"mode", mode}});
@@ -331,14 +332,14 @@ TEST_CASE("shape/mesh: a glTF file of points and lines alone is refused as that"
                 "has 1 set of points and 2 sets of lines and no triangles; Candela draws"));
 }
 
-TEST_CASE("shape/mesh: glTF 1 is refused with what converts it") {
+TEST_CASE("shape/mesh: glTF 1 is refused with the command that converts it") {
     CHECK(holds(read(R"({"asset": {"version": "1.0"}})", "a.gltf").refusal, "npx gltf-pipeline -i"));
     CHECK(holds(read(R"({"meshes": {"a": {}}})", "a.gltf").refusal, "npx gltf-pipeline -i"));
     CHECK(holds(read(std::string("glTF\1\0\0\0\x14\0\0\0", 12), "a.glb").refusal, "npx gltf-pipeline -i"));
     CHECK_FALSE(holds(read(R"({"asset": {"version": "3.0"}})", "a.gltf").refusal, "npx"));
 }
 
-TEST_CASE("shape/mesh: primitives compressed by Draco are those that were compressed") {
+TEST_CASE("shape/mesh: Draco-compressed primitives decompress to the originals") {
     for (const bool is_sequential : {false, true}) {
         const Read result = read(of_draco(compressed_by_draco(9, is_sequential), 20, 54).glb());
         INFO(result.refusal);
@@ -350,7 +351,7 @@ TEST_CASE("shape/mesh: primitives compressed by Draco are those that were compre
     }
 }
 
-TEST_CASE("shape/mesh: damaged Draco streams are refused, and those that declare what they cannot hold") {
+TEST_CASE("shape/mesh: Draco streams that are damaged or declare more than they hold are refused") {
     for (const bool is_sequential : {false, true}) {
         const std::vector<char> whole = compressed_by_draco(40, is_sequential);
         for (std::size_t size = 0; size < whole.size(); size += 7) {
@@ -360,7 +361,7 @@ TEST_CASE("shape/mesh: damaged Draco streams are refused, and those that declare
         for (std::size_t at = 0; at < whole.size(); at += 3) {
             std::vector<char> bytes = whole;
             bytes[at] = static_cast<char>(bytes[at] ^ 0x55);
-            read(of_draco(bytes, 82, 240).glb());  // whatever it is, it ends
+            read(of_draco(bytes, 82, 240).glb());  // whatever the outcome, it terminates
         }
     }
     // Sequential, version 2.2: 2^28 faces and as many points.
@@ -371,7 +372,7 @@ TEST_CASE("shape/mesh: damaged Draco streams are refused, and those that declare
     CHECK(holds(read(of_draco({'n', 'o'}, 82, 240).glb()).refusal, "are not a mesh compressed by Draco"));
 }
 
-TEST_CASE("shape/mesh: buffer views compressed by meshoptimizer are those that were compressed") {
+TEST_CASE("shape/mesh: buffer views compressed by meshoptimizer decompress to the originals") {
     for (const char* const extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         const Read result = read(Meshopt().glb(extension));
         INFO(result.refusal);
@@ -386,5 +387,5 @@ TEST_CASE("shape/mesh: buffer views compressed by meshoptimizer are those that w
     CHECK(holds(read(cut.glb()).refusal, "compressed by meshoptimizer whose bytes are damaged"));
     Meshopt endless;
     endless.count = 1u << 30;
-    CHECK(holds(read(endless.glb()).refusal, "more than so small a file can hold"));
+    CHECK(holds(read(endless.glb()).refusal, "more than a file of this size can hold"));
 }

@@ -8,7 +8,7 @@ namespace mesh::gltf {
 
 namespace {
 
-/// Parsers may recurse; what is nested more deeply is not a glTF file.
+/// Parsers may recurse; no glTF file is nested more deeply.
 void require_shallow(std::string_view json) {
     constexpr int k_deepest = 64;
     int depth = 0;
@@ -35,10 +35,10 @@ Json parsed(std::string_view text) {
     require_shallow(text);
     try {
         Json json = Json::parse(text);
-        if (!json.is_object()) throw BadFile("is no glTF file: its JSON is no object");
+        if (!json.is_object()) throw BadFile("is not a glTF file: its JSON is not an object");
         return json;
     } catch (const Json::parse_error& problem) {
-        throw BadFile(fmt::format("is no JSON from byte {} on", problem.byte));
+        throw BadFile(fmt::format("is not valid JSON from byte {} on", problem.byte));
     }
 }
 

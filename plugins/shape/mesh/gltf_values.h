@@ -1,4 +1,4 @@
-// Values of JSON that may be of any type, as files from anywhere have it.
+// JSON values of any type, as untrusted files contain them.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@ namespace mesh::gltf {
 
 using Json = nlohmann::json;
 
-/// A JSON object that is not nested too deeply. Throws BadFile.
+/// Parses a JSON object that is not nested too deeply. Throws BadFile.
 Json parsed(std::string_view text);
 
-/// The array, or the object, of that name, or an empty one.
+/// The array or object of that name, or an empty one.
 const Json& array_of(const Json& object, const char* name);
 const Json& object_of(const Json& object, const char* name);
-/// What an extension says of an object; null if it says nothing.
+/// An extension's member of an object; null if absent.
 const Json* extension_of(const Json& object, const char* name);
-/// The same, where an extension has had two names.
+/// Like extension(), for an extension that has had two names.
 const Json* extension_of(const Json& object, const char* name, const char* other_name);
 std::optional<std::size_t> index_of(const Json& object, const char* name);
-/// Null if there is none.
+/// Null if absent.
 const Json* element(const Json& array, std::optional<std::size_t> index);
-/// Empty if there is none.
+/// Empty if absent.
 std::string text_of(const Json& object, const char* name);
 
 }  // namespace mesh::gltf

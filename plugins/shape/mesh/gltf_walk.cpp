@@ -46,8 +46,8 @@ std::vector<int> nodes_without_parent(const tinygltf::Model& model) {
     return roots;
 }
 
-/// Visits nodes from `roots` on, each before its children, and the latter only if visit(node,
-/// transformation) returns true.
+/// Visits the nodes below `roots`, parents first; visits children only if visit(node, transformation) returns
+/// true.
 template <class Visit>
 void walk(const tinygltf::Model& model, const std::vector<int>& roots, Visit visit) {
     std::vector<bool> seen(model.nodes.size());
@@ -57,7 +57,8 @@ void walk(const tinygltf::Model& model, const std::vector<int>& roots, Visit vis
         const auto [index, parent] = open.back();
         open.pop_back();
         const std::size_t at = node_at(model, index);
-        if (seen[at]) throw BadFile(fmt::format("has a node {} in two places, or within itself", index));
+        if (seen[at])
+            throw BadFile(fmt::format("has a node {} that has two parents or contains itself", index));
         seen[at] = true;
         const Affine to_world = parent * transformation_of(model.nodes[at]);
         if (!visit(at, to_world)) continue;
@@ -168,7 +169,7 @@ std::vector<Affine> node_transformations(const Document& document) {
         ++count;
         return true;
     });
-    if (count != result.size()) throw BadFile("has a node within itself");
+    if (count != result.size()) throw BadFile("has a node that contains itself");
     return result;
 }
 

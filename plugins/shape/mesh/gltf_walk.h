@@ -1,4 +1,4 @@
-// The primitives that a glTF file's scene shows, and where.
+// The primitives that a glTF file's scene shows, with their transformations.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,8 @@ struct Placed {
 /// BadFile.
 std::vector<Placed> placed_primitives(const Document& document);
 
-/// The transformation to the world of each node, whether or not a scene shows it. Throws BadFile where a node
-/// is within itself.
+/// The transformation to world space of each node, whether or not a scene shows it. Throws BadFile if a node
+/// contains itself.
 std::vector<Affine> node_transformations(const Document& document);
 
 }  // namespace mesh::gltf

@@ -36,7 +36,7 @@ std::shared_ptr<const SplitVertices> Loaded::split(double crease_angle) const {
         const std::scoped_lock lock(splitting_);
         if (split_ != nullptr && split_angle_ == crease_angle) return split_;
     }
-    // Not under the lock: a thread that waits for others may be given work that comes here.
+    // Unlocked: a thread that waits for others may be given work that enters this function.
     auto made = std::make_shared<const SplitVertices>(split_at_creases(surface_, corners(), crease_angle));
     const std::scoped_lock lock(splitting_);
     split_ = made;
@@ -74,7 +74,7 @@ std::shared_ptr<const Loaded> SharedFile::loaded(const std::function<std::shared
         const std::scoped_lock lock(mutex_);
         if (loaded_ != nullptr && states_ == states_now(&loaded_->surface())) return loaded_;
     }
-    // Not under the lock: a thread that waits for others within read() may be given work that comes here.
+    // Unlocked: a thread that waits for others within read() may be given work that enters this function.
     const FileState before = state_of(file_);
     std::shared_ptr<const Loaded> result = read();
     std::vector<FileState> states = states_now(&result->surface());

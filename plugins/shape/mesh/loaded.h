@@ -1,4 +1,4 @@
-// A file that several shapes have in common is read once, while they exist.
+// Reads a file once for all shapes that share it, as long as they exist.
 #pragma once
 
 #include <functional>
@@ -17,17 +17,17 @@
 
 namespace mesh {
 
-/// A file's triangles, with what is asked of them as a whole.
+/// A file's triangles, with properties of the whole that are computed on demand.
 class Loaded {
   public:
-    /// Turns them outwards, unless `keeps_sides`.
+    /// Makes them face outwards, unless `keeps_sides`.
     Loaded(Surface whole, bool keeps_sides);
 
     const Surface& surface() const { return surface_; }
     const Corners& corners() const { return joined().corners; }
     const OpenEdges& open() const { return joined().open; }
     const TrianglesByMaterial& by_material() const;
-    /// Its vertices, split where faces meet at more than that angle (radians); made once for one angle.
+    /// Its vertices, split where faces meet at more than that angle (radians). Cached for one angle.
     std::shared_ptr<const SplitVertices> split(double crease_angle) const;
 
   private:
@@ -38,7 +38,7 @@ class Loaded {
     const Joined& joined() const;
 
     Surface surface_;
-    // Made when they are asked for: parts of a file whose sides are kept need neither.
+    // Computed on demand: parts of a file whose sides are kept need neither.
     mutable std::once_flag is_joined_, is_sorted_;
     mutable std::optional<Joined> joined_;
     mutable std::optional<TrianglesByMaterial> by_material_;
@@ -53,8 +53,8 @@ class SharedFile {
     static std::shared_ptr<SharedFile> of(const std::string& file, const Origin& origin, Reach reach,
                                           bool keeps_sides);
 
-    /// What `read` returned last time, unless the file, or one that it names, has changed since. `read` may
-    /// run on several threads at once.
+    /// The last result of `read`, unless the file or one that it names has changed since. `read` may run on
+    /// several threads at once.
     std::shared_ptr<const Loaded> loaded(const std::function<std::shared_ptr<const Loaded>()>& read);
 
   private:

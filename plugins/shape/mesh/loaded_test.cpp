@@ -1,4 +1,4 @@
-// Objects that have a file in common.
+// Objects that share a file.
 #include <fmt/format.h>
 
 #include <catch2/catch_test_macros.hpp>
@@ -15,7 +15,7 @@ using candela::Shape;
 
 namespace {
 
-/// The bytes that this process has read so far; none where Linux does not count them.
+/// The number of bytes that this process has read so far; none if Linux does not count them.
 std::uint64_t bytes_read() {
     std::ifstream in("/proc/self/io");
     std::string key;
@@ -25,7 +25,7 @@ std::uint64_t bytes_read() {
     return 0;
 }
 
-/// A row of squares with a material each.
+/// A row of squares, each with its own material.
 std::string squares(int materials, int each) {
     std::string text;
     for (int m = 0; m < materials; ++m) {
@@ -44,7 +44,7 @@ Mesh placed(const Shape& shape) {
 
 }  // namespace
 
-TEST_CASE("shape/mesh: a scene of a hundred and twenty parts of a file reads it once") {
+TEST_CASE("shape/mesh: a scene with a hundred and twenty parts of a file reads it once") {
     const auto folder = scratch_directory();
     constexpr int k_materials = 120;
     const auto file = write_file(folder / "a.obj", squares(k_materials, 50));
@@ -69,7 +69,7 @@ TEST_CASE("shape/mesh: a scene of a hundred and twenty parts of a file reads it 
 }
 
 TEST_CASE(
-    "shape/mesh: a shape that exists keeps what it has read for the next one of the file, whatever its "
+    "shape/mesh: a shape keeps its file for the next shape of that file, whatever its "
     "path") {
     const auto folder = scratch_directory();
     const auto file = write_file(folder / "a.obj", squares(20, 50));
@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(again.position.x == mesh.position.x);
 }
 
-TEST_CASE("shape/mesh: shapes of one file see what it has become") {
+TEST_CASE("shape/mesh: shapes of one file see its changes") {
     const auto file = write_file(scratch_directory() / "a.obj", squares(2, 3));
     const auto of_part = [&](const char* part) {
         return instance<Shape>("mesh", {{"file", file.string()}, {"part", std::string(part)}});

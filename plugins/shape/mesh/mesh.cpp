@@ -56,7 +56,7 @@ Format format_of(const std::filesystem::path& file) {
     if (extension == ".ply") return Format::ply;
     if (extension == ".stl") return Format::stl;
     if (extension == ".gltf" || extension == ".glb") return Format::gltf;
-    throw mesh::BadFile("has not the extension of a mesh: .obj, .ply, .stl, .gltf or .glb");
+    throw mesh::BadFile("has an unsupported mesh extension; expected .obj, .ply, .stl, .gltf or .glb");
 }
 
 mesh::Surface surface_of(const std::filesystem::path& file, const mesh::Origin& origin, mesh::Reach reach,
@@ -82,7 +82,7 @@ mesh::Surface surface_of(const std::filesystem::path& file, const mesh::Origin& 
             break;
     }
     if (surface.triangles() == 0) throw mesh::BadFile("has no faces, and so no triangles");
-    if (surface.indices.size() > 0xffff'fff0u) throw mesh::BadFile("has more triangles than can be numbered");
+    if (surface.indices.size() > 0xffff'fff0u) throw mesh::BadFile("has too many triangles");
     if (const std::string note = mesh::too_far_note(surface, origin); !note.empty())
         surface.notes.push_back(note);
     return surface;
@@ -103,7 +103,7 @@ bool has_all_normals(const mesh::Surface& surface) {
     return !surface.normal.empty();
 }
 
-/// Copies `from[source[i]]` to `to[i]`; all of `from` if `source` is empty.
+/// Copies `from[source[i]]` to `to[i]`, or all of `from` if `source` is empty.
 void copy(const mesh::Array<float>& from, const mesh::Array<std::uint32_t>& source, std::size_t count,
           float* to) {
     constexpr std::size_t k_per_task = 65536;
@@ -190,7 +190,7 @@ class FileMesh final : public candela::Shape {
         }
     }
 
-    // What has been done after each step, for ten million triangles.
+    // Progress after each step, measured with ten million triangles.
     static constexpr double k_read = 0.5, k_oriented = 0.8, k_split = 0.9;
 
     void write(const mesh::Surface& surface, const mesh::SplitVertices& split, const mesh::OpenEdges& open,
@@ -203,8 +203,8 @@ class FileMesh final : public candela::Shape {
             .triangles = surface.triangles(),
             .has_normals = request.normals && !surface.normal.empty(),
             .has_uv = (request.uv || request.derivatives) && !surface.u.empty(),
-            // Zero without texture coordinates: a triangle's edges, which differ from its neighbours', would
-            // make no better tangents.
+            // Zero without texture coordinates: a triangle's edges differ from its neighbours' and would make
+            // no better tangents.
             .has_derivatives = request.derivatives,
             .has_color = request.color && uses_colors_ && !surface.color.empty(),
             .has_smooth_groups = !split.group.empty(),
@@ -248,7 +248,7 @@ class FileMesh final : public candela::Shape {
             }
         }
         if (!are_within)
-            sink.warn(fmt::format("'{}' has vertex colours beyond 0 to 1, which are clamped", file_));
+            sink.warn(fmt::format("'{}' has vertex colours outside 0 to 1, which are clamped", file_));
     }
 
     std::string file_;
@@ -270,56 +270,52 @@ constexpr const char* k_sides[] = {"outside", "front", "both"};
 constexpr auto k_fields = fields(
     file(&MeshShape::file, "file", "OBJ, PLY, STL, glTF or GLB file, relative to the scene file"),
     angle(&MeshShape::crease_angle, "crease_angle", 40,
-          "where the file has no normals and no smoothing groups, edges are hard if the angle between the "
-          "normals of their faces is larger; 180: none")
+          "where the file has neither normals nor smoothing groups, edges are hard if their faces' normals "
+          "differ by a larger angle; 180: no hard edges")
         .range(0, 180),
     boolean(&MeshShape::allow_outside, "allow_outside", false,
             "whether a glTF file may name buffers outside its folder"),
-    boolean(
-        &MeshShape::vertex_colors, "vertex_colors", true,
-        "whether the colours of the file's vertices, where it has them, are multiplied with the object's"),
+    boolean(&MeshShape::vertex_colors, "vertex_colors", true,
+            "whether the file's vertex colours, if any, are multiplied by the object's colour"),
     Field<MeshShape>{.spec = {.name = "part",
                               .type = candela::ParamType::text,
-                              .meaning = "only the triangles with the file's material of this name, or of "
-                                         "this number, such as #0; (none): those without one; empty: all",
+                              .meaning = "use only the triangles with the file's material of this name or "
+                                         "number, such as #0; (none): those without a material; empty: all",
                               .default_value = {.text = ""}},
                      .text = &MeshShape::part},
     boolean(&MeshShape::appearance_imported, "appearance_imported", false,
-            "whether the scene has the file's materials, textures, lights and cameras in its own words, as "
-            "candela import writes it, so that they are left out without a warning"),
+            "whether the scene itself describes the file's materials, textures, lights and cameras, as "
+            "candela import writes it, so that leaving them out needs no warning"),
     Field<MeshShape>{
         .spec = {.name = "origin",
                  .type = candela::ParamType::text,
-                 .meaning = "the point of the file's coordinates that is the object's origin, as a "
-                            "text of three numbers in double precision, for files far from their "
-                            "own origin, such as \"500000.25 4500000.5 120\"; empty: the file's own",
+                 .meaning = "the point in the file's coordinates that becomes the object's origin, for files "
+                            "far from their own origin: three double-precision numbers in a string, such as "
+                            "\"500000.25 4500000.5 120\"; empty: the file's origin",
                  .default_value = {.text = ""}},
         .text = &MeshShape::origin},
     choice(&MeshShape::sides, "sides", k_sides,
-           "outside: closed parts that the file winds inside out are turned round; front: none is, and "
-           "triangles are seen only from the side from which the file has their corners counter-clockwise; "
-           "both: none is"),
+           "outside: closed parts that are wound inside out are turned round; front: parts stay as they are, "
+           "and triangles are visible only from the side on which their corners run counter-clockwise; both: "
+           "parts stay as they are, and both sides are visible"),
     Field<MeshShape>{.spec = {.name = "cutout",
                               .type = candela::ParamType::file,
-                              .meaning = "a greymap (binary PGM) of how opaque the surface is, placed as a "
-                                         "texture is: only what is opaque is there",
+                              .meaning = "an opacity map (binary PGM) placed like a texture; transparent "
+                                         "parts of the surface are cut away",
                               .default_value = {.text = ""}},
                      .text = &MeshShape::cutout},
-    real(&MeshShape::cutout_level, "cutout_level", 0.5f, "how opaque that is at least").range(0, 1),
+    real(&MeshShape::cutout_level, "cutout_level", 0.5f, "the lowest opacity that is kept").range(0, 1),
     boolean(&MeshShape::cutout_clamps, "cutout_clamps", false,
-            "whether the greymap goes on at its edges as it is there, instead of repeating"));
+            "whether the opacity map is clamped at its edges instead of repeating"));
 
 }  // namespace
 
 CANDELA_PLUGIN(
     shape, FileMesh, k_fields,
     {.title = "Mesh from a file",
-     .summary =
-         "Triangles from OBJ, PLY, STL, glTF and GLB files. Normals are the file's. Where it has none, the "
-         "shading "
-         "model makes them, smooth where corners touch, except across hard edges: those between an OBJ "
-         "file's "
-         "smoothing groups, or wherever faces (of an STL file: their facet normals) turn by more than "
-         "`crease_angle`. The colours of its vertices are multiplied with the object's. What else the file "
-         "has, such as materials and lines, is left out with a warning.",
+     .summary = "Triangles from OBJ, PLY, STL, glTF and GLB files. Normals come from the file. Where it has "
+                "none, the shading model makes them, smooth where corners touch, except across hard edges: "
+                "those between an OBJ file's smoothing groups, or wherever faces (of an STL file: their "
+                "facet normals) turn by more than `crease_angle`. Vertex colours are multiplied by the "
+                "object's colour. Other contents, such as materials and lines, are left out with a warning.",
      .reference = ""})

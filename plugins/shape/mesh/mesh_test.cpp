@@ -70,7 +70,7 @@ std::string soup_of(const Mesh& mesh) {
     return text;
 }
 
-/// With derivatives, as a reflection model with a tangent asks for them.
+/// The mesh with derivatives, as a reflection model with a tangent requests them.
 Mesh with_derivatives(const std::string& obj) {
     return candela::build_mesh(
         *instance<Shape>("mesh", {{"file", write_file(scratch_directory() / "d.obj", obj).string()}}),
@@ -85,7 +85,7 @@ constexpr const char* k_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 }  // namespace
 
-TEST_CASE("shape/mesh: duplicated vertices without normals come out smooth, and closed") {
+TEST_CASE("shape/mesh: duplicated vertices without normals become smooth and closed") {
     const Mesh sphere = built(*instance<Shape>("sphere", {{"radius", 1.0}, {"segments", std::int64_t{48}}}));
     const Mesh mesh = mesh_of(write_file(scratch_directory() / "soup.obj", soup_of(sphere)));
     CHECK(mesh.closed);
@@ -97,7 +97,7 @@ TEST_CASE("shape/mesh: duplicated vertices without normals come out smooth, and 
     CHECK(worst > 0.9995);
 }
 
-TEST_CASE("shape/mesh: normals from the file go before those of the shading model") {
+TEST_CASE("shape/mesh: normals from the file take precedence over those of the shading model") {
     const Mesh mesh =
         mesh_of(write_file(scratch_directory() / "n.obj",
                            std::string(k_triangle) + "vn 1 0 0\nvn 0 1 0\nvn 0 0 2\nf 1//1 2//2 3//3\n"));
@@ -108,7 +108,7 @@ TEST_CASE("shape/mesh: normals from the file go before those of the shading mode
     CHECK(mesh.face_normal.span()[0] == Vec3{0, 0, 1});
 }
 
-TEST_CASE("shape/mesh reads the formats that it names, by their extension, and no other") {
+TEST_CASE("shape/mesh reads the formats that it names, by extension, and no others") {
     const auto directory = scratch_directory();
     const auto validation_error = [&](const char* name, const std::string& content) -> std::string {
         try {
@@ -122,16 +122,17 @@ TEST_CASE("shape/mesh reads the formats that it names, by their extension, and n
     CHECK(validation_error("a.OBJ", triangle).empty());
     for (const char* const name : {"a.dae", "a.3ds", "a.off", "a", "a.ob", "a.toml"}) {
         INFO(name);
-        CHECK(validation_error(name, triangle).find("extension of a mesh: .obj, .ply, .stl, .gltf or .glb") !=
+        CHECK(validation_error(name, triangle)
+                  .find("unsupported mesh extension; expected .obj, .ply, .stl, .gltf or .glb") !=
               std::string::npos);
     }
-    // What is in the file does not matter.
+    // The file's content does not matter.
     const std::string off = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     CHECK_FALSE(validation_error("off.obj", off).empty());
     CHECK_FALSE(validation_error("off.stl", off).empty());
 }
 
-TEST_CASE("shape/mesh: where a file's normals are zero, the shading model makes them") {
+TEST_CASE("shape/mesh: the shading model replaces normals that are zero in the file") {
     const Mesh mesh = mesh_of(write_file(scratch_directory() / "n.obj",
                                          std::string(k_triangle) + "vn 0 0 0\nvn 0 1 0\nf 1//1 2//2 3//1\n"));
     CHECK(agree(mesh.vertices[mesh.indices[0]].normal, Vec3{0, 0, 1}, 1e-6));
@@ -175,7 +176,7 @@ TEST_CASE("shape/mesh reads PLY, STL and glTF") {
     CHECK(agree(facets.vertices[facets.indices[0]].normal, Vec3{half, 0, half}, 1e-6));
 }
 
-TEST_CASE("a teapot that lost its normals and its shared vertices looks like the teapot") {
+TEST_CASE("a teapot without its normals and shared vertices looks like the teapot") {
     const Mesh original = built(*instance<Shape>("teapot"));
     // Its lid and its rim have edges that the built-in one smooths.
     const Mesh read = mesh_of(write_file(scratch_directory() / "teapot.obj", soup_of(original)), 180);
@@ -233,7 +234,7 @@ TEST_CASE("shape/mesh: without texture coordinates, or with useless ones, deriva
 }
 
 TEST_CASE("shape/mesh: without normals, edges are hard where faces turn by more than the crease angle") {
-    // Of a fold by d degrees the normals are turned by d.
+    // A fold by d degrees turns the normals by d.
     for (const double degrees : {10.0, 39.0, 41.0, 90.0, 135.0}) {
         INFO(degrees);
         CHECK(has_hard_edge(mesh_of_text("fold.obj", fold(degrees))) == (degrees > 40));
@@ -254,7 +255,8 @@ TEST_CASE("shape/mesh: without normals, edges are hard where faces turn by more 
     }
 }
 
-TEST_CASE("shape/mesh: whoever asks for no normals gets the file's own vertices, none of them twice") {
+TEST_CASE(
+    "shape/mesh: without a request for normals, the file's vertices stay as they are, without duplicates") {
     const auto file = write_file(scratch_directory() / "fold.obj", fold(90));
     const auto shape = instance<Shape>("mesh", {{"file", file.string()}});
     const candela::Mesh with = candela::place(*shape, {}, {}).mesh;
@@ -265,7 +267,7 @@ TEST_CASE("shape/mesh: whoever asks for no normals gets the file's own vertices,
     CHECK(without.open_edges == with.open_edges);
 }
 
-TEST_CASE("shape/mesh: hard edges hold for every shading model that has vertex normals") {
+TEST_CASE("shape/mesh: hard edges apply to every shading model that has vertex normals") {
     for (const char* const shading :
          {"gouraud", "phong", "angle-weighted", "area-weighted", "max-weighted"}) {
         INFO(shading);
@@ -274,7 +276,7 @@ TEST_CASE("shape/mesh: hard edges hold for every shading model that has vertex n
     }
 }
 
-TEST_CASE("shape/mesh: smoothing groups decide where a file has them, whatever the crease angle") {
+TEST_CASE("shape/mesh: a file's smoothing groups override the crease angle") {
     const std::string text = fold(90);
     const std::size_t second = text.rfind("f ");
     const auto grouped = [&](const char* first, const char* then) {
@@ -318,7 +320,7 @@ TEST_CASE("shape/mesh: a cylinder without normals is smooth around, and sharp at
     }
 }
 
-TEST_CASE("shape/mesh: where hundreds of triangles meet, the crease angle holds as well") {
+TEST_CASE("shape/mesh: the crease angle also applies where hundreds of triangles meet") {
     // A cone of 400 sides: smooth around the tip. Its foot: hard.
     constexpr int k_sides = 400;
     std::string text = "v 0 1 0\nv 0 0 0\n";
@@ -338,7 +340,7 @@ TEST_CASE("shape/mesh: where hundreds of triangles meet, the crease angle holds 
 }
 
 TEST_CASE("shape/mesh: concave polygons are covered once, by their corners' triangles") {
-    // A comb of twenty teeth, 2 wide with a gap of 1, over a back of height 1; and the same standing upright.
+    // A comb of twenty teeth, 2 wide with a gap of 1, on a back of height 1; once flat and once upright.
     std::string upright, flat, face = "f";
     int corner = 0;
     const auto add = [&](int x, int y) {
@@ -367,7 +369,7 @@ TEST_CASE("shape/mesh: concave polygons are covered once, by their corners' tria
                 return exact(mesh.position.span()[mesh.indices[3 * t + k]]);
             };
             const Double3 twice = cross(at(1) - at(0), at(2) - at(0));
-            // None is turned over.
+            // No triangle is turned over.
             CHECK(twice.x + twice.z >= 0);
             covered += (twice.x + twice.z) / 2;
         }
@@ -375,7 +377,7 @@ TEST_CASE("shape/mesh: concave polygons are covered once, by their corners' tria
     }
 }
 
-TEST_CASE("shape/mesh: what a file has and Candela leaves out is said, once and in one sentence") {
+TEST_CASE("shape/mesh: contents of a file that Candela leaves out are reported once, in one sentence") {
     const std::string triangle = std::string(k_triangle) + "f 1 2 3\n";
     CHECK(warnings_about("a.obj", triangle).empty());
     const auto said = warnings_about("b.obj", "mtllib a.mtl\nl 1 2\nusemtl b\nl 2 3\np 1\n" + triangle);
@@ -385,7 +387,7 @@ TEST_CASE("shape/mesh: what a file has and Candela leaves out is said, once and 
 }
 
 TEST_CASE(
-    "shape/mesh: a closed mesh that is wound inside out is turned round, its normals too, with a warning") {
+    "shape/mesh: a closed mesh that is wound inside out is turned round, normals included, with a warning") {
     // A tetrahedron, seen from within.
     const std::string corners = "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\n";
     const std::string faces = "f 2 1 4\nf 2 3 1\nf 3 4 1\nf 3 2 4\n";
@@ -428,7 +430,7 @@ std::string tetrahedron(double x, double size, int first, bool inside_out) {
     return text;
 }
 
-/// Six times the volume that each four triangles enclose.
+/// Six times the volume that each group of four triangles encloses.
 std::vector<double> volumes_of_four(const Mesh& mesh) {
     std::vector<double> volumes(mesh.triangle_count() / 4);
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -448,21 +450,21 @@ TEST_CASE("shape/mesh: of several parts, those that are wound inside out are tur
         "has 2 parts, 1 of which is closed but wound inside out, so its triangles are turned round"));
     for (const double volume : volumes_of_four(mesh_of_text("two.obj", right + wrong))) CHECK(volume > 0);
 
-    // However little they enclose beside the others.
+    // However little they enclose compared with the others.
     const std::string large = tetrahedron(0, 10, 0, false), small = tetrahedron(50, 0.1, 4, true);
     CHECK(warnings_about("small.obj", large + small + tetrahedron(60, 0.1, 8, true))
               .at(0)
               .find("has 3 parts, 2 of which are closed but wound inside out, so their triangles") !=
           std::string::npos);
 
-    // Beside a part that is open.
+    // With an open part next to it.
     const std::string open = tetrahedron(0, 1, 0, false).substr(0, right.rfind('f'));
     said = warnings_about("open.obj", open + wrong);
     REQUIRE(said.size() == 1);
     CHECK(said[0].find("has 2 parts, 1 of which is closed but wound") != std::string::npos);
 }
 
-TEST_CASE("shape/mesh: a cavity stays as it is wound, and turns with what it is in") {
+TEST_CASE("shape/mesh: a cavity keeps its winding, and turns with the part that contains it") {
     const std::string hollow = tetrahedron(0, 3, 0, false) + tetrahedron(0, 0.5, 4, true);
     CHECK(warnings_about("hollow.obj", hollow).empty());
     const auto volumes = volumes_of_four(mesh_of_text("hollow.obj", hollow));
@@ -475,14 +477,14 @@ TEST_CASE("shape/mesh: a cavity stays as it is wound, and turns with what it is 
     CHECK(after[0] > 0);
     CHECK(after[1] < 0);
 
-    // What one ray goes through is not what contains another.
+    // A part that a ray passes through need not contain the part where the ray starts.
     std::string row;
     for (int i = 0; i < 200; ++i) row += tetrahedron(3.0 * i, 1, 4 * i, i % 3 == 0);
     CHECK(warnings_about("row.obj", row).at(0).find("has 200 parts, 67 of which are closed but wound") !=
           std::string::npos);
 }
 
-TEST_CASE("shape/mesh: a pipe, a folder and a device are refused, and nobody waits for them") {
+TEST_CASE("shape/mesh: a pipe, a folder and a device are refused without waiting") {
     const auto directory = scratch_directory();
     const auto pipe = directory / "pipe.ply";
     std::filesystem::remove(pipe);
@@ -495,7 +497,7 @@ TEST_CASE("shape/mesh: a pipe, a folder and a device are refused, and nobody wai
         CHECK_THROWS_WITH(mesh_of(directory / name),
                           Catch::Matchers::ContainsSubstring("is not a regular file"));
     }
-    // A buffer that is one, too.
+    // So is a buffer that is a pipe.
     std::filesystem::remove(directory / "a.bin");
     REQUIRE(::mkfifo((directory / "a.bin").c_str(), 0600) == 0);
     const auto gltf = write_file(directory / "p.gltf", R"({"asset": {"version": "2.0"},
@@ -507,7 +509,7 @@ TEST_CASE("shape/mesh: a pipe, a folder and a device are refused, and nobody wai
 }
 
 TEST_CASE(
-    "shape/mesh: a glTF file names files in its folder or below, others only where the scene allows it") {
+    "shape/mesh: a glTF file may name files in its folder or below, others only if the scene allows it") {
     const auto directory = scratch_directory();
     std::filesystem::create_directories(directory / "models");
     const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -534,7 +536,7 @@ TEST_CASE(
          {std::string("../outside.bin"), std::string("link.bin"), (directory / "outside.bin").string()}) {
         INFO(uri);
         CHECK_THROWS_WITH(triangles(naming(uri), false),
-                          Catch::Matchers::ContainsSubstring("not in its own folder or below") &&
+                          Catch::Matchers::ContainsSubstring("outside its own folder") &&
                               Catch::Matchers::ContainsSubstring("allow_outside = true"));
         CHECK(triangles(naming(uri), true) == 1);
     }
@@ -552,7 +554,7 @@ TEST_CASE("shape/mesh: the number of threads changes nothing") {
     CHECK(by_one.triangle_count() == sphere.triangle_count());
 }
 
-TEST_CASE("shape/mesh: of a long text it says how much is read, and a scene's progress shows it") {
+TEST_CASE("shape/mesh: reading a long text reports progress, which a scene's progress includes") {
     std::string text;
     for (int i = 0; i < 100000; ++i) text += fmt::format("v {0} 0 0\nv {0} 1 0\nv {0} 0 1\n", 1e-5 * i);
     for (int i = 0; i < 100000; ++i) text += fmt::format("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);

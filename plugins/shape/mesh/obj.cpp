@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t k_none = 0xffff'ffffu;
 
-/// What a corner names: a vertex, and perhaps texture coordinates and a normal.
+/// The vertex, and optionally the texture coordinates and normal, that a corner names.
 using Corner = std::array<std::uint32_t, 3>;
 
 struct Hash {
@@ -89,13 +89,13 @@ class Reader {
         for (std::string_view word = next(); !word.empty() && count < values.size(); word = next()) {
             values[count] = number(word);
             if (count < 3 && !std::isfinite(values[count]))
-                refuse(in_quotes(word) + " is not a finite number; a position must be one");
+                refuse(in_quotes(word) + " is not a finite number; positions must be finite");
             ++count;
         }
         if (count < 3) refuse("a vertex has three coordinates");
         position_.push_back(origin_.moved({values[0], values[1], values[2]}));
-        // A fourth number is the weight that a rational curve gives the vertex; the last three of six or
-        // seven are its colour.
+        // A fourth number is the vertex's weight in a rational curve; the last three of six or seven are its
+        // colour.
         const bool has_color = count == 6 || count == 7;
         if ((count == 4 || count == 7) && values[3] != 1) ++losses_["weight of a vertex"];
         if (has_color && color_.empty()) {
@@ -137,7 +137,7 @@ class Reader {
                 if (!index.empty()) {
                     corner[part] = index_from(index, listed_so_far[part], part);
                 } else if (part == 0) {
-                    refuse(in_quotes(word) + " names no vertex");
+                    refuse(in_quotes(word) + " does not name a vertex");
                 }
                 if (slash == std::string_view::npos) break;
                 if (part == 2) refuse(in_quotes(word) + " has more than three parts");
@@ -155,20 +155,20 @@ class Reader {
         surface_.material.resize(surface_.material.size() + polygons_.ends.back() - before - 2, *material_);
     }
 
-    /// Counts from 1, or backwards from the last one listed so far.
+    /// Indices count from 1, or backwards from the last element listed so far.
     std::uint32_t index_from(std::string_view word, std::size_t count, std::size_t part) {
         const auto index = integer_from(word);
-        // Only a vertex cannot be done without.
+        // Only the vertex is required.
         const bool is_needed = part == 0;
         if (!is_needed && index && (*index == 0 || *index < -static_cast<std::int64_t>(count))) {
             ++missing_[part];
             return k_none;
         }
         if (!index || *index == 0)
-            refuse(in_quotes(word) + " is no index; they count from 1, or backwards from -1");
+            refuse(in_quotes(word) + " is not a valid index; indices count from 1, or backwards from -1");
         const std::int64_t at = *index > 0 ? *index - 1 : static_cast<std::int64_t>(count) + *index;
         if (at < 0)
-            refuse(fmt::format("{} is out of range; it goes back beyond the first of {}", in_quotes(word),
+            refuse(fmt::format("{} is out of range; it counts back past the first of {}", in_quotes(word),
                                count));
         if (at >= std::int64_t{k_none}) refuse(in_quotes(word) + " is too large");
         // It may be listed further down.
@@ -180,7 +180,7 @@ class Reader {
 
     void use_material() {
         ++losses_["use of a material"];
-        // No comment ends a name, and no backslash continues it: "Paint #2", "wood\\".
+        // A name may contain '#' and end in a backslash: "Paint #2", "wood\\".
         std::string name;
         TextScanner words(scanner_.rest_of_line());
         for (std::string_view word = words.word(); !word.empty(); word = words.word())
@@ -204,7 +204,7 @@ class Reader {
         }
         const auto group = word == "on" ? std::optional<std::int64_t>(1) : integer_from(word);
         if (!group || *group < 0 || *group >= std::int64_t{k_by_angle})
-            refuse(in_quotes(word) + " is no smoothing group; it is 'off' or a number");
+            refuse(in_quotes(word) + " is not a smoothing group; expected 'off' or a number");
         group_ = static_cast<std::uint32_t>(*group);
     }
 
@@ -219,7 +219,7 @@ class Reader {
             ++losses_[fmt::format("statement '{}'", known)];
             return;
         }
-        // Whatever this file is, it is not this.
+        // This is not an OBJ file.
         if (unknown_++ == 0) first_unknown_ = in_quotes(keyword);
     }
 
@@ -254,18 +254,18 @@ class Reader {
         throw BadFile(fmt::format("line {}: {}", scanner_.line(), problem));
     }
 
-    // ---- the whole
+    // ---- the whole file
 
     struct Highest {
         std::uint32_t index = 0;
         std::size_t line = 0;  // 0: none
     };
 
-    /// Says what a file has that has no faces.
+    /// Throws BadFile naming the contents of a file without faces.
     void require_faces() const {
         if (!polygons_.ends.empty() || polygons_.too_small > 0) return;
         if (unknown_ > 0)
-            throw BadFile(fmt::format("is not an OBJ file: {} begins no statement", first_unknown_));
+            throw BadFile(fmt::format("is not an OBJ file: {} does not begin a statement", first_unknown_));
         const auto count_of = [&](const char* what) {
             const auto found = losses_.find(what);
             return found == losses_.end() ? std::uint64_t{0} : found->second;
@@ -292,7 +292,7 @@ class Reader {
                                   highest.line, std::uint64_t{highest.index} + 1, count));
     }
 
-    /// Corners do without texture coordinates, or normals, that the file does not have.
+    /// Corners lose texture coordinates or normals that the file does not contain.
     void leave_out_missing(std::size_t part, std::size_t count, std::string_view what) {
         Highest& highest = highest_[part];
         if (highest.line != 0 && highest.index >= count) {
@@ -304,11 +304,11 @@ class Reader {
             if (count == 0) highest.line = 0;
         }
         if (missing_[part] > 0)
-            surface_.notes.push_back(fmt::format("has {} with {} that it does not have; they are left out",
+            surface_.notes.push_back(fmt::format("has {} with {} that it does not contain; they are ignored",
                                                  counted(missing_[part], "corner"), what));
     }
 
-    /// A vertex for each combination that corners name.
+    /// Makes a vertex of each combination that corners name.
     void make_vertices() {
         const bool has_uv = highest_[1].line != 0, has_normals = highest_[2].line != 0;
         if (!has_uv && !has_normals) {
@@ -338,15 +338,15 @@ class Reader {
 
     void note_losses() {
         if (unknown_ > 0)
-            surface_.losses.emplace_back(fmt::format("{} that no OBJ file has, such as {}",
+            surface_.losses.emplace_back(fmt::format("{} that OBJ does not define, such as {}",
                                                      counted(unknown_, "statement"), first_unknown_));
         if (non_finite_normals_ > 0)
-            surface_.notes.push_back(fmt::format("has {} that {} not finite; computed ones take their place",
+            surface_.notes.push_back(fmt::format("has {} that {} not finite; computed ones are used instead",
                                                  counted(non_finite_normals_, "normal"),
                                                  non_finite_normals_ == 1 ? "is" : "are"));
         if (non_finite_uv_ > 0)
             surface_.notes.push_back(
-                fmt::format("has {} that are not finite; zeros take their place",
+                fmt::format("has {} that are not finite; zeros are used instead",
                             counted(non_finite_uv_, "pair") + " of texture coordinates"));
         for (const auto& [what, count] : losses_) {
             if (what == "use of a material") {
@@ -376,7 +376,7 @@ class Reader {
     Polygons polygons_;                     // their corners are filled in at the end
     std::vector<std::uint32_t> smoothing_;  // per face
     std::array<Highest, 3> highest_{};
-    std::array<std::uint64_t, 3> missing_{};  // corners, by what they lack
+    std::array<std::uint64_t, 3> missing_{};  // corners that refer to missing texture coordinates or normals
     std::uint64_t non_finite_normals_ = 0, non_finite_uv_ = 0;
     bool has_free_surfaces_ = false;
     std::uint32_t group_ = k_flat;

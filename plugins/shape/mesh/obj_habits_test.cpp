@@ -1,4 +1,4 @@
-// OBJ files that are not quite what the format demands, as many programs write them.
+// OBJ files that many programs write although they do not quite follow the format.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::string refusal_of(const std::string& text, const char* name = "a.obj") {
 
 }  // namespace
 
-TEST_CASE("shape/mesh: a byte order mark at the head of a text is skipped, and UTF-16 is called that") {
+TEST_CASE("shape/mesh: a byte order mark at the head of a text is skipped, and UTF-16 is named") {
     const std::string mark = "\xef\xbb\xbf";
     // Without its first statement, the indices would be one off.
     const candela::PlacedShape obj = placed(mark + k_square + "f 1 2 3 4\n");
@@ -66,20 +66,20 @@ TEST_CASE("shape/mesh: a byte order mark at the head of a text is skipped, and U
     for (const char* const name : {"a.obj", "a.ply", "a.stl", "a.gltf"}) {
         INFO(name);
         CHECK_THAT(refusal_of(std::string("\xff\xfev\0 \0", 6) + k_square, name),
-                   ContainsSubstring("is text in UTF-16"));
+                   ContainsSubstring("is UTF-16 text"));
     }
 }
 
-TEST_CASE("shape/mesh: a pointer of Git LFS in the place of a file is called that") {
+TEST_CASE("shape/mesh: a Git LFS pointer in place of a file is named") {
     for (const char* const name : {"a.obj", "a.ply", "a.stl", "a.gltf", "a.glb"}) {
         INFO(name);
         CHECK_THAT(
             refusal_of("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 123456\n", name),
-            ContainsSubstring("is a pointer of Git LFS") && ContainsSubstring("git lfs pull"));
+            ContainsSubstring("is a Git LFS pointer") && ContainsSubstring("git lfs pull"));
     }
 }
 
-TEST_CASE("shape/mesh: normals and texture coordinates that are not finite are left out, and counted") {
+TEST_CASE("shape/mesh: normals and texture coordinates that are not finite are left out and counted") {
     for (const char* const word :
          {"nan", "-nan", "nan(ind)", "-nan(ind)", "-1.#IND", "1.#INF", "1.#QNAN0", "inf", "-inf", "1e999"}) {
         INFO(word);
@@ -89,7 +89,7 @@ TEST_CASE("shape/mesh: normals and texture coordinates that are not finite are l
         CHECK(square.mesh.triangle_count() == 2);
         REQUIRE(square.warnings.size() == 2);
         CHECK_THAT(square.warnings[0],
-                   ContainsSubstring("has 2 normals that are not finite; computed ones take their place"));
+                   ContainsSubstring("has 2 normals that are not finite; computed ones are used instead"));
         CHECK_THAT(square.warnings[1], ContainsSubstring("has 1 pair of texture coordinates"));
         const auto file =
             write_file(scratch_directory() / "b.obj",
@@ -101,7 +101,7 @@ TEST_CASE("shape/mesh: normals and texture coordinates that are not finite are l
     }
 }
 
-TEST_CASE("shape/mesh: only a position that is not finite is refused, and the first is named") {
+TEST_CASE("shape/mesh: only non-finite positions are refused, and the first is named") {
     for (const char* const word : {"nan", "-1.#IND", "1.#INF", "-inf"}) {
         INFO(word);
         CHECK_THAT(refusal_of(std::string("v 0 0 0\nv 1 ") + word + " 0\nv 0 1 inf\nf 1 2 3\n"),
@@ -111,7 +111,7 @@ TEST_CASE("shape/mesh: only a position that is not finite is refused, and the fi
                ContainsSubstring("line 2: 'zero' is not a number"));
 }
 
-TEST_CASE("shape/mesh: a face without the normals and texture coordinates that it names is a face") {
+TEST_CASE("shape/mesh: a face stays although the normals and texture coordinates that it names are missing") {
     for (const char* const corners :
          {"f 1/1 2/2 3/3 4/4\n", "f 1//1 2//1 3//1 4//1\n", "f 1/9/9 2/9/9 3/9/9 4/9/9\n",
           "f 1/0/0 2/0/0 3/0/0 4/0/0\n", "f 1/-1/-1 2/-1/-1 3/-1/-1 4/-1/-1\n"}) {
@@ -122,16 +122,17 @@ TEST_CASE("shape/mesh: a face without the normals and texture coordinates that i
         REQUIRE_FALSE(square.warnings.empty());
         CHECK_THAT(square.warnings[0], ContainsSubstring("has 4 corners with"));
     }
-    // Those that are there are used.
+    // Existing ones are used.
     const candela::PlacedShape some = placed(std::string(k_square) + "vt 0.5 0.25\nf 1/1 2/2 3/1 4/1\n");
     REQUIRE(some.warnings.size() == 1);
-    CHECK_THAT(some.warnings[0], ContainsSubstring("has 1 corner with texture coordinates that it does not"));
+    CHECK_THAT(some.warnings[0],
+               ContainsSubstring("has 1 corner with texture coordinates that it does not contain"));
     CHECK(std::ranges::count(some.mesh.u, 0.5f) == 3);
     CHECK_THAT(refusal_of(std::string(k_square) + "f 1 2 9\n"),
                ContainsSubstring("line 5: vertex 9 of a face is out of range; there are only 4 vertices"));
 }
 
-TEST_CASE("shape/mesh: a file without faces is refused with what it has instead") {
+TEST_CASE("shape/mesh: a file without faces is refused with a list of its contents") {
     CHECK_THAT(refusal_of("v 0 0 0\nv 1 0 0\nl 1 2\n"),
                ContainsSubstring("has 1 line and no triangles; Candela draws surfaces"));
     CHECK_THAT(refusal_of("v 0 0 0\nv 1 0 0\nl 1 2\nl 2 1\np 1 2\n"),
@@ -145,7 +146,7 @@ TEST_CASE("shape/mesh: a file without faces is refused with what it has instead"
                ContainsSubstring("has free-form curves only"));
 }
 
-TEST_CASE("shape/mesh: a material's name goes to the end of its line") {
+TEST_CASE("shape/mesh: a material's name extends to the end of its line") {
     const std::string text = std::string(k_square) +
                              "usemtl Paint #1\nf 1 2 3\nusemtl Paint #2 \t\nf 1 3 4\nusemtl wood\\\nf 1 2 4\n"
                              "usemtl a\t b\nf 2 3 4\nf 2 3 1\n";
@@ -153,7 +154,7 @@ TEST_CASE("shape/mesh: a material's name goes to the end of its line") {
     CHECK(placed(text, "Paint #2").mesh.triangle_count() == 1);
     CHECK(placed(text, "wood\\").mesh.triangle_count() == 1);
     CHECK(placed(text, "a b").mesh.triangle_count() == 2);
-    // A scene may name it without what is a comment.
+    // A scene may name it without the comment.
     CHECK(placed(std::string(k_square) + "usemtl red # the door\nf 1 2 3\n", "red").mesh.triangle_count() ==
           1);
 }

@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::size_t k_per_task = 16384;
 
-/// Six times a part's volume, and what it would be if nothing were subtracted.
+/// Six times a part's volume, and the sum of the absolute values of its terms.
 struct Volume {
     double sum = 0, size = 0;
 
-    /// What is flat has no volume but for rounding.
+    /// A flat part has no volume except for rounding errors.
     bool is_negative() const {
         constexpr double k_rounding = 1e-6;
         return sum < -k_rounding * size;
@@ -104,7 +104,7 @@ class Orientation {
     }
     std::uint32_t part_vertex_of(std::size_t triangle) const { return surface_.indices[3 * triangle]; }
 
-    /// In an order that does not depend on threads.
+    /// Summed in an order that does not depend on the threads.
     std::vector<Volume> volumes_of_parts() const {
         std::vector<Vec3> origin(parts_.count());
         std::vector<bool> has_origin(parts_.count());
@@ -155,7 +155,7 @@ class Orientation {
             if (const std::uint32_t part = part_of(t); is_turned[part])
                 agreements[part] += agreement(surface_, t);
         for (std::uint32_t i = 0; i < surface_.normal.size(); ++i) {
-            // Of a place that no triangle has, there is no part.
+            // A place that no triangle uses belongs to no part.
             const std::uint32_t place = corners_.place(i);
             if (!corners_.at(place).empty() && agreements[parts_.of_place(place)] < 0)
                 surface_.normal.span().set(i, -surface_.normal.span()[i]);

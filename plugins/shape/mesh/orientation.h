@@ -1,4 +1,4 @@
-// Which side of a mesh is outside.
+// Finds out which side of a mesh is outside.
 #pragma once
 
 #include "corners.h"
@@ -6,10 +6,10 @@
 
 namespace mesh {
 
-/// Turns round each closed part that encloses a negative volume, with all that is inside it: its triangles,
-/// and its normals where they were meant for the other side. A part is what triangles connect; one inside
-/// another is a cavity, whichever way it is wound. Says in `surface.notes` how many there were; returns
-/// whether there were any, since their corners then lie elsewhere.
+/// Turns round each closed part that encloses a negative volume, with everything inside it: its triangles,
+/// and its normals if they point inwards. A part is a set of connected triangles; one inside another is a
+/// cavity, whichever way it is wound. Adds their number to `surface.notes`; returns whether there were any,
+/// since their corners have then moved.
 bool turn_outwards(Surface& surface, const Corners& corners, const OpenEdges& open);
 
 }  // namespace mesh

@@ -12,7 +12,7 @@ namespace mesh {
 
 namespace {
 
-/// Rounded to a power of ten of at most `size`, so that it has few digits.
+/// Rounds to a power of ten of at most `size`, for a short number.
 double short_number(double x, double size) {
     const double power = std::floor(std::log10(size)), step = std::pow(10.0, std::abs(power));
     return power < 0 ? std::round(x * step) / step : std::round(x / step) * step;
@@ -52,7 +52,7 @@ std::string too_far_note(const Surface& surface, const Origin& origin) {
             farthest_in_file = std::max(farthest_in_file, std::abs(x + origin.at[axis]));
         }
     }
-    // Of a picture a thousand pixels wide, 0.06 pixels are lost at this distance.
+    // At this distance the error is 0.06 pixels in a picture a thousand pixels wide.
     constexpr double k_too_far = 1e3;
     if (!std::isfinite(farthest) || size == 0) return {};
     const auto step = [](double x) {
@@ -60,15 +60,13 @@ std::string too_far_note(const Surface& surface, const Origin& origin) {
     };
     if (surface.is_single && farthest_in_file > k_too_far * size)
         return fmt::format(
-            "has its coordinates in single precision, which rounds them to {:.2g} m so far from the origin; "
-            "its form "
-            "is lost in the file itself",
+            "stores its coordinates in single precision, which rounds them to {:.2g} m so far from the "
+            "origin; the file itself has lost its shape",
             step(farthest_in_file));
     if (!(farthest > k_too_far * size)) return {};
     return fmt::format(
-        "lies so far from the origin that its coordinates are rounded to {:.2g} m; origin = \"{} {} {}\" "
-        "moves "
-        "it there before they are",
+        "lies so far from the origin that its coordinates are rounded to {:.2g} m; set origin = \"{} {} {}\" "
+        "to move it before rounding",
         step(farthest), origin.at[0] + short_number(center[0], size),
         origin.at[1] + short_number(center[1], size), origin.at[2] + short_number(center[2], size));
 }

@@ -1,5 +1,4 @@
-// Coordinates far from the origin, such as those of surveys and maps: where they enter, they are still
-// doubles.
+// Moves coordinates far from the origin, such as those of surveys and maps, while they are still doubles.
 #pragma once
 
 #include <array>
@@ -11,11 +10,11 @@
 
 namespace mesh {
 
-/// The point of a file's coordinates that becomes the origin of object space.
+/// The point in a file's coordinates that becomes the origin of object space.
 struct Origin {
     std::array<double, 3> at{};
 
-    /// A coordinate of the file in object space, rounded only after it has been moved.
+    /// Converts a file's coordinate to object space, rounding only after the move.
     float moved(double coordinate, std::size_t axis) const {
         return static_cast<float>(coordinate - at[axis]);
     }
@@ -24,12 +23,12 @@ struct Origin {
     }
 };
 
-/// From three finite numbers with blanks or commas between them; an empty text is the file's own origin.
-/// Nothing for any other text.
+/// Parses three finite numbers separated by blanks or commas; an empty text is the file's own origin. Returns
+/// nothing for any other text.
 std::optional<Origin> origin_from(std::string_view text);
 
-/// What to say about a surface that lies so far from the origin that its coordinates are visibly rounded,
-/// here or in its file; empty for any other.
+/// A warning about a surface so far from the origin that its coordinates are visibly rounded, here or in its
+/// file; empty for any other.
 std::string too_far_note(const Surface& surface, const Origin& origin);
 
 }  // namespace mesh

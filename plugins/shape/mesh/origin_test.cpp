@@ -1,4 +1,4 @@
-// Files whose coordinates lie far from their origin, as surveys and maps have them.
+// Files whose coordinates lie far from their origin, such as surveys and maps.
 #include <fmt/format.h>
 
 #include <array>
@@ -62,7 +62,7 @@ std::string as_binary_ply(const Point& at) {
     return text + std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
 }
 
-/// Its node has the distance, as programs write it.
+/// The distance is in its node, as programs write it.
 std::string as_gltf(const Point& at) {
     return fmt::format(
         R"({{"asset": {{"version": "2.0"}}, "nodes": [{{"mesh": 0, "translation": [{}, {}, {}]}}],
@@ -118,21 +118,22 @@ TEST_CASE("shape/mesh: coordinates are moved before they are rounded, in every f
         }
 }
 
-TEST_CASE("shape/mesh: an origin may be between the numbers of single precision") {
+TEST_CASE("shape/mesh: an origin need not be representable in single precision") {
     const candela::PlacedShape far =
         placed("far.obj", as_obj({500000.25, 4500000.75, 120}), "500000.25 4500000.75 120");
     CHECK(far.mesh.position.span()[0] == Vec3{0.125f, -0.25f, 0.5f});
 }
 
-TEST_CASE("shape/mesh: coordinates that are visibly rounded are warned of, with the origin to give") {
+TEST_CASE("shape/mesh: visibly rounded coordinates cause a warning with the origin to set") {
     const candela::PlacedShape far = placed("far.obj", as_obj({500000, 4500000, 120}), "");
     REQUIRE(far.warnings.size() == 1);
-    CHECK_THAT(far.warnings[0], Catch::Matchers::ContainsSubstring("its coordinates are rounded to 0.5 m; "
-                                                                   "origin = \"500000 4500001 120\""));
+    CHECK_THAT(far.warnings[0],
+               Catch::Matchers::ContainsSubstring(
+                   "its coordinates are rounded to 0.5 m; set origin = \"500000 4500001 120\""));
     CHECK(placed("far.obj", as_obj({100, 0, -100}), "").warnings.empty());
 }
 
-TEST_CASE("shape/mesh: an origin that is not three finite numbers is refused, with an example") {
+TEST_CASE("shape/mesh: an origin other than three finite numbers is refused with an example") {
     for (const char* const wrong : {"1 2", "1 2 3 4", "1 2 nan", "a b c", "1e999 0 0"}) {
         INFO(wrong);
         CHECK_THROWS_WITH(placed("far.obj", as_obj({0, 0, 0}), wrong),
@@ -141,7 +142,8 @@ TEST_CASE("shape/mesh: an origin that is not three finite numbers is refused, wi
 }
 
 TEST_CASE(
-    "shape/mesh: coordinates that the file itself has rounded are warned of, for no origin mends them") {
+    "shape/mesh: coordinates rounded in the file itself cause a warning without an origin, which could not "
+    "help") {
     std::string bytes(80, ' ');
     bytes += std::string("\1\0\0\0", 4) + std::string(12, '\0');
     for (const Point& p : k_corners)
@@ -152,6 +154,7 @@ TEST_CASE(
     bytes += std::string(2, '\0');
     const candela::PlacedShape far = placed("far.stl", bytes, "4500000 4500000 4500000");
     REQUIRE_FALSE(far.warnings.empty());
-    CHECK_THAT(far.warnings[0], Catch::Matchers::ContainsSubstring(
-                                    "has its coordinates in single precision, which rounds them to 0.5 m"));
+    CHECK_THAT(far.warnings[0],
+               Catch::Matchers::ContainsSubstring(
+                   "stores its coordinates in single precision, which rounds them to 0.5 m"));
 }

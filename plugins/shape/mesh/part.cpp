@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::uint32_t k_unused = 0xffff'ffffu;
 
-/// Which of the materials are meant.
+/// The materials that a name refers to.
 std::vector<bool> chosen_of(const Surface& surface, std::string_view part) {
     std::vector<bool> chosen(surface.materials.size());
     for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = surface.materials[i] == part;
-    // Somebody may have written "red" for "usemtl red # a comment".
+    // The scene may say "red" where the file says "usemtl red # a comment".
     if (std::ranges::find(chosen, true) == chosen.end())
         for (std::size_t i = 0; i < chosen.size(); ++i)
             chosen[i] = surface.materials[i].starts_with(std::string(part) + " #");
@@ -55,7 +55,7 @@ Vectors picked(const Vectors& values, std::span<const std::uint32_t> which) {
     return {picked(values.x, which), picked(values.y, which), picked(values.z, which)};
 }
 
-/// The values of `indices`, each once, in rising order; `indices` become positions among them.
+/// The distinct values of `indices` in ascending order; `indices` become positions among them.
 std::vector<std::uint32_t> renumbered(Array<std::uint32_t>& indices) {
     const auto [low, high] = std::ranges::minmax(indices);
     const std::size_t range = std::size_t{high} - low + 1;
@@ -99,7 +99,7 @@ Surface part_of(const Surface& surface, const TrianglesByMaterial& triangles, st
         kept.insert(kept.end(), more.begin(), more.end());
     }
     if (kept.empty()) refuse(surface, part);
-    std::ranges::sort(kept);  // several materials may have one name
+    std::ranges::sort(kept);  // several materials may share a name
 
     Surface result;
     result.indices.resize(3 * kept.size());

@@ -15,7 +15,7 @@ class TrianglesByMaterial {
   public:
     explicit TrianglesByMaterial(const Surface& surface);
 
-    /// In rising order; none of a material that no triangle has.
+    /// In ascending order; empty for a material that no triangle has.
     std::span<const std::uint32_t> of(std::size_t material) const {
         return std::span(triangles_).subspan(begin_[material], begin_[material + 1] - begin_[material]);
     }
@@ -25,8 +25,8 @@ class TrianglesByMaterial {
     Array<std::uint32_t> triangles_;
 };
 
-/// The triangles whose material has that name, or that number: "#0", with the vertices that they use. Throws
-/// BadFile, which names the materials, if there are none.
+/// The triangles whose material has that name or number ("#0"), with the vertices that they use. Throws
+/// BadFile listing the materials if there are none.
 Surface part_of(const Surface& surface, const TrianglesByMaterial& triangles, std::string_view part);
 
 }  // namespace mesh

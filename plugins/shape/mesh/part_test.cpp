@@ -40,13 +40,13 @@ TEST_CASE("shape/mesh: a part is the triangles of one material, with the vertice
     const Mesh blue = part_of("a.obj", k_obj, "deep blue");
     REQUIRE(blue.triangle_count() == 1);
     CHECK(blue.vertex_count() == 3);
-    // Its face, x = 0, looks the way it does in the whole.
+    // Its face, x = 0, points in the same direction as in the whole.
     CHECK(blue.face_normal.span()[0] == candela::Vec3{-1, 0, 0});
     CHECK(part_of("a.obj", k_obj, "(none)").triangle_count() == 1);
     CHECK(part_of("a.obj", k_obj, "").triangle_count() == 4);
 }
 
-TEST_CASE("shape/mesh: a part of a mesh that is wound inside out is turned as the whole is") {
+TEST_CASE("shape/mesh: a part of a mesh that is wound inside out is turned round with the whole") {
     const Mesh blue = part_of("a.obj",
                               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nusemtl blue\nf 1 3 4\n"
                               "usemtl red\nf 2 4 3\n",
@@ -65,7 +65,7 @@ TEST_CASE("shape/mesh: polygons and colours stay with their part") {
     CHECK(part.vertex_count() == 4);
 }
 
-TEST_CASE("shape/mesh: a part that is not there is refused with the names of those that are") {
+TEST_CASE("shape/mesh: a missing part is refused with the names of the existing ones") {
     CHECK(refusal_of("a.obj", k_obj, "green")
               .ends_with("has no triangles with a material 'green'; its materials: '(none)', 'red' and 'deep "
                          "blue # or so'"));

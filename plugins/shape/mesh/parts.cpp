@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t k_per_task = 16384;
 
-/// Sets of numbers that many threads join. The root of a set is its least number, in whatever order they do.
+/// Sets of numbers that many threads join. The root of a set is its least number, whatever the order of the
+/// joins.
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t count) : parent_(count) {
@@ -54,7 +55,7 @@ struct Point2 {
     double y, z;
 };
 
-/// Twice the signed area of (a, b, p), the same but for its sign for (b, a, p).
+/// Twice the signed area of (a, b, p); exactly the negative of that for (b, a, p).
 double side(Point2 a, Point2 b, Point2 p) {
     const bool swaps = b.y < a.y || (b.y == a.y && b.z < a.z);
     if (swaps) std::swap(a, b);
@@ -137,8 +138,8 @@ class Columns {
         each([&](std::size_t cell, std::uint32_t t) { entry_[next[cell]++] = t; });
     }
 
-    /// A ray through an edge goes through one of the two triangles beside it, because both decide alike on
-    /// which side of the edge it is.
+    /// A ray through an edge goes through exactly one of the two adjacent triangles, because both make the
+    /// same decision about its side of the edge.
     bool is_pierced(std::uint32_t t, Vec3 from) const {
         const Point2 p = flat(from);
         std::array<double, 3> area{};
@@ -174,7 +175,7 @@ Parts::Parts(const Surface& surface, const Corners& corners) : part_(corners.pla
             for (std::size_t k = 1; k < 3; ++k) sets.join(first, corners.place(surface.indices[3 * t + k]));
         }
     });
-    // A root is the least of its places, so its number is known before it is asked for.
+    // A root is the least of its places, so its number is known before it is needed.
     for (std::uint32_t place = 0; place < part_.size(); ++place) {
         if (corners.at(place).empty()) continue;
         const std::uint32_t root = sets.root(place);

@@ -11,7 +11,7 @@
 
 namespace mesh {
 
-/// What triangles connect, place by place.
+/// The sets of places that triangles connect.
 class Parts {
   public:
     Parts(const Surface& surface, const Corners& corners);
@@ -25,8 +25,8 @@ class Parts {
     std::size_t count_ = 0;
 };
 
-/// For each part the parts that it lies in, found from where a ray from one of its places leaves them. Parts
-/// that are not `closed` contain nothing.
+/// For each part, the parts that contain it, found by following a ray from one of its places. Parts that are
+/// not `closed` contain nothing.
 std::vector<std::vector<std::uint32_t>> containers_of(const Surface& surface, const Corners& corners,
                                                       const Parts& parts, const std::vector<bool>& closed);
 

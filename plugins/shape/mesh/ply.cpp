@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t k_per_task = 65536;
 
-/// Where a property of the vertices goes; null: nowhere. `origin` is taken from it while it is a double.
+/// The destination of a vertex property; null: none. `origin` is subtracted while the value is a double.
 struct Column {
     Array<float>* to = nullptr;
     double origin = 0;
@@ -84,7 +84,7 @@ class Reader {
         }
         if (!has_vertices_) throw BadFile("has no element 'vertex'");
         require_faces();
-        // Strips name the file's own vertices.
+        // Strips refer to the file's vertex numbers.
         if (!wedges_.empty() && strips_.empty()) split_by_wedges(wedges_, polygons_, surface_);
         if (fixed_triangles_.empty()) {
             triangulate(polygons_, {}, surface_);
@@ -124,7 +124,7 @@ class Reader {
         }
     }
 
-    /// Says what a file has that has no faces.
+    /// Throws BadFile naming the contents of a file without faces.
     void require_faces() const {
         if (has_faces_) return;
         const std::size_t points = surface_.position.size();
@@ -172,7 +172,7 @@ class Reader {
         };
         const auto x = scalar({"x"}), y = scalar({"y"}), z = scalar({"z"});
         if (!x || !y || !z) throw BadFile("has vertices without x, y and z");
-        if (element.count > 0xffff'fff0u) throw BadFile("has more vertices than can be numbered");
+        if (element.count > 0xffff'fff0u) throw BadFile("has too many vertices");
         use(x, surface_.position.x);
         use(y, surface_.position.y);
         use(z, surface_.position.z);
@@ -239,7 +239,7 @@ class Reader {
         }
     }
 
-    /// Says which properties are left out.
+    /// Reports the properties that are left out.
     void note_others(const Element& element, const std::vector<std::size_t>& used, std::string_view whose) {
         std::vector<std::string> others;
         bool has_colors = false;
@@ -280,7 +280,7 @@ class Reader {
     void read_faces(Values& values, const Element& element, std::size_t corners) {
         FaceProperties other;
         std::vector<std::size_t> used = {corners};
-        // What vertices have is not the faces', and strips have no faces' numbers.
+        // Properties of vertices do not apply to faces, and strips have no face numbers.
         const bool is_only_one =
             header_.elements.end() == std::ranges::find(header_.elements, "tristrips", &Element::name);
         if (surface_.color.empty() && has_vertices_ && is_only_one) other.color = colors_of(element);
@@ -338,7 +338,7 @@ class Reader {
         note_wedges(element, other, faces_without, faces_of_others);
     }
 
-    /// What a face may have beside its corners.
+    /// The properties that a face may have in addition to its corners.
     struct FaceProperties {
         std::array<Place, 3> color{};
         Place uv, picture;
@@ -351,19 +351,19 @@ class Reader {
                          element.properties[*other.color[0]].type, "face", surface_.notes);
         if (without > 0)
             surface_.notes.push_back(fmt::format(
-                "has {} without a pair of texture coordinates for each corner; zeros take their place",
+                "has {} without a pair of texture coordinates for each corner; zeros are used instead",
                 counted(without, "face")));
         if (of_others > 0)
-            surface_.notes.push_back(
-                fmt::format("has {} of a second texture or a further one, which {} the first",
-                            counted(of_others, "face"), of_others == 1 ? "shows" : "show"));
+            surface_.notes.push_back(fmt::format("has {} of a second or further texture, which {} the first",
+                                                 counted(of_others, "face"),
+                                                 of_others == 1 ? "shows" : "show"));
     }
 
-    /// Reads faces that all have three corners and no other list; false, and nothing read, if they have not.
+    /// Reads faces that all have three corners and no other list; otherwise reads nothing and returns false.
     bool read_fixed_triangles(BinaryValues& values, const Element& element, std::size_t corners) {
         const Property& property = element.properties[corners];
         const auto lists = std::ranges::count_if(element.properties, &Property::is_list);
-        // Another element's faces came before.
+        // Another element's faces came first.
         const bool is_first = polygons_.ends.empty() && polygons_.too_small == 0 && fixed_triangles_.empty();
         if (lists != 1 || !is_first || !is_integer(property.type) || element.count == 0 || !has_vertices_)
             return false;

@@ -15,7 +15,7 @@ namespace {
 float brightest(Type type, float largest) {
     constexpr float k_byte = 255, k_word = 65535;
     if (!is_integer(type)) {
-        // Lights may be a little brighter than white.
+        // Lights may be slightly brighter than white.
         constexpr float k_much_light = 4;
         return largest <= k_much_light ? 1 : largest <= k_byte ? k_byte : largest <= k_word ? k_word : 1;
     }
@@ -43,8 +43,9 @@ void scale_colors(std::initializer_list<Array<float>*> channels, Type type, std:
                         [](auto t) { return static_cast<float>(std::numeric_limits<decltype(t)>::max()); })
             : 1;
     if (by != expected && largest > 0)
-        notes.push_back(fmt::format("has {} colours of type {} up to {:g}, which are taken as 0 to {:g}",
-                                    whose, name_of(type), largest, by));
+        notes.push_back(
+            fmt::format("has {} colours of type {} up to {:g}, which are interpreted as 0 to {:g}", whose,
+                        name_of(type), largest, by));
 }
 
 }  // namespace mesh::ply

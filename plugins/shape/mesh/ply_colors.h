@@ -1,4 +1,4 @@
-// Colours of PLY files, which say neither what their largest value is nor that it is that of their type.
+// Colours of PLY files, which neither declare their largest value nor always use that of their type.
 #pragma once
 
 #include <initializer_list>
@@ -11,9 +11,9 @@
 
 namespace mesh::ply {
 
-/// Divides channels, which have that type, by what stands for the brightest: 255 for bytes, and otherwise
-/// what their largest value suggests, which is said in `notes`, as of `whose` ("vertex") colours, where it is
-/// not the largest of the type (of floats: 1).
+/// Divides channels of that type by the value of the brightest colour: 255 for bytes, otherwise what their
+/// largest value suggests. If that is not the largest value of the type (1 for floats), adds a note about
+/// `whose` ("vertex") colours.
 void scale_colors(std::initializer_list<Array<float>*> channels, Type type, std::string_view whose,
                   std::vector<std::string>& notes);
 

@@ -32,8 +32,8 @@ constexpr std::array<std::pair<std::string_view, Type>, 16> k_types = {{
     {"float64", Type::float64},
 }};
 
-/// The header's lines. All end like the first one, or as they like: only behind the last does it matter, for
-/// there the data begin.
+/// The header's lines. Their line ends may differ; only the last one's matters, because the data begin after
+/// it.
 class Lines {
   public:
     explicit Lines(std::string_view bytes) : bytes_(bytes) {
@@ -42,12 +42,12 @@ class Lines {
             end != std::string_view::npos && bytes[end] == '\r' && !bytes.substr(end + 1).starts_with('\n');
     }
 
-    /// The next line's words; throws at the end.
+    /// Splits the next line into words; throws at the end.
     std::vector<std::string_view> next() {
         ++number_;
         const std::size_t end = bytes_.find_first_of("\r\n", at_);
-        // The text of an element may end with the file, a header cannot.
-        if (end == std::string_view::npos) throw BadFile("is no PLY file: it has no line 'end_header'");
+        // An element's text may end with the file; a header may not.
+        if (end == std::string_view::npos) throw BadFile("is not a PLY file: it has no line 'end_header'");
         TextScanner scanner(bytes_.substr(at_, end - at_));
         at_ = end + 1;
         if (bytes_[end] == '\r' && !ends_with_cr_only_ && bytes_.substr(at_).starts_with('\n')) ++at_;
@@ -78,7 +78,7 @@ Type type_named(std::string_view name, const Lines& lines) {
     for (const auto& [known, type] : k_types)
         if (known == name) return type;
     refuse(lines, in_quotes(name) +
-                      " is no type; types are char, uchar, short, ushort, int, uint, float and double");
+                      " is not a type; expected char, uchar, short, ushort, int, uint, float or double");
 }
 
 Encoding encoding_named(std::string_view name, const Lines& lines) {
@@ -86,22 +86,22 @@ Encoding encoding_named(std::string_view name, const Lines& lines) {
     if (name == "binary_little_endian") return Encoding::little_endian;
     if (name == "binary_big_endian") return Encoding::big_endian;
     refuse(lines,
-           in_quotes(name) + " is no format; formats are ascii, binary_little_endian and binary_big_endian");
+           in_quotes(name) + " is not a format; expected ascii, binary_little_endian or binary_big_endian");
 }
 
 Property property_of(const std::vector<std::string_view>& words, const Lines& lines) {
     if (words.size() == 3) return {std::string(words[2]), type_named(words[1], lines), std::nullopt};
     if (words.size() == 5 && words[1] == "list") {
         const Type length = type_named(words[2], lines);
-        if (!is_integer(length)) refuse(lines, "the length of a list is an integer");
+        if (!is_integer(length)) refuse(lines, "the length of a list must be an integer");
         return {std::string(words[4]), type_named(words[3], lines), length};
     }
-    refuse(lines, "a property is 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+    refuse(lines, "expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
 }
 
-/// The fewest bytes that an element takes.
+/// The fewest bytes that an element can take.
 std::uint64_t least_size(const Element& element, Encoding encoding) {
-    // In text each value takes a digit and a blank or the end of a line.
+    // In text, each value takes at least a digit and a blank or line end.
     return encoding == Encoding::text ? 2 * element.properties.size() : element.fixed_size();
 }
 
@@ -152,7 +152,7 @@ Header read_header(std::string_view bytes) {
     Lines lines(bytes);
     if (bytes.find_first_of("\r\n") == std::string_view::npos ||
         lines.next() != std::vector<std::string_view>{"ply"})
-        throw BadFile("is no PLY file: it does not begin with a line 'ply'");
+        throw BadFile("is not a PLY file: it does not begin with a line 'ply'");
     Header header;
     bool has_format = false;
     for (;;) {
@@ -165,16 +165,16 @@ Header read_header(std::string_view bytes) {
             has_format = true;
         } else if (words[0] == "element") {
             const auto count = words.size() == 3 ? integer_from(words[2]) : std::nullopt;
-            if (!count || *count < 0) refuse(lines, "an element is 'element NAME COUNT'");
+            if (!count || *count < 0) refuse(lines, "expected 'element NAME COUNT'");
             header.elements.push_back({std::string(words[1]), static_cast<std::uint64_t>(*count), {}});
         } else if (words[0] == "property") {
-            if (header.elements.empty()) refuse(lines, "a property stands before the first element");
+            if (header.elements.empty()) refuse(lines, "a property comes before the first element");
             header.elements.back().properties.push_back(property_of(words, lines));
         } else {
-            refuse(lines, in_quotes(words[0]) + " is no line of a PLY header");
+            refuse(lines, in_quotes(words[0]) + " does not begin a line of a PLY header");
         }
     }
-    if (!has_format) throw BadFile("is no PLY file: it has no line 'format'");
+    if (!has_format) throw BadFile("is not a PLY file: it has no line 'format'");
     header.size = lines.position();
     header.lines = lines.number();
     check_counts(header, bytes.size());

@@ -14,12 +14,12 @@ enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 /// In bytes.
 std::size_t size_of(Type type);
 bool is_integer(Type type);
-/// As headers write it.
+/// Its name in headers.
 std::string_view name_of(Type type);
 
 struct Property {
     std::string name;
-    Type type = Type::float32;        // of a list: of its items
+    Type type = Type::float32;        // for a list: of its items
     std::optional<Type> length_type;  // of a list
 
     bool is_list() const { return length_type.has_value(); }
@@ -31,7 +31,7 @@ struct Element {
     std::vector<Property> properties;
 
     bool has_lists() const;
-    /// The bytes of one without lists' items.
+    /// The bytes of one element without its lists' items.
     std::size_t fixed_size() const;
     /// The index of the first property of one of these names; nothing if there is none.
     std::optional<std::size_t> find(std::initializer_list<std::string_view> names) const;
@@ -46,7 +46,7 @@ struct Header {
     std::size_t lines = 0;  // of text
 };
 
-/// Throws BadFile, also if elements are more than the rest of the bytes can hold.
+/// Throws BadFile if the header is invalid, or declares more elements than the remaining bytes can hold.
 Header read_header(std::string_view bytes);
 
 }  // namespace mesh::ply

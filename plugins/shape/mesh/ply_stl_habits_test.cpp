@@ -1,5 +1,5 @@
-// PLY and STL files as many programs write them: colours of any range, textures by corner, numbers that are
-// none.
+// PLY and STL files as many programs write them: colours of any range, textures per corner, numbers that are
+// not finite.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -78,7 +78,7 @@ std::string stl(std::string header, std::array<std::uint16_t, 2> attributes, flo
     return header;
 }
 
-/// So many squares in a row, two facets each, of which the last two have these attributes.
+/// A row of this many squares, two facets each; the last two facets have these attributes.
 std::string long_stl(std::string header, std::uint32_t squares, std::uint16_t last) {
     header.resize(80, ' ');
     put(header, 2 * squares);
@@ -96,7 +96,7 @@ std::string long_stl(std::string header, std::uint32_t squares, std::uint16_t la
 
 }  // namespace
 
-TEST_CASE("shape/mesh: colours of a PLY file have the range of their values, whatever their type") {
+TEST_CASE("shape/mesh: the range of a PLY file's colours follows from their values, whatever their type") {
     const std::array<std::string, 3> bytes = {"255 0 51", "0 255 0", "0 0 255"};
     for (const char* const type : {"int", "uint", "ushort", "short", "float", "double"}) {
         INFO(type);
@@ -104,7 +104,7 @@ TEST_CASE("shape/mesh: colours of a PLY file have the range of their values, wha
         CHECK(shape.mesh.color.span()[0].x == 1);
         CHECK(shape.mesh.color.span()[0].z == Approx(0.2));
         CHECK_THAT(warnings_of(shape), ContainsSubstring(std::string("has vertex colours of type ") + type +
-                                                         " up to 255, which are taken as 0 to 255"));
+                                                         " up to 255, which are interpreted as 0 to 255"));
     }
     for (const auto& [type, values] :
          {std::pair{"uchar", bytes},
@@ -116,7 +116,7 @@ TEST_CASE("shape/mesh: colours of a PLY file have the range of their values, wha
         CHECK(shape.mesh.color.span()[0].z == Approx(0.2));
         CHECK(shape.warnings.empty());
     }
-    // A little more than white is light, not another range.
+    // Slightly above white is bright light, not another range.
     CHECK(placed(triangle(colors("float"), {"2 0 0.5", "0 0 0", "0 0 0"})).mesh.color.span()[0].z == 0.5f);
 }
 
@@ -152,12 +152,11 @@ TEST_CASE("shape/mesh: texture coordinates of a PLY file's faces are those of th
                ContainsSubstring("1 face without a pair of texture coordinates for each corner"));
 }
 
-TEST_CASE(
-    "shape/mesh: PLY and STL: a normal or a texture coordinate that is not finite does not refuse the file") {
+TEST_CASE("shape/mesh: PLY and STL files with non-finite normals or texture coordinates are accepted") {
     const std::string normals =
         "property float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\n";
     const candela::PlacedShape shape = placed(triangle(normals, {"nan 0 1 0 0", "0 0 1 inf 0", "0 0 1 1 1"}));
-    CHECK_THAT(warnings_of(shape), ContainsSubstring("has 1 normal that is not finite; computed ones take"));
+    CHECK_THAT(warnings_of(shape), ContainsSubstring("has 1 normal that is not finite; computed ones are"));
     CHECK_THAT(warnings_of(shape),
                ContainsSubstring("has 1 pair of texture coordinates that are not finite"));
     CHECK(std::ranges::all_of(shape.mesh.u, [](float u) { return std::isfinite(u); }));
@@ -165,7 +164,7 @@ TEST_CASE(
     CHECK_THAT(warnings_of(facets), ContainsSubstring("2 normals that are not finite"));
 }
 
-TEST_CASE("shape/mesh: PLY and STL: a position that is not finite is named, unless no triangle has it") {
+TEST_CASE("shape/mesh: PLY and STL: a non-finite position is named, unless no triangle uses it") {
     std::string broken = triangle("", {"", "", ""});
     broken.replace(broken.find("1 0 0"), 5, "1 nan 0");
     CHECK_THAT(refusal_of(broken),
@@ -192,7 +191,7 @@ TEST_CASE("shape/mesh: the colours of Materialise Magics in an STL file are thos
                ContainsSubstring("attributes of facets"));
 }
 
-TEST_CASE("shape/mesh: a binary STL file longer than what is read at once is the same mesh") {
+TEST_CASE("shape/mesh: a binary STL file longer than one read yields the same mesh") {
     constexpr std::uint32_t k_squares = 9001;  // 18,002 facets
     const candela::PlacedShape plain = placed(long_stl("", k_squares, 0), "long.stl");
     CHECK(plain.warnings.empty());
@@ -218,7 +217,7 @@ TEST_CASE("shape/mesh: a binary STL file longer than what is read at once is the
     CHECK(color_of(3 * (2 * k_squares - 1)) == Vec3{0, 0, 1});
 }
 
-TEST_CASE("shape/mesh: a PLY file of points or lines only is called that") {
+TEST_CASE("shape/mesh: a PLY file with only points or lines is refused as such") {
     const std::string points =
         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n";
     CHECK_THAT(refusal_of(points + "end_header\n0 0 0\n1 1 1\n"),

@@ -1,4 +1,4 @@
-// The values of a PLY file behind its header, one after the other.
+// Reads the values after a PLY file's header, one by one.
 #pragma once
 
 #include <bit>
@@ -60,7 +60,7 @@ class BinaryValues {
         const char* const from = take(size_of(type));
         return with_type(type, [&](auto t) { return static_cast<double>(load<decltype(t)>(from, swaps_)); });
     }
-    /// Any number of values of `type`.
+    /// Skips any number of values of `type`.
     void skip(Type type, std::uint64_t count) {
         if (count > left() / size_of(type)) refuse_end();
         at_ += count * size_of(type);
@@ -70,7 +70,7 @@ class BinaryValues {
         if (value < 0) throw BadFile("has a list of negative length");
         return static_cast<std::uint64_t>(value);
     }
-    /// How many values there can be at most.
+    /// The maximum number of values that can follow.
     std::uint64_t most(Type type) const { return left() / size_of(type); }
 
     std::size_t position() const { return at_; }
@@ -90,7 +90,7 @@ class BinaryValues {
     bool swaps_;
 };
 
-/// Reads values of a text. They stand in their elements' lines, but only their order counts.
+/// Reads values of a text. Each element has its own line, but only the order matters.
 class TextValues {
   public:
     TextValues(std::string_view bytes, const Header& header, const Progress& progress)
@@ -101,7 +101,7 @@ class TextValues {
     double number(Type) {
         const std::string_view word = next();
         const auto value = number_from(word);
-        if (!value) refuse(word, "is no number");
+        if (!value) refuse(word, "is not a number");
         return *value;
     }
     void skip(Type, std::uint64_t count) {
@@ -110,7 +110,7 @@ class TextValues {
     std::uint64_t length(Type) {
         const std::string_view word = next();
         const auto value = integer_from(word);
-        if (!value || *value < 0) refuse(word, "is no length of a list");
+        if (!value || *value < 0) refuse(word, "is not a list length");
         return static_cast<std::uint64_t>(*value);
     }
     std::uint64_t most(Type) const { return (size_ - scanner_.position() + 1) / 2; }

@@ -38,7 +38,7 @@ std::vector<Point> projected(std::span<const std::uint32_t> corners, ConstVec3Sp
         normal.y += a.z * b.x - a.x * b.z;
         normal.z += a.x * b.y - a.y * b.x;
     }
-    // Along the axis that loses least; the order of the two others keeps the orientation.
+    // Projected along the axis that loses least; the order of the other two preserves the orientation.
     const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
     std::vector<Point> flat(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -65,7 +65,7 @@ class EarClipper {
         }
         for (std::size_t i = 0; i < n; ++i)
             if (turn(i) <= 0) reflex_.push_back(i);
-        // Each ear takes out of these what lies in its way.
+        // Corners that may lie inside an ear; ears are removed from them as they are cut.
         spend(p_.size() * reflex_.size());
     }
 
@@ -108,8 +108,8 @@ class EarClipper {
             ++tests;
             if (r == prev_[i] || r == next_[i] || r == i) return false;
             const Point q = p_[r];
-            // A second corner at the same place, as where a hole is joined to the outline by a bridge, is in
-            // nobody's way.
+            // A second corner at the same place, as where a bridge joins a hole to the outline, does not
+            // block an ear.
             if ((q.x == a.x && q.y == a.y) || (q.x == c.x && q.y == c.y)) return false;
             return area(a, b, q) >= 0 && area(b, c, q) >= 0 && area(c, a, q) >= 0;
         });
@@ -117,7 +117,7 @@ class EarClipper {
         return is_free;
     }
 
-    /// A few seconds' worth.
+    /// Takes a few seconds.
     void spend(std::size_t tests) {
         constexpr std::size_t k_most_tests = 500'000'000;
         tests_ += tests;
@@ -137,7 +137,7 @@ bool is_convex(const std::vector<Point>& p) {
     bool was_right = p[0].x > p[n - 1].x;
     for (std::size_t i = 0; i < n; ++i) {
         if (area(p[i], p[(i + 1) % n], p[(i + 2) % n]) < 0) return false;
-        // A star turns left at every corner, too, but goes round more than once.
+        // A star also turns left at every corner, but goes round more than once.
         const double step = p[(i + 1) % n].x - p[i].x;
         if (step == 0) continue;
         if ((step > 0) != was_right) ++changes;
@@ -155,7 +155,7 @@ void Polygons::end_face() {
         corners.resize(begin);
         return;
     }
-    if (corners.size() > 0xffff'fff0u) throw BadFile("has more corners of faces than can be numbered");
+    if (corners.size() > 0xffff'fff0u) throw BadFile("has too many corners of faces");
     ends.push_back(static_cast<std::uint32_t>(corners.size()));
 }
 

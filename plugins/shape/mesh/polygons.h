@@ -25,11 +25,11 @@ struct Polygons {
 void triangulate(std::span<const std::uint32_t> corners, candela::ConstVec3Span position,
                  Array<std::uint32_t>& indices);
 
-/// Throws BadFile if a corner is no vertex of so many.
+/// Throws BadFile if a corner is not one of so many vertices.
 void require_vertices(const Polygons& polygons, std::size_t vertices);
 
 /// Sets `surface.indices` to the triangles of all faces and, unless `smoothing` (per face) is empty,
-/// `surface.smoothing`. Throws BadFile if a corner is no vertex.
+/// `surface.smoothing`. Throws BadFile if a corner's vertex does not exist.
 void triangulate(const Polygons& polygons, std::span<const std::uint32_t> smoothing, Surface& surface);
 
 }  // namespace mesh

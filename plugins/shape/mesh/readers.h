@@ -1,6 +1,6 @@
-// One function per format: from bytes, or a file, to a surface. All throw BadFile for what is no such file,
-// check counts against the bytes there are before they allocate, and have no state. Texts tell how far they
-// are read. Positions are those of the file, moved by `origin` while they are doubles.
+// One function per format, from bytes or a file to a surface. All throw BadFile for invalid files, check
+// counts against the available bytes before they allocate, and are stateless. Text readers report progress.
+// Positions are the file's, moved by `origin` while they are doubles.
 #pragma once
 
 #include <filesystem>
@@ -22,8 +22,8 @@ Surface read_stl(Pieces& file, const Origin& origin, const Progress& progress);
 /// Wavefront OBJ: polygons, no curves. Material libraries are not opened.
 Surface read_obj(std::string_view text, const Origin& origin, const Progress& progress);
 
-/// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder`, and as far from
-/// it as `reach` allows.
+/// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder`, and from elsewhere if `reach`
+/// allows.
 Surface read_gltf(std::string_view bytes, const Origin& origin, const std::filesystem::path& folder,
                   Reach reach);
 

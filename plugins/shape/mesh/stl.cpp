@@ -37,7 +37,7 @@ Vec3 vector_at(const char* from) {
     return {little_endian<float>(from), little_endian<float>(from + 4), little_endian<float>(from + 8)};
 }
 
-/// What is not finite stays so, to be counted.
+/// Non-finite values stay, to be counted.
 Vec3 unit(Vec3 v) {
     const Vec3 n = candela::normalized(v);
     return n == Vec3{} && v != Vec3{} && !std::isfinite(v.x + v.y + v.z) ? v : n;
@@ -48,8 +48,8 @@ bool is_word(std::string_view word, std::string_view lower_case) {
         word, lower_case, [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
-/// Of a text file every byte is text, and of a binary one the size is known: neither the word "solid", with
-/// which binary files begin as well, nor the size alone tells.
+/// A text file consists of text only, and a binary one has a known size; neither the word "solid", with which
+/// some binary files also begin, nor the size alone decides.
 bool is_binary(Pieces& file) {
     const std::string_view begin = file.at(0, std::min<std::size_t>(file.size(), 4096));
     if (begin.size() >= k_header) {
@@ -79,7 +79,7 @@ void each_facets(Pieces& file, std::size_t facets, std::size_t at_once, Visit vi
 
 using Color = std::array<std::uint8_t, 4>;
 
-/// The object's colour, as Materialise Magics writes it into the header: "COLOR=" and four bytes.
+/// The object's colour, as Materialise Magics writes it in the header: "COLOR=" and four bytes.
 std::optional<Color> magics_color(std::string_view header) {
     constexpr std::string_view k_key = "COLOR=";
     const std::size_t at = header.find(k_key);
@@ -90,7 +90,7 @@ std::optional<Color> magics_color(std::string_view header) {
 }
 
 /// With Magics' header, a facet's attributes are its own colour, five bits of each channel, unless the
-/// highest bit is set; where all are zero, none has one.
+/// highest bit is set; if all are zero, no facet has a colour.
 void set_magics_colors(Pieces& file, Color object, bool has_attributes, Surface& surface) {
     surface.color.resize(surface.position.size());
     constexpr float k_most = 255, k_most_of_five_bits = 31;
@@ -108,8 +108,9 @@ void set_magics_colors(Pieces& file, Color object, bool has_attributes, Surface&
     if (static_cast<float>(object[3]) != k_most) surface.losses.emplace_back("an opacity");
 }
 
-/// Gives each position one vertex as it comes. Where a position would be is known some corners before it is
-/// looked up, so that the memory is there by then: nearly all of the time would go into waiting for it.
+/// Gives each position one vertex in order of appearance. The slot of a position is computed some corners
+/// ahead, so that its memory has arrived when it is looked up: waiting for it would take nearly all of the
+/// time.
 class VertexMerger {
   public:
     static constexpr std::size_t k_most_at_once = 48;
@@ -185,7 +186,7 @@ class VertexMerger {
 
 Surface read_binary(Pieces& file, const Origin& origin) {
     if (file.size() < k_header)
-        throw BadFile("is no STL file: it neither begins with 'solid' nor has 84 bytes");
+        throw BadFile("is not an STL file: it neither begins with 'solid' nor has 84 bytes");
     const std::string_view header = file.at(0, k_header);
     const std::uint64_t facets = little_endian<std::uint32_t>(header.data() + 80);
     const std::uint64_t room = (file.size() - k_header) / k_facet;
@@ -293,8 +294,8 @@ class TextReader {
     }
 
     [[noreturn]] void refuse(std::string_view word, std::string_view wanted) const {
-        if (word.empty()) throw BadFile(fmt::format("ends where {} should follow", wanted));
-        throw BadFile(fmt::format("line {}: {} should be {}", scanner_.line(), in_quotes(word), wanted));
+        if (word.empty()) throw BadFile(fmt::format("ends where {} was expected", wanted));
+        throw BadFile(fmt::format("line {}: found {}; expected {}", scanner_.line(), in_quotes(word), wanted));
     }
 
     TextScanner scanner_;
@@ -303,7 +304,7 @@ class TextReader {
     bool is_solid_ended_ = false;
 };
 
-/// A facet whose normal points to the other side than its corners say.
+/// A facet whose normal contradicts the order of its corners.
 void note_contradictions(Surface& surface) {
     std::atomic<std::uint64_t> against = 0;
     candela::parallel_for(surface.triangles(), 16384, [&](std::size_t begin, std::size_t end) {
@@ -321,9 +322,9 @@ void note_contradictions(Surface& surface) {
         against += some;
     });
     if (against > 0)
-        surface.notes.push_back(
-            fmt::format("has {} whose normal{} against the order of the corners, which decides",
-                        counted(against, "facet"), against == 1 ? " is" : "s are"));
+        surface.notes.push_back(fmt::format(
+            "has {} whose normal{} contradicted by the order of the corners, which takes precedence",
+            counted(against, "facet"), against == 1 ? " is" : "s are"));
 }
 
 }  // namespace

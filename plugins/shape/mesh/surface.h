@@ -1,4 +1,4 @@
-// What a mesh file holds, whatever its format.
+// The content of a mesh file, whatever its format.
 #pragma once
 
 #include "candela/large_pages.h"
@@ -18,8 +18,8 @@
 
 namespace mesh {
 
-/// Leaves new elements as they are: arrays of a hundred megabytes are first touched by the threads that fill
-/// them, in large pages.
+/// Leaves new elements uninitialised, so that the threads that fill an array of a hundred megabytes are the
+/// first to touch it, in large pages.
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
     template <class U>
@@ -30,7 +30,7 @@ struct UninitializedAllocator : std::allocator<T> {
     T* allocate(std::size_t count) {
         if (count < k_large / sizeof(T)) return std::allocator<T>::allocate(count);
         if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
-        // NOLINTNEXTLINE(cppcoreguidelines-no-malloc): new would not ask before it touches
+        // NOLINTNEXTLINE(cppcoreguidelines-no-malloc): operator new offers no way to prepare untouched pages
         void* const memory = std::malloc(count * sizeof(T));
         if (memory == nullptr) throw std::bad_alloc();
         candela::prefer_large_pages(memory, count * sizeof(T));
@@ -48,7 +48,7 @@ struct UninitializedAllocator : std::allocator<T> {
     }
 };
 
-/// A vector whose resize() does not initialize.
+/// A vector whose resize() does not initialise.
 template <class T>
 using Array = std::vector<T, UninitializedAllocator<T>>;
 
@@ -75,10 +75,10 @@ inline constexpr std::uint32_t k_by_angle = 0xffff'ffffu;
 /// A triangle that shares no normal with any other: `s off`.
 inline constexpr std::uint32_t k_flat = 0;
 
-/// Something that a file has and a mesh leaves out.
+/// A part of a file's content that a mesh leaves out.
 struct Loss {
-    /// `what`, as the object of a verb: "2 materials". `is_appearance`: it is about how the triangles are
-    /// coloured and lit, which a scene can say in words of its own.
+    /// `what` is the object of a verb: "2 materials". `is_appearance`: it concerns how the triangles are
+    /// coloured and lit, which a scene can describe itself.
     Loss(std::string what, bool is_appearance = false)  // NOLINT(google-explicit-constructor)
         : text(std::move(what)), appearance(is_appearance) {}
 
@@ -86,7 +86,7 @@ struct Loss {
     bool appearance;
 };
 
-/// The triangles of a file, in the file's own vertices. Object space.
+/// The triangles of a file, on the file's vertices, in object space.
 struct Surface {
     Vectors position;              // per vertex
     Vectors normal;                // per vertex, of any length, zero where the file has none; or empty
@@ -97,22 +97,22 @@ struct Surface {
     std::vector<std::uint32_t> smoothing;  // per triangle: its smoothing group; or empty: all k_by_angle
 
     bool is_single = false;          // the file itself has positions in single precision
-    bool are_places_unique = false;  // no two vertices are at the same place, as far as is known
-    bool is_color_linear = false;    // else encoded as colours of scenes are
+    bool are_places_unique = false;  // no two vertices are known to be at the same place
+    bool is_color_linear = false;    // otherwise encoded like the colours of scenes
 
     std::vector<std::uint32_t> material;  // per triangle: one of the materials; or empty
     std::vector<std::string> materials;   // their names; k_no_material is that of triangles without one
 
-    std::vector<std::filesystem::path> files;  // others that it was read from
+    std::vector<std::filesystem::path> files;  // further files that it was read from
     std::vector<Loss> losses;
-    std::vector<std::string> notes;  // what was found strange, as whole predicates of the file's name
+    std::vector<std::string> notes;  // warnings, as predicates of the file's name
 
     std::size_t triangles() const { return indices.size() / 3; }
 };
 
 inline constexpr const char* k_no_material = "(none)";
 
-/// A file is not what its format demands; the sentence does not name it.
+/// An invalid file. The message is a predicate without the file's name.
 struct BadFile : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -11,7 +11,7 @@ namespace mesh {
 
 namespace {
 
-/// What std::from_chars calls out of range is either too large or too small.
+/// A value that std::from_chars calls out of range is either too large or too small.
 double beyond_range(std::string_view word) {
     const bool is_negative = word.starts_with('-');
     bool is_small = true;
@@ -25,7 +25,7 @@ double beyond_range(std::string_view word) {
     return is_negative ? -size : size;
 }
 
-/// As Microsoft's C library printed them for twenty years.
+/// The forms that Microsoft's C library printed for twenty years.
 std::optional<double> old_non_finite(std::string_view word) {
     const bool is_negative = word.starts_with('-');
     if (is_negative) word.remove_prefix(1);

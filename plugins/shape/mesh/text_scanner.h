@@ -1,4 +1,4 @@
-// Words and numbers of a text, with the line where they stand.
+// Scans a text for words and numbers, counting lines.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@
 
 namespace mesh {
 
-/// A number as any of these formats writes it: a sign, digits, a point, an exponent; `.5` and `5.` too. One
-/// that is too small for a double is zero, one that is too large infinite. Infinities, and what is not a
-/// number, as C libraries print them: `inf`, `-nan(ind)`, `1.#INF`, `-1.#IND`. Nothing for anything else, and
-/// for what stands behind a number.
+/// Parses a number in any of these formats' notations: a sign, digits, a point, an exponent; also `.5` and
+/// `5.`. A number too small for a double becomes zero, one too large infinite. Accepts infinities and NaN as
+/// C libraries print them: `inf`, `-nan(ind)`, `1.#INF`, `-1.#IND`. Returns nothing for anything else,
+/// including a number with trailing characters.
 std::optional<double> number_from(std::string_view word);
 
-/// An integer, or a number that is one ("3.0"); nothing if it does not fit.
+/// Parses an integer or a number with an integer value ("3.0"); nothing if it does not fit.
 std::optional<std::int64_t> integer_from(std::string_view word);
 
-/// Called now and then with how much has been done, 0 … 1.
+/// Called now and then with the progress in [0, 1].
 using Progress = std::function<void(double)>;
 
-/// Goes through a text word by word. Lines end with LF, CR LF or CR.
+/// Reads a text word by word. Lines end with LF, CR LF or CR.
 class TextScanner {
   public:
     explicit TextScanner(std::string_view text, Progress progress = {})
@@ -40,13 +40,13 @@ class TextScanner {
         if (at_ < text_.size() && is_blank(text_[at_])) return {};
         return rest_of_word();
     }
-    /// What is left of this line, without the blanks around it.
+    /// The rest of this line, without surrounding blanks.
     std::string_view rest_of_line() {
         const std::size_t begin = at_;
         while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
         return trimmed(text_.substr(begin, at_ - begin));
     }
-    /// Goes to the beginning of the next line.
+    /// Moves to the beginning of the next line.
     void next_line() {
         while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
         if (at_ < text_.size()) skip_blank();
@@ -84,7 +84,7 @@ class TextScanner {
     Progress progress_;
 };
 
-/// A word for a message: what is long is cut, what a terminal obeys or is no ASCII shown as '?'.
+/// Quotes a word for a message: cuts long words, and shows control and non-ASCII characters as '?'.
 std::string in_quotes(std::string_view word);
 
 }  // namespace mesh

@@ -32,14 +32,14 @@ constexpr const char* k_ply =
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
     "-1 -1 0 255 0 0\n1 -1 0 0 255 0\n-1 1 0 128 0 255\n3 0 1 2\n";
 
-/// IEC 61966-2-1, from its text.
+/// sRGB decoding, from the text of IEC 61966-2-1.
 double encoded(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
 }  // namespace
 
-TEST_CASE("shape/mesh: colours of PLY and OBJ files are encoded as those of scenes are") {
+TEST_CASE("shape/mesh: colours of PLY and OBJ files are encoded like those of scenes") {
     // 128 and 0.5 in linear light: published tables of sRGB.
     const Mesh ply = mesh_of_text("colors.ply", k_ply);
     REQUIRE(ply.color.size() == 3);
@@ -48,13 +48,13 @@ TEST_CASE("shape/mesh: colours of PLY and OBJ files are encoded as those of scen
     const Mesh obj = mesh_of_text("colors.obj", "v 0 0 0 0.5 0 1\nv 1 0 0 0 1 0\nv 0 1 0 1 1 1\nf 1 2 3\n");
     REQUIRE(obj.color.size() == 3);
     CHECK(obj.color.x[0] == Approx(0.21404114).epsilon(1e-5));
-    SECTION("without colour management they are taken as they are") {
+    SECTION("without colour management they are used as they are") {
         const Mesh plain = mesh_of_text("colors.ply", k_ply, ColorEncoding::none);
         CHECK(plain.color.x[2] == Approx(128.0 / 255));
     }
 }
 
-TEST_CASE("shape/mesh: colours are not there unless they are asked for, or if the object does without") {
+TEST_CASE("shape/mesh: colours are absent unless requested, and if the object turns them off") {
     const auto file = write_file(scratch_directory() / "colors.ply", k_ply);
     const auto shading = instance<candela::ShadingModel>("phong");
     CHECK(candela::build_mesh(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {}, *shading)
@@ -82,7 +82,8 @@ TEST_CASE(
     CHECK(at_origin[0] == at_origin[1]);
 }
 
-TEST_CASE("vertex colours: a pixel has the colour that its barycentric coordinates mix, in linear light") {
+TEST_CASE(
+    "vertex colours: a pixel's colour is interpolated by its barycentric coordinates, in linear light") {
     const auto directory = scratch_directory();
     write_file(directory / "triangle.ply", k_ply);
     constexpr int k_size = 32;
@@ -96,7 +97,7 @@ TEST_CASE("vertex colours: a pixel has the colour that its barycentric coordinat
                     "[[object]]\ntype = \"mesh\"\nfile = \"triangle.ply\"\ncolor = [255, 255, "
                     "255]\n[object.material]\nka = 1\n",
                     k_size));
-    // Of the vertices, in linear light.
+    // The vertices' colours, in linear light.
     const double colors[3][3] = {{1, 0, 0}, {0, 1, 0}, {0.21586050, 0, 1}};
     for (const char* const shading : {"phong", "gouraud", "flat"}) {
         const CommandResult result = run_candela({"render", (directory / "scene.toml").string(), "--shading",

@@ -1,4 +1,4 @@
-// What a file says of the corners of faces, or of faces, rather than of vertices.
+// Attributes that a file gives to corners of faces, or to faces, rather than to vertices.
 #pragma once
 
 #include "polygons.h"
@@ -13,8 +13,8 @@ struct Wedges {
     bool empty() const { return u.empty() && face_color.empty(); }
 };
 
-/// Makes a vertex of each combination of a vertex, texture coordinates and a colour that corners have, and
-/// numbers the corners of `polygons` anew. Throws BadFile if a corner is no vertex.
+/// Makes a vertex of each combination of vertex, texture coordinates and colour that corners have, and
+/// renumbers the corners of `polygons`. Throws BadFile if a corner's vertex does not exist.
 void split_by_wedges(const Wedges& wedges, Polygons& polygons, Surface& surface);
 
 }  // namespace mesh

@@ -22,6 +22,6 @@ constexpr candela::Property k_properties[] = {{"closed"}, {"euler-characteristic
 CANDELA_PARAMETRIC_SHAPE_PLUGIN(
     sphere, SphereShape, k_topology, k_fields,
     {.title = "Sphere",
-     .summary = "A sphere about the object's position, poles up and down.",
+     .summary = "A sphere centred on the object's position, with its poles at the top and bottom.",
      .formula = "p(u, v) = radius (sin(pi v) sin(2 pi u), -cos(pi v), sin(pi v) cos(2 pi u))",
      .properties = k_properties})

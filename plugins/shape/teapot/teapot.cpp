@@ -142,7 +142,8 @@ constexpr candela::Property k_properties[] = {{"open"}};
 CANDELA_PLUGIN(
     shape, Teapot, k_fields,
     {.title = "Teapot",
-     .summary = "Newell's teapot, centred on its axis at half its height, spout along +x; not closed.",
+     .summary =
+         "Newell's teapot, centred on its axis at half its height, with the spout along +x; not closed.",
      .formula = "p(u, v) = sum B_i(u) B_j(v) P_ij  over 32 bicubic Bezier patches",
      .reference = "Newell (1975), The utilization of procedure models in digital image synthesis, "
                   "University of Utah",

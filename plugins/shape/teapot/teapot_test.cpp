@@ -26,7 +26,7 @@ TEST_CASE("shape/teapot has 32 patches of n x n cells, less a triangle where a p
     }
 }
 
-TEST_CASE("shape/teapot has Newell's proportions, and the height that is asked for") {
+TEST_CASE("shape/teapot has Newell's proportions and the requested height") {
     const Mesh mesh = teapot(3.15, 40);
     Vec3 low{1e9f, 1e9f, 1e9f}, high{-1e9f, -1e9f, -1e9f};
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -75,7 +75,7 @@ TEST_CASE("shape/teapot faces outwards, and its derivatives agree with its faces
     }
     CHECK(checked > 5000);
     CHECK(static_cast<double>(outwards) > 0.999 * static_cast<double>(checked));
-    // The belly's faces look away from the axis.
+    // The belly's faces point away from the axis.
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
         const Vec3 p = mesh.position.span()[mesh.indices[3 * t]];
         const double from_axis = std::hypot(p.x, p.z);
