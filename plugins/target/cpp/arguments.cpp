@@ -42,8 +42,8 @@ struct ModelArgument {
                 i == 0 ? "" : "else ", position, models[i].plugin->name, member, type, enumerators[i]);
         }
         return text + fmt::format(
-                          "            else\n                throw std::runtime_error(\"there is no {} model "
-                          "'\" + words[{}] + \"' here (possible: {})\");\n        }}\n",
+                          "            else\n                throw std::runtime_error(\"unknown {} model '\" "
+                          "+ words[{}] + \"'; expected one of: {}\");\n        }}\n",
                           member, position, names());
     }
 };
@@ -61,11 +61,9 @@ std::string main_text(const ExportedScene& scene, const ShadingArgument& shading
                "        for (std::size_t i = 0; i < words.size(); ++i) {{\n"
                "            if (i >= {} || words[i].rfind('-', 0) == 0)\n"
                "                throw std::runtime_error(\"unknown argument '\" + words[i] + \"'; --help "
-               "lists "
-               "them\");\n        }}\n"
+               "lists them\");\n        }}\n"
                "        const std::string path = argc > 1 ? argv[1] : \"scene.png\";\n"
-               "{}"
-               "        std::vector<scene::Object> objects = scene::make_objects();\n",
+               "{}        std::vector<scene::Object> objects = scene::make_objects();\n",
                most, scene.textures.empty() ? "" : "        scene::look_for_textures_at(argv[0]);\n") +
            shading.statements(first) + reflection.statements(second) +
            "        for (scene::Object& o : objects) {\n            scene::place(o);\n            "

@@ -1,4 +1,4 @@
-// What a generated C++ program does with its arguments.
+// The handling of a generated C++ program's arguments.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace candela::cpp_target {
 
-/// A program in which there are several models to choose from takes their names.
+/// A program with several models to choose from accepts their names.
 struct ArgumentTexts {
     std::string usage;  // "[PICTURE [REFLECTION]]"
     std::string help;   // a line for each argument that names a model

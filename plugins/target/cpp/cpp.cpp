@@ -66,10 +66,11 @@ class CppWriter {
              {"DECODED_COMMENT",
               is_srgb
                   ? "// Colours are encoded as sRGB (IEC 61966-2-1); light is added up in linear intensities."
-                  : "// Colours are taken as intensities, as they are."},
+                  : "// Colours are used as intensities without conversion."},
              {"DECODED",
               is_srgb ? "c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f)" : "c"},
-             {"ENCODED_COMMENT", is_srgb ? "// And back to sRGB." : "// Intensities are taken as they are."},
+             {"ENCODED_COMMENT",
+              is_srgb ? "// And back to sRGB." : "// Intensities are used without conversion."},
              {"ENCODED",
               is_srgb ? "x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f" : "x"},
              {"WIDTH", fmt::format("{}", image.width)},
@@ -99,9 +100,9 @@ class CppWriter {
              {"REFLECTION", reflection()},
              {"LIGHT_LOOPS", lights_.loops},
              {"TANGENT", tangent()},
-             {"MESH_COLOR", if_colors("    std::vector<vec3> color;          // per vertex, which the "
-                                      "object's is multiplied with, or "
-                                      "empty\n")},
+             {"MESH_COLOR",
+              if_colors("    std::vector<vec3> color;          // per vertex, multiplied by the object's, or "
+                        "empty\n")},
              {"TEXTURES", textures_.declarations},
              {"TEXTURE_SEEN", textures_.seen},
              {"TINT_PARAMETER", tint().empty() ? "" : ", vec3 tint"},
@@ -121,8 +122,8 @@ class CppWriter {
              {"MAIN", arguments.main},
              {"DATA", (has_tables ? table_numbers() : "") +
                           (objects_.data().empty() ? ""
-                                                   : "\n// ---- 8. The triangles of shapes that have no "
-                                                     "formula ----\n\nnamespace scene {\n" +
+                                                   : "\n// ---- 8. The triangles of shapes without a formula "
+                                                     "----\n\nnamespace scene {\n" +
                                                          objects_.data() + "\n}  // namespace scene\n")}});
     }
 
@@ -134,17 +135,17 @@ class CppWriter {
         "    const auto n = [&](int k) { return o.vertex_normal[static_cast<std::size_t>(v[k])]; };\n"
         "    return {p(0), p(1), p(2), n(0), n(1), n(2)};\n"
         "}\n\n";
-    /// A program in which no model sees its triangle has no word of it.
+    /// Empty in a program in which no model reads its triangle.
     std::string if_triangles(const char* text) const {
         const bool sees =
             std::ranges::any_of(scene_.shadings, [](const auto& m) { return m.needs.triangle; });
         return sees ? text : "";
     }
 
-    /// Likewise of colours at vertices.
+    /// Colours at vertices; empty in a program without them.
     std::string if_colors(const char* text) const { return objects_.has_vertex_colors() ? text : ""; }
 
-    /// What the object's colour is multiplied with at a point, as an argument; empty in a scene without.
+    /// The factor of the object's colour at a point, as an argument; empty in a scene without one.
     std::string tint(const char* of_vertices = "1", const char* of_texture = "1") const {
         std::vector<const char*> factors;
         if (objects_.has_vertex_colors()) factors.push_back(of_vertices);
@@ -183,7 +184,7 @@ class CppWriter {
         return std::regex_search(code, std::regex(fmt::format("\\b{}\\b", word)));
     }
 
-    /// What the program declares at its top.
+    /// The declarations at the top of the program.
     std::string table_numbers() const {
         const float none[] = {0};
         const std::span<const float> numbers = scene_.tables.empty() ? std::span(none) : scene_.tables;
@@ -232,7 +233,7 @@ class CppWriter {
         return text;
     }
 
-    /// The body of a function that asks one of several models, a line each.
+    /// The body of a function that calls one of several models, one line each.
     template <class Model, class Line>
     static std::string choice(const char* type, const char* member, std::span<const Model> models,
                               const std::vector<std::string>& names, Line line) {
@@ -254,7 +255,7 @@ class CppWriter {
         return choice("Shading", "shading", scene_.shadings, shading_enumerators(scene_), line);
     }
 
-    /// "const Object& o" where the text speaks of it.
+    /// "const Object& o" if the text uses `o`.
     static std::string parameter(const char* type, const char* name, const std::string& body) {
         const bool is_used = std::regex_search(body, std::regex(fmt::format("\\b{}\\b", name)));
         return is_used ? fmt::format("{} {}", type, name) : type;
@@ -274,7 +275,8 @@ class CppWriter {
                 return call(m, suffix, "o." + material_member(m), arguments);
             };
         };
-        return "// What an object reflects of the light from one direction, and of light from everywhere.\n" +
+        return "// The light that an object reflects of light from one direction, and of light from "
+               "everywhere.\n" +
                function("Reflected", "reflected",
                         {{"const Object&", "o"}, {"const Surface&", "s"}, {"vec3", "to_light"}},
                         reflection_choice(call_of("reflect", "s, to_light"))) +
@@ -287,8 +289,8 @@ class CppWriter {
                                                                       {"const ShadingPoint&", "p"}};
         if (!if_triangles("t").empty()) of_normal.emplace_back("const Triangle&", "t");
         constexpr const char* k_rates[] = {"Rate::face", "Rate::vertex", "Rate::pixel"};
-        return "// Where an object is lit, which normal it has there, and how much a face weighs in the "
-               "normal of its corner.\n" +
+        return "// Where an object is lit, its normal there, and a face's weight in the normal of its "
+               "corner.\n" +
                function("Rate", "rate_of", {{"const Object&", "o"}},
                         shading_choice([&](const ExportedShading& m) {
                             return std::string(k_rates[static_cast<int>(m.rate)]);
@@ -305,7 +307,7 @@ class CppWriter {
                         }));
     }
 
-    /// What is filled of a surface's point beside what every model reads.
+    /// Fills the members of a surface's point that only some models read.
     std::string tangent() const {
         const auto line = [&](bool ExportedReflection::* needs, const char* text) {
             return std::ranges::any_of(scene_.reflections, needs) ? text : "";

@@ -40,7 +40,7 @@ std::vector<std::uint32_t> indices_of(const GridShape& grid) {
     return indices;
 }
 
-/// The places where u falls back are where rows begin.
+/// Rows begin where u falls back.
 std::optional<GridShape> size_of(const ExportedMesh& mesh) {
     if (!mesh.uv) return std::nullopt;
     const float* const u = mesh.uv.x;

@@ -9,7 +9,7 @@ namespace candela::cpp_target {
 
 struct LightTexts {
     std::string constants;  // before objects: the lights of each model, or their number
-    std::string loops;      // statements that add up what a surface reflects of them
+    std::string loops;      // statements that add up the light that a surface reflects
 };
 LightTexts lights_of(const ExportedScene& scene);
 

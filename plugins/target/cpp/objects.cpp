@@ -116,7 +116,7 @@ std::string CppObjects::grid_text(const ExportedObject& object, const GridShape&
     return text;
 }
 
-/// The number of an embedded mesh; equal ones are embedded once.
+/// The number of an embedded mesh; equal meshes are embedded once.
 std::size_t CppObjects::mesh_number(const ExportedMesh& mesh) {
     std::string body = number_array("float", "position", interleaved(mesh.position, mesh.vertex_count)) +
                        number_array("int", "corners", mesh.indices);
@@ -157,14 +157,15 @@ std::size_t CppObjects::mesh_number(const ExportedMesh& mesh) {
     return meshes_.size() - 1;
 }
 
-/// The program finds vertex normals as a shading model does that says nothing else than its kernel.
+/// Throws unless the shading models' vertex normals follow from their kernels, which is all that the program
+/// contains.
 void CppObjects::require_default_normals(std::size_t object) const {
     for (std::size_t i = 0; i < scene_.shadings.size(); ++i) {
         const ExportedShading& model = scene_.shadings[i];
         if (has_function(model, "corner_weight") || scene_.geometry->has_default_normals(object, i)) continue;
         throw std::runtime_error(
-            fmt::format("{} makes vertex normals of its own, of which its kernel says nothing "
-                        "(there is no function {}_corner_weight), so that a C++ program cannot",
+            fmt::format("{} makes its own vertex normals, which its kernel does not describe (there is no "
+                        "function {}_corner_weight), so a C++ program cannot make them",
                         id_of(model), model.plugin->kernel.prefix));
     }
 }

@@ -13,30 +13,30 @@ namespace candela::cpp_target {
 /// The members of an object that hold a model's parameters.
 std::string material_member(const ExportedModel& model);
 std::string shading_member(const ExportedModel& model);
-/// The words for models to choose from.
+/// The enumerators for models to choose from.
 std::string reflection_enumerator(const ExportedModel& model);
 std::string shading_enumerator(const ExportedModel& model);
 std::vector<std::string> reflection_enumerators(const ExportedScene& scene);
 std::vector<std::string> shading_enumerators(const ExportedScene& scene);
 
-/// Three numbers, parted by commas.
+/// Three numbers, separated by commas.
 std::string list(float x, float y, float z);
 
 /// The objects of a scene as statements, and the triangles of their shapes.
 class CppObjects {
   public:
-    /// Throws std::runtime_error where a shading model makes vertex normals of which its kernel says nothing.
+    /// Throws std::runtime_error if a shading model makes vertex normals that its kernel does not describe.
     explicit CppObjects(const ExportedScene& scene);
 
-    /// Puts each into a vector `all`.
+    /// Statements that append each object to a vector `all`.
     const std::string& statements() const { return statements_; }
-    /// What has to stand before that: functions that make triangles.
+    /// Declarations needed before that: functions that make triangles.
     std::string shapes() const;
-    /// What stands at the end of the program: triangles as numbers, in functions; empty where there are none.
+    /// The end of the program: functions with triangles as numbers; empty if there are none.
     const std::string& data() const { return data_; }
     /// Whether a mesh has colours at its vertices.
     bool has_vertex_colors() const { return has_vertex_colors_; }
-    /// The shapes whose kernels the program makes triangles with.
+    /// The shapes whose triangles the program makes with their kernels.
     const std::vector<ExportedModel>& shape_models() const { return shape_models_; }
 
   private:

@@ -32,9 +32,9 @@ TextureTexts textures_of(const ExportedScene& scene) {
 }
 
 const char* readme_of_textures() {
-    return "The pictures of textures lie beside `scene.cpp` as PPM files, which many programs show and edit: "
-           "of 8 bits a channel as colours, of 16\nbits as intensities. They have to stay beside "
-           "`scene.cpp`, or beside the program.\n\n";
+    return "The pictures of textures are PPM files next to `scene.cpp`, which many programs show and edit: "
+           "with 8 bits per channel for colours, with 16\nfor intensities. They must stay in the folder of "
+           "`scene.cpp` or of the program.\n\n";
 }
 
 }  // namespace candela::cpp_target

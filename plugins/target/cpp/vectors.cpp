@@ -35,7 +35,7 @@ std::set<std::string> swizzles_in(const std::string& code) {
     return found;
 }
 
-/// The declarations of these in a vector of `size` components, as many of them as it has.
+/// The declarations of those swizzles that a vector of `size` components has.
 std::string members_of(std::size_t size, const std::set<std::string>& swizzles) {
     std::string text;
     for (const std::string& name : swizzles) {
@@ -49,7 +49,7 @@ std::string members_of(std::size_t size, const std::set<std::string>& swizzles) 
 }
 
 constexpr std::string_view k_swizzle =
-    "// v.zyx: some of a vector's components, which lie where it lies.\n"
+    "// v.zyx: some of a vector's components, at the vector's own address.\n"
     "template <class Whole, class Part, float Whole::*... components>\n"
     "struct Swizzle {\n"
     "    operator Part() const { return Part(reinterpret_cast<const Whole*>(this)->*components...); }\n"
@@ -61,7 +61,7 @@ bool is_of_program(const std::string& line) {
            line.starts_with("inline vec2 operator*(float s, vec2 a)");
 }
 
-/// Operators that assign are needed where one is written.
+/// Assignment operators are needed if a kernel uses one.
 bool assigns_in_vain(const std::string& line, const std::string& code) {
     static const std::regex k_assigning(R"(^inline .*operator([-+*/]=))");
     std::smatch found;
@@ -87,8 +87,9 @@ std::string vectors_for(const std::string& kernels) {
     if (!swizzles.empty()) text += k_swizzle;
 
     std::istringstream lines{std::string(candela_cpp_vectors)};
-    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
-    std::string current;                 // the struct that a line is in
+    lines.exceptions(
+        std::ios::badbit);  // otherwise std::getline() swallows std::bad_alloc, and the rest is lost
+    std::string current;    // the struct that a line is in
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("struct ")) current = line.substr(7, 4);
         const bool is_in_vain = std::ranges::any_of(

@@ -29,7 +29,7 @@ void pad(std::string& bytes, char with) {
 /// Four bytes, the least significant first.
 void append(std::string& bytes, std::size_t number) {
     if (number > std::numeric_limits<std::uint32_t>::max())
-        throw std::runtime_error("the scene has more than the 4 GB that a GLB file can have");
+        throw std::runtime_error("the scene exceeds the 4 GB limit of GLB files");
     for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(number >> shift & 255u);
 }
 

@@ -22,9 +22,9 @@ class Document {
     /// Everything but `buffers`, `bufferViews` and `accessors`, which are added to by the functions below.
     Json root = Json::object();
 
-    /// Appends to a list of the root, such as "nodes"; the index of what was added.
+    /// Appends to a list of the root, such as "nodes", and returns the index of the new element.
     std::size_t add(const char* list, Json element);
-    /// Names the extension among those used.
+    /// Adds the extension to the list of those used.
     void use_extension(const char* name);
 
     /// Each returns the index of an accessor.
@@ -33,10 +33,10 @@ class Document {
     std::size_t add_texture_coordinates(ConstVec2Span coordinates, std::size_t count);  // v from the bottom
     std::size_t add_indices(std::span<const std::uint32_t> indices);
 
-    /// The index of the view of bytes that are added.
+    /// Adds bytes and returns the index of their view.
     std::size_t add_bytes(std::string_view bytes, ViewUse use);
 
-    /// The file. Names that are not UTF-8 have replacement characters.
+    /// The file. Invalid UTF-8 in names becomes replacement characters.
     std::string glb() const;
 
   private:

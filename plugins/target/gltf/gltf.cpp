@@ -17,7 +17,7 @@ namespace candela::gltf_target {
 
 namespace {
 
-/// How far is seen: all of the room from anywhere in it.
+/// The visible distance: all of the room from anywhere in it.
 double farthest(const ExportedScene& scene) { return 2 * std::max(length(scene.room), 100.0f); }
 
 Json camera_json(const ExportedScene& scene) {
@@ -45,7 +45,7 @@ class Writer {
         document_.root["scene"] = 0;
         if (scene_.image.color_management == ColorEncoding::none)
             files_.approximate(
-                "color_management = \"none\" becomes light that is added up linearly, and encoded in the "
+                "color_management = \"none\" becomes light that is added up linearly and encoded in the "
                 "picture");
         Json nodes = Json::array();
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) add_object(i, nodes);

@@ -30,7 +30,7 @@ std::uint32_t number_at(const std::string& bytes, std::size_t at) {
     return number;
 }
 
-/// By section 4.4 of the specification.
+/// Parses the file by section 4.4 of the specification.
 Glb read_glb(const fs::path& file) {
     const std::string bytes = read_file(file);
     REQUIRE(bytes.starts_with("glTF"));
@@ -158,12 +158,12 @@ TEST_CASE(
     CHECK(is_near(base[0], 0.5 * linear(200)));
     CHECK(is_near(base[1], linear(100)));
     CHECK(is_near(base[2], 0.25 * linear(50)));
-    // Without what is mirrored, glTF's diffuse light is Lambert's.
+    // Without the mirrored part, glTF's diffuse light is Lambert's.
     CHECK(material["extensions"]["KHR_materials_specular"]["specularFactor"] == 0);
 }
 
 TEST_CASE(
-    "target/gltf: lights are KHR_lights_punctual's, in candela and lux, and the camera looks where the "
+    "target/gltf: lights become KHR_lights_punctual's, in candela and lux, and the camera looks where the "
     "observer does") {
     const Glb glb = generated(folder_with_leaf(), k_scene);
     const Json& lights = glb.json["extensions"]["KHR_lights_punctual"]["lights"];
@@ -195,7 +195,7 @@ TEST_CASE(
     CHECK(is_near(camera["aspectRatio"], 2));
 }
 
-TEST_CASE("target/gltf: read back by candela import, it is the same scene, and the same picture") {
+TEST_CASE("target/gltf: candela import reads back the same scene, with the same picture") {
     const fs::path folder = scratch_directory();
     const std::string scene = k_view + R"([[object]]
 name = "ball"
@@ -234,7 +234,7 @@ material = {kd = 1, ka = 0}
 
     const std::string a = (folder / "a.png").string(), b = (folder / "b.png").string();
     REQUIRE(run_candela({"render", (folder / "scene.toml").string(), "-o", a}).exit_code == 0);
-    // Files with lights are given a little ambient light, which the scene does not have.
+    // Imported files with lights get a little ambient light, which the scene does not have.
     REQUIRE(run_candela({"render", (folder / "back.toml").string(), "-o", b, "--width", "200", "--height",
                          "100", "--samples", "1", "--set", "light.sky.intensity=0"})
                 .exit_code == 0);
@@ -243,9 +243,9 @@ material = {kd = 1, ka = 0}
     CHECK(difference.exit_code == 0);
 }
 
-TEST_CASE("target/gltf: a material of metallic-roughness that was imported is the same after a round") {
+TEST_CASE("target/gltf: an imported metallic-roughness material survives a round trip") {
     const fs::path folder = folder_with_leaf();
-    // metallic 0.6 and roughness 0.5 of a base colour, as candela import has them.
+    // metallic 0.6 and roughness 0.5 of a base colour, as candela import converts them.
     const double m = 0.6, dielectric = 0.04;
     const auto specular = [&](double byte) { return dielectric * (1 - m) + m * linear(byte); };
     const std::string scene = std::string(k_scene).replace(
@@ -261,7 +261,7 @@ TEST_CASE("target/gltf: a material of metallic-roughness that was imported is th
     CHECK_FALSE(glb.json["materials"][0].contains("extensions"));
 }
 
-TEST_CASE("target/gltf: textures are in the file as they are, with v from the top, and read back") {
+TEST_CASE("target/gltf: textures are embedded unchanged, with v from the top, and read back") {
     const fs::path folder = scratch_directory();
     write_file(folder / "quad.obj",
                "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\nvt 0 0.75\n"
@@ -297,7 +297,8 @@ TEST_CASE("target/gltf: textures are in the file as they are, with v from the to
     CHECK(refused.err.find("neither a PNG nor a JPEG") != std::string::npos);
 }
 
-TEST_CASE("target/gltf: what glTF does not have is refused by name, and said once each with --approximate") {
+TEST_CASE(
+    "target/gltf: features that glTF lacks are refused by name, or reported once each with --approximate") {
     const fs::path folder = folder_with_leaf();
     const std::string scene = k_scene + R"([[object]]
 type = "sphere"

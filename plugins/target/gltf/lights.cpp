@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* k_extension = "KHR_lights_punctual";
 
-/// Renderers of glTF reflect with 1 / pi, Candela's models do not.
+/// glTF renderers reflect with 1 / pi; Candela's models do not.
 constexpr double k_candelas = std::numbers::pi;
 
 std::string name_of(const ExportedLight& light) {
@@ -27,7 +27,8 @@ std::string name_of(const ExportedLight& light) {
     return std::string(is_quoted ? label.substr(1, label.size() - 2) : label);
 }
 
-/// What is sent, as a colour of at most 1 and an intensity: the light's own colour, if it is of the same hue.
+/// The emitted light as a colour of at most 1 and an intensity; the light's own colour if it has the same
+/// hue.
 std::pair<Vec3, double> color_and_intensity(const ExportedModel& model, const ExportedValues& values,
                                             Rgb sent) {
     const double strongest = std::max({sent.r, sent.g, sent.b});
@@ -44,7 +45,7 @@ std::pair<Vec3, double> color_and_intensity(const ExportedModel& model, const Ex
     return {{share * sent.r, share * sent.g, share * sent.b}, strongest};
 }
 
-/// glTF's outer cone is at most a right angle, and more than the inner one.
+/// glTF's outer cone is at most a right angle, and wider than the inner one.
 Json cone_of(const PunctualLight& light) {
     const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
     const double width = light.cone_scale > 0 ? 1.0 / light.cone_scale : 0;
@@ -77,7 +78,7 @@ class Lights {
         files_.approximate(fmt::format("light/{} {}", model, how).c_str());
     }
     void leave_out(const std::string& model) {
-        approximate(model, "has no counterpart in glTF, and is left out");
+        approximate(model, "has no counterpart in glTF and is left out");
     }
 
     void add(const ExportedLight& light, const PunctualLight& sample, const std::string& model) {
@@ -94,7 +95,7 @@ class Lights {
         } else {
             if (sample.constant > 0 || sample.linear > 0)
                 approximate(model, "fades with the square of the distance");
-            // Where it does not, it is as bright at one metre.
+            // Otherwise it is as bright at one metre.
             intensity /= static_cast<double>(sample.constant) + sample.linear + sample.quadratic;
             json["type"] = sample.has_cone ? "spot" : "point";
             if (sample.has_cone) {

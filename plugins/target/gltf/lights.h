@@ -1,4 +1,4 @@
-// Lights as KHR_lights_punctual has them.
+// Lights in the form of KHR_lights_punctual.
 #pragma once
 
 #include "candela/target.h"
@@ -6,7 +6,7 @@
 
 namespace candela::gltf_target {
 
-/// Adds all lights, and to `nodes` the index of a node of each.
+/// Adds all lights, and appends the index of each one's node to `nodes`.
 void add_lights(const ExportedScene& scene, Document& document, Json& nodes, FileSink& files);
 
 }  // namespace candela::gltf_target

@@ -21,7 +21,8 @@ namespace candela::gltf_target {
 namespace {
 
 constexpr const char* k_specular = "KHR_materials_specular";
-constexpr float k_dielectric = 0.04f;  // what glTF's materials mirror at normal incidence: an index of 1.5
+constexpr float k_dielectric =
+    0.04f;  // the reflectance of glTF's materials at normal incidence, for an index of 1.5
 
 float largest(Vec3 v) { return std::max({v.x, v.y, v.z}); }
 float distance(Vec3 a, Vec3 b) {
@@ -39,7 +40,7 @@ struct Surface {
     bool has_specular = true;
 };
 
-/// The metal that this is, if it is one or in part: then its highlights have the object's colour in part.
+/// The metallic share of a material, which gives its highlights part of the object's colour.
 std::optional<float> metalness_of(Vec3 color, Vec3 diffuse, Vec3 mirrored) {
     const float metallic = 1 - diffuse.x / (1 - k_dielectric);
     const float dielectric = (1 - metallic) * k_dielectric;
@@ -56,7 +57,7 @@ Surface surface_of(const ExportedReflection& model, const ExportedValues& values
     const Vec3 diffuse = target::rgb_value(model, values, "kd").value_or(Vec3{1, 1, 1});
     const auto highlight = target::highlight_of(model, values);
     if (!highlight || highlight->specular == Vec3{}) {
-        // Without what is mirrored, glTF's diffuse light is Lambert's.
+        // Without the mirrored part, glTF's diffuse light is Lambert's.
         if (name != "lambert" && name != "phong" && name != "blinn-phong")
             files.approximate(fmt::format("reflection/{} becomes Lambert's diffuse light", name).c_str());
         return {.base = target::times(diffuse, color), .mirrored = {}, .has_specular = false};
@@ -67,7 +68,7 @@ Surface surface_of(const ExportedReflection& model, const ExportedValues& values
             .c_str());
     const float alpha = highlight->alpha;
     Surface result{.roughness = std::sqrt(alpha)};
-    // At normal incidence facets send back F D / 4, where D is 1 / alpha^2.
+    // At normal incidence facets reflect F D / 4, where D is 1 / alpha^2.
     const float facets = highlight->facets > 0 ? highlight->facets : 4 * alpha * alpha;
     const Vec3 mirrored = at_most_one(facets * highlight->specular);
     if (const auto metallic = metalness_of(color, diffuse, highlight->specular)) {
@@ -78,7 +79,7 @@ Surface surface_of(const ExportedReflection& model, const ExportedValues& values
         result.base = mirrored;
     } else {
         result.mirrored = mirrored;
-        // What is mirrored is not there for diffuse light.
+        // Mirrored light is not available for diffuse reflection.
         result.base =
             at_most_one((1 / std::max(1 - largest(mirrored), 1e-3f)) * target::times(diffuse, color));
     }
@@ -94,8 +95,8 @@ std::string bytes_of(const char* file) {
 const char* media_type(std::string_view content, const char* file) {
     if (content.starts_with("\x89PNG\r\n")) return "image/png";
     if (content.starts_with("\xff\xd8\xff")) return "image/jpeg";
-    throw std::runtime_error(
-        fmt::format("the texture '{}' is neither a PNG nor a JPEG file, and glTF has no others", file));
+    throw std::runtime_error(fmt::format(
+        "the texture '{}' is neither a PNG nor a JPEG file; glTF supports no other formats", file));
 }
 
 }  // namespace

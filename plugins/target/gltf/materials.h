@@ -1,4 +1,4 @@
-// Materials as glTF has them: metallic-roughness, and KHR_materials_specular.
+// Materials in the form of glTF: metallic-roughness and KHR_materials_specular.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace candela::gltf_target {
 
-/// Adds the materials of objects, and the textures that they have.
+/// Adds the materials of objects, and their textures.
 class Materials {
   public:
     Materials(const ExportedScene& scene, Document& document, FileSink& files)
         : scene_(scene), document_(document), files_(files) {}
 
-    /// The index of the material of an object. Throws std::runtime_error where its texture is neither a PNG
-    /// nor a JPEG file.
+    /// The index of an object's material. Throws std::runtime_error if its texture is neither a PNG nor a
+    /// JPEG file.
     std::size_t add(const ExportedObject& object, bool is_closed);
 
   private:

@@ -1,4 +1,4 @@
-// Where cameras and lights are, which look along -z of their nodes.
+// Places cameras and lights, which look along -z of their nodes.
 #pragma once
 
 #include "candela/target/renderers.h"

@@ -7,7 +7,7 @@
 
 namespace candela::opengl_target {
 
-/// A raw string literal, whose end is nowhere in the text.
+/// A raw string literal whose delimiter does not occur in the text.
 inline std::string raw(const std::string& text) {
     std::string mark = "glsl";
     while (text.find(")" + mark + "\"") != std::string::npos) mark += "_";

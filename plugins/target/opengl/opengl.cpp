@@ -205,7 +205,7 @@ class OpenGlWriter {
         return text;
     }
 
-    /// A program without tables has nothing for them.
+    /// Empty in a program without tables.
     std::string if_tables(std::string text) const { return scene_.tables.empty() ? "" : std::move(text); }
 
     std::string tables() const {
@@ -311,4 +311,4 @@ using candela::opengl_target::OpenGlTarget;
 
 CANDELA_PLUGIN(target, OpenGlTarget, candela::sdk::k_no_fields,
                {.title = "OpenGL",
-                .summary = "C++ with OpenGL 3.3: a window to look around in, or a picture without a display"})
+                .summary = "C++ with OpenGL 3.3: an interactive window, or a picture without a display"})

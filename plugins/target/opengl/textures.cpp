@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* k_members =
     "    int texture;           // -1: none\n"
-    "    bool texture_repeats;  // beyond its edges; else the colours there go on\n";
+    "    bool texture_repeats;  // beyond its edges; otherwise the edge colours continue\n";
 
 constexpr const char* k_put_corners =
     "            for (std::size_t corner = 0; corner < 3; ++corner) put(9 + corner, vector(mesh.position, "
@@ -30,8 +30,7 @@ constexpr const char* k_put_corners =
 constexpr const char* k_put_edges =
     "            for (std::size_t i = 0; i < 4; ++i) {  // how u and v change along two of the edges\n"
     "                const auto uv = [&](std::size_t vertex) { return mesh.uv == nullptr ? 0.0f : mesh.uv[2 "
-    "* "
-    "vertex + i % 2]; };\n"
+    "* vertex + i % 2]; };\n"
     "                all[15].push_back(uv(v[1 + i / 2]) - uv(v[0]));\n"
     "            }\n";
 

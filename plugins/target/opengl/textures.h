@@ -8,8 +8,8 @@
 
 namespace candela::opengl_target {
 
-/// What stands in the program's template where it has to do with textures: nothing in a scene without any.
-/// `shader`: GlslParts::texture.
+/// The parts of the program's template that concern textures; empty in a scene without any. `shader`:
+/// GlslParts::texture.
 target::Values texture_values(const ExportedScene& scene, const std::string& shader);
 
 /// The end of an object's initializer: ", 0, true".

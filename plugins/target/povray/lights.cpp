@@ -13,13 +13,13 @@ namespace candela::povray_target {
 
 namespace {
 
-// POV-Ray fades by 2 / (1 + (r / fade_distance)^fade_power); without fade_power not at all.
+// POV-Ray fades by 2 / (1 + (r / fade_distance)^fade_power), or not at all without fade_power.
 
-/// For an attenuation of 1 / (quadratic r^2): that is 2 d^2 / r^2, but for 1 part in (r / d)^2.
+/// For an attenuation of 1 / (quadratic r^2): that is 2 d^2 / r^2, except for 1 part in (r / d)^2.
 constexpr const char* k_near = "Near";
 
 struct Fading {
-    std::string scale;  // what the colour is multiplied with
+    std::string scale;  // the factor of the colour
     std::string keywords;
 };
 
@@ -32,7 +32,7 @@ Fading fading_of(const PunctualLight& light, const std::string& model, FileSink&
                                      light.quadratic == 1 ? "" : fmt::format(" * {}", light.quadratic)),
                 .keywords = fmt::format("fade_distance {} fade_power 2", k_near)};
     if (is_linear) {
-        // 1 / (c + l r) is (1 / c) / (1 + r / (c / l)); without c, that of a c too small to be seen.
+        // 1 / (c + l r) is (1 / c) / (1 + r / (c / l)); without c, a c too small to be visible is used.
         const float constant = std::max(light.constant, 1e-6f * light.linear);
         return {.scale = fmt::format(" / (2 * {})", constant),
                 .keywords = fmt::format("fade_distance {} fade_power 1", constant / light.linear)};
@@ -40,7 +40,7 @@ Fading fading_of(const PunctualLight& light, const std::string& model, FileSink&
     return {.scale = light.constant == 1 ? "" : fmt::format(" / {}", light.constant), .keywords = ""};
 }
 
-/// POV-Ray's angles are those from the axis, too; tightness would be a power of the cosine besides.
+/// POV-Ray's angles are also measured from the axis; tightness would be an additional power of the cosine.
 std::string cone_of(const PunctualLight& light, const std::string& model, FileSink& files) {
     if (!light.has_cone) return "";
     if (!light.is_smooth)
@@ -66,7 +66,7 @@ std::string light_text(const ExportedScene& scene, const PunctualLight& light, c
             fmt::format("light/{} has highlights of its diffuse light's colour", model).c_str());
     const std::string rgb = rgb_text({color.r, color.g, color.b});
     if (light.w == 0) {
-        // From outside the room; its rays are parallel to that towards the origin.
+        // The light is outside the room; its rays are parallel to the one towards the origin.
         const float distance = 2 * std::max(length(scene.room), 100.0f);
         return fmt::format("light_source {{ {} {} parallel point_at <0, 0, 0> }}\n",
                            vector_text(distance * light.position), rgb);
@@ -92,7 +92,7 @@ std::string lights_text(const ExportedScene& scene, FileSink& files) {
         const std::string model = scene.light_models[light.model].plugin->name;
         if (!light.is_data) {
             files.approximate(
-                fmt::format("light/{} is none of POV-Ray's lights, and is left out", model).c_str());
+                fmt::format("light/{} has no counterpart in POV-Ray and is left out", model).c_str());
             continue;
         }
         if (light.punctual.empty()) continue;

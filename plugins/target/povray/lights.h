@@ -7,7 +7,7 @@
 
 namespace candela::povray_target {
 
-/// What ambient lights send, all together.
+/// The sum of all ambient light.
 Vec3 ambient_of(const ExportedScene& scene);
 
 /// All light_source statements.

@@ -16,7 +16,7 @@ namespace candela::povray_target {
 
 namespace {
 
-/// Where a factor would be divided by.
+/// The smallest factor to divide by.
 constexpr float k_tiny = 1e-6f;
 
 Vec3 at_least_tiny(Vec3 v) { return {std::max(v.x, k_tiny), std::max(v.y, k_tiny), std::max(v.z, k_tiny)}; }
@@ -56,7 +56,7 @@ void approximate(const ExportedReflection& model, const ExportedValues& values, 
         return;
     }
     const float a2 = highlight->alpha * highlight->alpha;
-    // At normal incidence facets send back F D / 4, where D is 1 / alpha^2.
+    // At normal incidence facets reflect F D / 4, where D is 1 / alpha^2.
     finish.specular =
         highlight->facets > 0 ? highlight->facets / (4 * a2) * highlight->specular : highlight->specular;
     finish.kind = HighlightKind::blinn;
@@ -88,7 +88,7 @@ Finish finish_of(const ExportedReflection& model, const ExportedValues& values, 
     return finish;
 }
 
-/// What the texture statements of a surface are made of.
+/// The parts of a surface's texture statements.
 struct Surface {
     Vec3 color{};
     float diffuse = 0;
@@ -115,14 +115,15 @@ Surface surface_of(const ExportedScene& scene, const ExportedObject& object, Vec
     const bool is_white = is_grey(finish.specular);
     surface.highlight = highlight_text(finish, is_white ? finish.specular.x : 1);
     if (!is_white) {
-        // POV-Ray's highlights have the light's colour; one of another is seen through a layer of it.
+        // POV-Ray's highlights have the light's colour; one of another colour is seen through a layer of that
+        // colour.
         surface.tint = at_least_tiny(finish.specular);
         surface.has_filter = true;
     }
     return surface;
 }
 
-/// `from_behind`: lit from there alone, without a highlight.
+/// `from_behind`: lit only from there, without a highlight.
 std::string layer_text(const Surface& surface, const Pigment& pigment, bool from_behind) {
     return fmt::format("texture {{ pigment {{ {} }} finish {{ ambient {} diffuse {}{}{} }} }}", pigment.text,
                        rgb_text(pigment.factor * surface.ambient), from_behind ? "0, " : "",
@@ -132,8 +133,8 @@ std::string layer_text(const Surface& surface, const Pigment& pigment, bool from
 std::string filter_text(const Surface& surface) {
     if (!surface.has_filter) return "";
     return fmt::format(
-        "    // A layer whose colour filters what lies below, whose pigment is divided by it: so the "
-        "highlight alone has it.\n"
+        "    // A layer whose colour filters the one below, whose pigment is divided by it: only the "
+        "highlight keeps it.\n"
         "    texture {{ pigment {{ rgbf <{}, {}, {}, 1> }} finish {{ ambient 0 diffuse 0 }} }}\n",
         surface.tint.x, surface.tint.y, surface.tint.z);
 }
@@ -144,8 +145,8 @@ std::string front_text(const Surface& surface, const Pigment& pigment) {
 
 std::string interior_text(const Surface& surface, const Pigment& pigment) {
     return fmt::format(
-        "    // Where the normal points away from the observer, POV-Ray turns it around: what it calls "
-        "lit from behind is the front.\n    interior_{}\n",
+        "    // Where the normal points away from the observer, POV-Ray turns it round: the side that it "
+        "calls the back is the front.\n    interior_{}\n",
         layer_text(surface, pigment, true));
 }
 

@@ -8,18 +8,18 @@
 
 namespace candela::povray_target {
 
-/// Texture statements. The interpolated normal of a surface that is seen may point away from the observer, as
-/// it does near the outline of a coarse closed mesh. POV-Ray turns it around then, and shows the interior
-/// texture, which is one that is lit from behind: `turned`.
+/// Texture statements. The interpolated normal of a visible surface may point away from the observer, as it
+/// does near the outline of a coarse closed mesh. POV-Ray then turns it round and shows the interior texture,
+/// which is lit from behind: `turned`.
 struct Material {
     std::string front;
     std::string turned;
 };
 
-/// Of an object; its texture's pictures become files.
+/// The material of an object; its texture's pictures become files.
 Material material_of(const ExportedScene& scene, std::size_t object, FileSink& files);
 
-/// Of a vertex whose colour the object's is multiplied with.
+/// The material of a vertex whose colour multiplies the object's.
 Material material_at_vertex(const ExportedScene& scene, std::size_t object, Vec3 color, FileSink& files);
 
 }  // namespace candela::povray_target

@@ -42,7 +42,7 @@ class Statement {
             fmt::format_to(std::back_inserter(text_), ",\n        texture {{ {} }}", texture);
         text_ += "\n    }\n";
     }
-    /// `texture_of_vertex`: empty where there is one for all.
+    /// `texture_of_vertex`: empty if all vertices share one.
     void add(const char* name, std::span<const std::uint32_t> indices,
              std::span<const std::size_t> texture_of_vertex = {}) {
         begin(name, indices.size() / 3);
@@ -96,7 +96,7 @@ class VertexMaterials {
     std::string declarations_;
 };
 
-/// `material`: of all of them; with `colors` of vertices, what they leave open.
+/// `material`: of all vertices, except for what their `colors` determine.
 std::string mesh_text(const std::string& comment, Triangles triangles, const std::string& material,
                       const VertexMaterials* colors = nullptr) {
     if (triangles.indices.empty()) return "";

@@ -8,7 +8,7 @@
 
 namespace candela::povray_target {
 
-/// The mesh2 statement of an object, with its material; nothing where it has no triangles.
+/// The mesh2 statement of an object, with its material; empty if it has no triangles.
 std::string mesh_text(const ExportedScene& scene, std::size_t object, FileSink& files);
 
 }  // namespace candela::povray_target

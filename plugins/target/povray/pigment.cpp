@@ -40,8 +40,8 @@ Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, c
     const ExportedObject& of = scene.objects[object];
     const float factor = std::max({color.x, color.y, color.z});
     if (of.color_texture == ExportedObject::k_no_texture || factor <= 0) return {rgb_text(color), 1};
-    files.approximate("textures are seen bilinear, without the mean of what a pixel covers");
-    if (!of.color_texture_repeats) files.approximate("textures that go on beyond their edges are repeated");
+    files.approximate("textures are seen bilinear, without averaging over a pixel's area");
+    if (!of.color_texture_repeats) files.approximate("textures that are clamped at their edges are repeated");
     const std::string name = fmt::format("texture_{}{}.ppm", object, suffix);
     const ExportedTextureLevel& picture = scene.textures[of.color_texture].levels.front();
     target::write(files, name.c_str(), target::ppm_of(picture_of(picture, 1 / factor * color)));

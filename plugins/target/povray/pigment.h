@@ -8,18 +8,18 @@
 
 namespace candela::povray_target {
 
-/// A pigment, of which `factor` times is meant: pictures have no intensities above 1.
+/// A pigment, to be multiplied by `factor`, because pictures have no intensities above 1.
 struct Pigment {
     std::string text;
     float factor = 1;
 };
 
-/// Of one colour; where the object has a texture, of its picture multiplied with that colour, which is
+/// The pigment of one colour; if the object has a texture, of its picture multiplied by that colour, which is
 /// written to a file whose name ends in `suffix`.
 Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, const char* suffix,
                    FileSink& files);
 
-/// What POV-Ray calls the transfer function of the scene's intensities.
+/// POV-Ray's name for the transfer function of the scene's intensities.
 const char* gamma_text(const ExportedScene& scene);
 
 }  // namespace candela::povray_target

@@ -1,4 +1,4 @@
-// A scene of POV-Ray's, with its own models of light and reflection: a template and what is filled in.
+// A POV-Ray scene with POV-Ray's own models of light and reflection, filled into a template.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -74,7 +74,7 @@ std::string options_text(const ExportedImage& image) {
                             depth)}});
 }
 
-/// Where POV-Ray may read and write as Debian configures it, whatever the folder of the scene is.
+/// A folder in which POV-Ray may read and write as Debian configures it, wherever the scene is.
 fs::path permitted_folder() {
     const fs::path folder = "/tmp";
     return fs::is_directory(folder) ? folder : fs::temp_directory_path();
@@ -98,8 +98,7 @@ class PovRayTarget final : public Target {
     void draw(const char* directory, const char* picture, ProgramRunner& programs) const override {
         if (!programs.has("povray"))
             throw std::runtime_error(
-                "the scene is drawn by POV-Ray, and there is no 'povray' on this machine; on Debian, "
-                "apt-get install povray");
+                "'povray', which draws the scene, is not installed; on Debian, run apt-get install povray");
         const fs::path from = directory;
         const target::TemporaryFolder folder("candela-povray", permitted_folder());
         for (const fs::directory_entry& file : fs::directory_iterator(from)) {
@@ -111,7 +110,7 @@ class PovRayTarget final : public Target {
         target::run(
             programs,
             {"povray", at + "/scene.ini", "+I" + at + "/scene.pov", "+L" + at, "+O" + at + "/picture.png"},
-            "POV-Ray does not draw the scene");
+            "POV-Ray failed to draw the scene");
         std::ifstream drawn(folder.path() / "picture.png", std::ios::binary);
         target::write_whole(picture, std::string(std::istreambuf_iterator<char>(drawn), {}));
     }
@@ -134,6 +133,6 @@ using candela::povray_target::PovRayTarget;
 
 CANDELA_PLUGIN(target, PovRayTarget, candela::sdk::k_no_fields,
                {.title = "POV-Ray",
-                .summary = "a scene of POV-Ray 3.7, with its own models where they are the same",
+                .summary = "a POV-Ray 3.7 scene with POV-Ray's own models where they are equivalent",
                 .reference = "Persistence of Vision Pty. Ltd. (2013), POV-Ray 3.7 reference",
                 .properties = candela::povray_target::k_properties})

@@ -1,4 +1,4 @@
-// Scenes of POV-Ray's, drawn by POV-Ray.
+// POV-Ray scenes, drawn by POV-Ray.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::string generated(const fs::path& folder, const std::string& scene) {
     return read_file(folder / "made/scene.pov");
 }
 
-/// The pixel in the middle of what POV-Ray draws, in levels.
+/// The middle pixel of the picture that POV-Ray draws, in levels.
 std::array<int, 3> drawn_in_the_middle(const fs::path& folder, const std::string& scene) {
     generated(folder, scene);
     CommandSetup setup;
@@ -75,7 +75,7 @@ color = [255, 255, 255]
 )" + material;
 }
 
-/// What `candela verify` says of a scene, with a tolerance of one level.
+/// The output of `candela verify` for a scene, with a tolerance of one level.
 CommandResult verify(const fs::path& folder, const std::string& scene,
                      const std::vector<std::string>& more = {}) {
     const fs::path file = write_file(folder / "scene.toml", scene);
@@ -104,7 +104,7 @@ TEST_CASE(
     // With the note's normal, which is not quite that of its face.
     write_file(folder / "face.obj",
                "v .7 .1 .4\nv .1 .2 .2\nv .3 .5 .5\nvn .33333333 .66666667 -.66666667\nf 1//1 2//1 3//1\n");
-    // A millimetre within the face beside V1, seen along z from the side of -z.
+    // A millimetre from V1 within the face, seen along z from the side of -z.
     const std::string scene =
         k_head +
         R"(observer = {position = [0.699, 0.1005, -3], look_at = [0.699, 0.1005, 0], projection = "orthographic", height = 1e-4}
@@ -129,14 +129,15 @@ kd = [0.8, 0.8, 0.9]
 ks = [0.2, 0.2, 0.1]
 shininess = 10
 )";
-    // kd 0.4135 / 0.8162 + ka I_a, and ks 0.5514^10 / 0.8162; a millimetre aside it is the same to a level.
+    // kd 0.4135 / 0.8162 + ka I_a, and ks 0.5514^10 / 0.8162; a millimetre away it is the same to within a
+    // level.
     const std::array<int, 3> drawn = drawn_in_the_middle(folder, scene);
     const std::array<int, 3> expected = levels(0.4353 + 0.0006, 0.4253 + 0.0006, 0.4660 + 0.0003);
     INFO(fmt::format("{} {} {}", drawn[0], drawn[1], drawn[2]));
     for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(drawn[k] - expected[k]) <= 1);
 }
 
-TEST_CASE("target/povray: camera, spot and background are the figures worked out by hand") {
+TEST_CASE("target/povray: camera, spot and background match figures computed by hand") {
     const std::string text = generated(
         scratch_directory(), k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0], fov = 90}
 image = {width = 200, height = 100, background = [255, 0, 255]}
@@ -165,7 +166,7 @@ type = "sphere"
     CHECK(std::abs(std::stod(text.substr(falloff)) - 30) < 1e-4);
 }
 
-TEST_CASE("target/povray: a coarse ball is right where its normals point away from the observer") {
+TEST_CASE("target/povray: a coarse ball is correct where its normals point away from the observer") {
     const CommandResult result =
         verify(scratch_directory(), k_head + R"(observer = {position = [0, 0, 2.5], look_at = [0, 0, 0]}
 image = {width = 200, height = 150, background = [0, 0, 90]}
@@ -183,7 +184,7 @@ radius = 0.8
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("target/povray: a triangle keeps normals that are equal to each other, but not the face's") {
+TEST_CASE("target/povray: a triangle keeps normals that equal each other but not the face's") {
     const fs::path folder = scratch_directory();
     write_file(folder / "leaning.obj",
                "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0.6 0 0.8\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
@@ -204,8 +205,7 @@ file = "leaning.obj"
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE(
-    "target/povray: colours at vertices are those that Candela renders, also through a tinted highlight") {
+TEST_CASE("target/povray: colours at vertices match Candela's, even through a tinted highlight") {
     const fs::path folder = scratch_directory();
     write_file(folder / "colors.obj",
                "v -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\nv 1 1 0 0 0 1\nv -1 1 0 1 1 0.5\nvn 0 0 1\n"
@@ -232,8 +232,7 @@ ks = )" + highlight);
     }
 }
 
-TEST_CASE(
-    "target/povray: a texture is only approximate, and where a texel is larger than a pixel, it is right") {
+TEST_CASE("target/povray: a texture is only approximate, but correct where a texel is larger than a pixel") {
     const fs::path folder = scratch_directory();
     std::string texels = "P6\n8 8\n255\n";
     for (int i = 0; i < 64; ++i) {
@@ -279,7 +278,8 @@ ks = [0.4, 0.2, 0.1]
 }
 
 TEST_CASE(
-    "target/povray: what POV-Ray does not have is refused by name, and said once each with --approximate") {
+    "target/povray: features that POV-Ray lacks are refused by name, or reported once each with "
+    "--approximate") {
     const std::string scene = k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0]}
 image = {width = 64, height = 48}
 reflection = {model = "ggx"}

@@ -8,7 +8,7 @@
 
 namespace candela::povray_target {
 
-/// "<0, 1.5, 4>", in as few digits as name it exactly.
+/// "<0, 1.5, 4>", with the fewest digits that are exact.
 std::string vector_text(Vec3 v);
 std::string vector_text(const target::Vector& v);
 /// "rgb 0.5" or "rgb <1, 0.5, 0>".

@@ -12,7 +12,7 @@ namespace {
 
 float largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// What POV-Ray takes for equal differs by 3e-5 at most.
+/// POV-Ray considers values equal that differ by at most 3e-5.
 constexpr float k_equal = 1e-4f;
 
 Vec3 turned(Vec3 n) {

@@ -10,7 +10,7 @@ namespace candela::three_target {
 
 namespace {
 
-/// As many as shaders of any device have room for, since three.js has them in uniform variables.
+/// The number that shaders of any device have room for, since three.js keeps them in uniform variables.
 constexpr std::size_t k_most_lights = 32;
 
 float distance_to(const Box& box, Vec3 p) {
@@ -22,8 +22,8 @@ float distance_to(const Box& box, Vec3 p) {
 /// three.js fades by 1 / max(r^decay, 0.01).
 struct Fading {
     int decay = 0;
-    float scale = 1;    // what the intensity is divided by
-    float nearest = 0;  // from where on the two are the same, in metres
+    float scale = 1;    // the divisor of the intensity
+    float nearest = 0;  // the distance from which the two are the same, in metres
 };
 
 std::optional<Fading> fading_of(const PunctualLight& light) {
@@ -35,7 +35,7 @@ std::optional<Fading> fading_of(const PunctualLight& light) {
     return Fading{.decay = 2, .scale = light.quadratic, .nearest = 0.1f};
 }
 
-/// Angle and penumbra of a smooth cone; false where three.js has no such one.
+/// Angle and penumbra of a smooth cone; false if three.js does not have that cone.
 bool put_cone(const PunctualLight& light, Json& json) {
     constexpr float k_sharpest = 1e-4f;  // between the cosines, where a smoothstep is one
     const double outer = std::acos(std::clamp(double{light.cos_outer}, -1.0, 1.0));
@@ -52,7 +52,7 @@ bool put_cone(const PunctualLight& light, Json& json) {
 
 std::optional<Json> own_light(const PunctualLight& light, const std::vector<Box>& boxes) {
     const Rgb c = light.diffuse;
-    // three.js's diffuse materials reflect with 1 / pi, Candela's do not.
+    // three.js's diffuse materials reflect with 1 / pi; Candela's do not.
     Json json = {{"color", {shortest(c.r), shortest(c.g), shortest(c.b)}},
                  {"intensity", std::numbers::pi},
                  {"position", vector_json(light.position)}};

@@ -1,4 +1,4 @@
-// Lights as three.js has them.
+// Lights in the form of three.js.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,9 @@ struct Box {
     Vec3 low{}, high{};
 };
 
-/// The scene's lights as three.js's own, for its own diffuse materials, or nothing where it does not have one
-/// of them: then all objects are lit by kernels. `boxes`: what the lights shine on, since three.js's fade no
-/// more within a tenth of a metre.
+/// The scene's lights as three.js's own, for its own diffuse materials; nothing if it lacks one of them, in
+/// which case kernels light all objects. `boxes`: the lit objects, since three.js's lights do not fade within
+/// a tenth of a metre.
 std::optional<Json> own_lights(const ExportedScene& scene, const std::vector<Box>& boxes);
 
 }  // namespace candela::three_target

@@ -25,14 +25,14 @@ using namespace target;
 
 namespace {
 
-/// As three.js's own materials fill it, with its uniform variable: a logarithm of the distance.
+/// Filled like by three.js's own materials, with its uniform variable: a logarithm of the distance.
 constexpr GlslDepth k_logarithmic_depth{
     .uniform = "uniform float logDepthBufFC;\n",
     .statement =
         "    gl_FragDepth = is_orthographic ? gl_FragCoord.z : 0.5 * logDepthBufFC * log2(1.0 + 1.0 / "
         "gl_FragCoord.w);\n"};
 
-/// Those whose normal is interpolated between the vertices, as three.js does it.
+/// The models whose normal is interpolated between the vertices, as three.js does it.
 bool is_smooth(const ExportedShading& shading) {
     constexpr std::array<std::string_view, 4> k_names{"phong", "angle-weighted", "area-weighted",
                                                       "max-weighted"};
@@ -51,8 +51,8 @@ class Writer {
     Json write() {
         for (const ExportedModel& model : models_of(scene_)) {
             if (model.plugin->kernel.text == nullptr)
-                throw std::runtime_error(fmt::format(
-                    "{} has no kernel, and three.js has no model of its own for it", id_of(model)));
+                throw std::runtime_error(
+                    fmt::format("{} has no kernel, and three.js has no equivalent model", id_of(model)));
         }
         std::vector<Json> meshes;
         std::vector<Box> boxes;
@@ -107,7 +107,8 @@ class Writer {
         return {.low = {x.min, y.min, z.min}, .high = {x.max, y.max, z.max}};
     }
 
-    /// Lambert's law where three.js has it: with its own lights and normals, and colours that it can express.
+    /// Whether three.js's Lambert material applies: with its own lights and normals, and colours that it can
+    /// express.
     Json lambert_json(const ExportedObject& object, const Json& mesh, Vec3 color) const {
         const ExportedReflection& model = scene_.reflections[object.reflection];
         const ExportedValues& values = object.materials[object.reflection];
@@ -120,7 +121,7 @@ class Writer {
         for (const ExportedLight& light : scene_.lights)
             ambient = ambient + Vec3{light.ambient.r, light.ambient.g, light.ambient.b};
         const Vec3 emissive = times(times(*ka, color), ambient);
-        // What a material emits is not multiplied with the colours of vertices.
+        // Emitted light is not multiplied by the colours of vertices.
         if (!mesh["color"].is_null() && !(emissive == Vec3{})) return {};
         return {{"color", vector_json(times(*kd, color))}, {"emissive", vector_json(emissive)}};
     }

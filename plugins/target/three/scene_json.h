@@ -1,4 +1,4 @@
-// A scene as the page's script reads it.
+// A scene in the form that the page's script reads.
 #pragma once
 
 #include "candela/target.h"
@@ -7,8 +7,7 @@
 
 namespace candela::three_target {
 
-/// The arrays that it names are put where they belong. Throws std::runtime_error where it cannot be
-/// expressed.
+/// Adds the arrays that it names to the page. Throws std::runtime_error if the scene cannot be expressed.
 Json scene_json(const ExportedScene& scene, target::PageArrays& arrays);
 
 }  // namespace candela::three_target

@@ -28,15 +28,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file of three.js, in the folder of the plugin's own.
+/// A file of three.js, in the plugin's folder.
 std::string read_library(const fs::path& folder, const char* file) {
     std::ifstream stream(folder / file, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(stream), {}};
     if (stream.bad() || text.empty())
-        throw std::runtime_error(fmt::format(
-            "there is no three.js, which its pages contain; npm pack three@{} brings it, and its files "
-            "LICENSE and build/three.module.min.js belong into the folder '{}'",
-            CANDELA_THREE_VERSION, folder.string()));
+        throw std::runtime_error(
+            fmt::format("three.js is missing, which the pages contain; fetch it with npm pack three@{}, and "
+                        "put its files LICENSE and build/three.module.min.js into the folder '{}'",
+                        CANDELA_THREE_VERSION, folder.string()));
     return text;
 }
 
@@ -52,7 +52,7 @@ class ThreeTarget final : public Target {
 
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::PageArrays arrays;
-        // Bytes that are not UTF-8 are replaced.
+        // Invalid UTF-8 is replaced.
         const std::string json =
             scene_json(scene, arrays).dump(-1, ' ', false, Json::error_handler_t::replace);
         const std::string three = read_library(library_, "build/three.module.min.js");
@@ -83,7 +83,8 @@ class ThreeTarget final : public Target {
 
 using candela::three_target::ThreeTarget;
 
-CANDELA_PLUGIN(target, ThreeTarget, candela::sdk::k_no_fields,
-               {.title = "three.js",
-                .summary = "one HTML page with three.js, its own materials where they are the same formula",
-                .reference = "three.js authors (2024), three.js r170"})
+CANDELA_PLUGIN(
+    target, ThreeTarget, candela::sdk::k_no_fields,
+    {.title = "three.js",
+     .summary = "one HTML page with three.js, with its own materials where their formulas are the same",
+     .reference = "three.js authors (2024), three.js r170"})

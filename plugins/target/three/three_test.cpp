@@ -21,10 +21,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// To be called first: within CHECK() and REQUIRE(), SKIP() is a failure.
+/// Call this first: within CHECK() and REQUIRE(), SKIP() is a failure.
 void require_three() {
     if (!fs::exists(fs::path(CANDELA_TEST_PLUGINS) / "target-three"))
-        SKIP("there is no three.js: scripts/three.sh brings it");
+        SKIP("three.js is missing; scripts/three.sh fetches it");
 }
 
 /// The scene within the page.
@@ -40,7 +40,7 @@ Json generated(const fs::path& folder, const std::string& scene) {
     return Json::parse(page.substr(at, page.find("</script>", at) - at));
 }
 
-/// The pixel in the middle of what the page draws, in levels.
+/// The middle pixel of the picture that the page draws, in levels.
 std::array<int, 3> drawn_in_the_middle(const fs::path& folder, const std::string& scene) {
     const fs::path file = write_file(folder / "scene.toml", scene), report = folder / "report";
     const CommandResult result =
@@ -117,8 +117,9 @@ color = [255, 255, 255]
 
 }  // namespace
 
-TEST_CASE("target/three: three.js draws RE example 2 by itself and with a kernel: 0.7071 and 0.8575",
-          "[programs]") {
+TEST_CASE(
+    "target/three: three.js draws RE example 2 with its own material and with a kernel: 0.7071 and 0.8575",
+    "[programs]") {
     require_three();
     const fs::path folder = scratch_directory();
     write_file(folder / "floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
@@ -129,8 +130,7 @@ TEST_CASE("target/three: three.js draws RE example 2 by itself and with a kernel
     CHECK(drawn_in_the_middle(folder, kernel) == grey(0.8575));
 }
 
-TEST_CASE("target/three: three.js's own lights shine on a wall as strongly as worked out by hand",
-          "[whole]") {
+TEST_CASE("target/three: three.js's own lights light a wall as strongly as computed by hand", "[whole]") {
     require_three();
     const fs::path folder = folder_with_wall();
     // 2 / 2^2 before it, N.L 0.8 of 0.25 from the sun, and ka 0.5 of 0.2.
@@ -148,7 +148,7 @@ TEST_CASE("target/three: three.js's own lights shine on a wall as strongly as wo
     CHECK(drawn_in_the_middle(folder, spot) == grey(0.4));
 }
 
-TEST_CASE("target/three: lights and materials of three.js's have the figures worked out by hand") {
+TEST_CASE("target/three: three.js's lights and materials have the figures computed by hand") {
     require_three();
     const Json page = generated(scratch_directory(), k_head + k_point + R"([[light]]
 type = "spot"
@@ -175,7 +175,7 @@ intensity = 0.25
     CHECK(page["objects"][0]["lambert"]["emissive"] == Json{0.125, 0.125, 0.125});
 }
 
-TEST_CASE("target/three: what three.js computes otherwise is left to kernels", "[whole]") {
+TEST_CASE("target/three: kernels compute what three.js computes differently", "[whole]") {
     require_three();
     const fs::path folder = scratch_directory();
     const auto is_own = [&](const std::string& scene) {
@@ -188,7 +188,7 @@ TEST_CASE("target/three: what three.js computes otherwise is left to kernels", "
                        "[[light]]\ntype = \"spot\"\nposition = [0, 3, 2]\ndirection = [0, -1, 0]\n"
                        "falloff = \"linear\"\n" +
                        k_ball));
-    // Within a tenth of a metre, three.js's lights fade no more.
+    // Within a tenth of a metre, three.js's lights do not fade.
     CHECK_FALSE(is_own(k_head + "[[light]]\ntype = \"point\"\nposition = [0, 0.55, 0]\n" + k_ball));
     CHECK(is_own(k_head + "[[light]]\ntype = \"point\"\nposition = [0, 0.65, 0]\n" + k_ball));
     CHECK_FALSE(is_own(k_head + k_point + k_ball + "reflection = \"phong\"\n"));
@@ -196,7 +196,7 @@ TEST_CASE("target/three: what three.js computes otherwise is left to kernels", "
         CHECK_FALSE(is_own(k_head + k_point + k_ball + "shading = \"" + shading + "\"\n"));
 }
 
-TEST_CASE("target/three: an open mesh with colours at its vertices is right from both sides", "[whole]") {
+TEST_CASE("target/three: an open mesh with colours at its vertices is correct from both sides", "[whole]") {
     require_three();
     const fs::path folder = scratch_directory();
     write_file(folder / "roof.obj",
@@ -217,14 +217,14 @@ TEST_CASE("target/three: an open mesh with colours at its vertices is right from
     }
 }
 
-TEST_CASE("target/three: without three.js, it says which file belongs where") {
+TEST_CASE("target/three: without three.js, the error says which files belong where") {
     const fs::path folder = scratch_directory(), plugins = CANDELA_TEST_PLUGINS;
     for (const char* const name : {"target-three.so", "target-three.json"})
         fs::copy_file(plugins / name, folder / name, fs::copy_options::overwrite_existing);
     const CommandResult result = run_candela(
         {"generate", "--target", "three", "--plugin-dir", folder.string(), "-o", (folder / "made").string()});
     CHECK(result.exit_code == 1);
-    CHECK(result.err.find("there is no three.js") != std::string::npos);
+    CHECK(result.err.find("three.js is missing") != std::string::npos);
     CHECK(result.err.find("npm pack three@") != std::string::npos);
     CHECK(result.err.find((folder / "target-three").string()) != std::string::npos);
     CHECK_FALSE(fs::exists(folder / "made"));

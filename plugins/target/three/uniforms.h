@@ -1,4 +1,4 @@
-// What kernels read of the scene's values.
+// The scene's values that kernels read.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace candela::three_target {
 /// The struct of a model's parameters: { member: value }.
 Json struct_json(const ExportedModel& model, const ExportedValues& values);
 
-/// How many lights of each model shine: { uniform: count }.
+/// The number of lights of each model: { uniform: count }.
 Json light_counts(const ExportedScene& scene);
 
 /// The texels of the texture `light_table` (candela/target/glsl.h), one after the other.

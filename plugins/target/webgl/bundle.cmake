@@ -1,15 +1,15 @@
-# Scripts of pages: modules, bundled into one text each, which the sources embed.
+# Bundles the modules of each page's script into one text, which the sources embed.
 find_program(CANDELA_ESBUILD esbuild)
 if(NOT CANDELA_ESBUILD)
-    message(FATAL_ERROR "there is no esbuild, which bundles the scripts of pages; scripts/setup.sh installs it")
+    message(FATAL_ERROR "esbuild is missing, which bundles the scripts of pages; scripts/setup.sh installs it")
 endif()
 find_path(CANDELA_CODEMIRROR lib/codemirror.js PATHS /usr/share/javascript/codemirror /usr/share/nodejs/codemirror)
 if(NOT CANDELA_CODEMIRROR)
-    message(FATAL_ERROR "there is no CodeMirror 5, in which formulas are edited in pages; scripts/setup.sh installs it")
+    message(FATAL_ERROR "CodeMirror 5 is missing, the editor for formulas in pages; scripts/setup.sh installs it")
 endif()
 set(CANDELA_PAGE_SOURCES ${CMAKE_CURRENT_LIST_DIR})
 
-# candela_bundle_scripts(<output> <main.js> <scripts>...): the module, and what it imports, but for the library three. Readable.
+# candela_bundle_scripts(<output> <main.js> <scripts>...): the module and its imports, except the library three; not minified.
 function(candela_bundle_scripts output main)
     cmake_path(GET main PARENT_PATH folder)
     cmake_path(GET main FILENAME name)

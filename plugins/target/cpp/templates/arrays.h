@@ -1,4 +1,4 @@
-// Triangles that stand as numbers at the end of this file.
+// Helpers for the triangles that stand as numbers at the end of this file.
 template <std::size_t n>
 std::vector<vec3> vectors_of(const float (&numbers)[n]) {
     std::vector<vec3> result;

@@ -1,4 +1,4 @@
-// What the edges of a surface's parameter square are to one another.
+// How the edges of a surface's parameter square are connected.
 struct Edges {
     bool u_is_periodic = false, v_is_periodic = false;
     bool v_ends_in_poles = false;  // v = 0 and v = 1 are one point each
@@ -13,7 +13,7 @@ Mesh grid(int columns, int rows, Edges edges, Position position) {
     for (int row = 0; row <= rows; ++row) {
         for (int column = 0; column <= columns; ++column) {
             const vec2 uv(static_cast<float>(column) / static_cast<float>(columns), static_cast<float>(row) / static_cast<float>(rows));
-            // Vertices that are one place get one position, to the last bit, and one normal.
+            // Vertices at the same place get one position, equal to the last bit, and one normal.
             const bool is_pole = edges.v_ends_in_poles && (row == 0 || row == rows);
             const int as_row = edges.v_is_periodic && row == rows ? 0 : row;
             const int as_column = is_pole || (edges.u_is_periodic && column == columns) ? 0 : column;

@@ -1,4 +1,4 @@
-// A table of a model: a part of the numbers of all, which stand at the end of this file.
+// A table of a model: a range of the numbers of all tables, at the end of this file.
 struct Table {
     int first = 0, count = 0;
 };

@@ -1,5 +1,5 @@
-// The colour of an object's texture at a place of a triangle. A pixel covers a part of the picture; a face's middle and a
-// vertex are points of it.
+// The colour of an object's texture at a place in a triangle. A pixel covers an area of the picture; a face's centre and a
+// vertex are points in it.
 vec3 texture_within(const Object& o, int triangle, vec3 b) {
     if (o.texture.levels == nullptr) return vec3(1.0f);
     const Mesh& m = o.mesh;

@@ -1,8 +1,8 @@
-// Pictures that the colours of surfaces are multiplied with.
+// Pictures by which the colours of surfaces are multiplied.
 @FILE@
 struct ColorTexture {
-    const std::vector<TextureLevel>* levels = nullptr;  // null: there is none
-    bool repeats = true;                                // beyond its edges; else the colours there go on
+    const std::vector<TextureLevel>* levels = nullptr;  // null: no texture
+    bool repeats = true;                                // beyond its edges; otherwise the edge colours continue
 };
 
 int color_texture_levels(ColorTexture t) { return static_cast<int>(t.levels->size()); }

@@ -3,16 +3,16 @@
 
 #include <cstddef>
 
-// Triangles in the world, metres. Pointers to what there is not are null.
+// Triangles in world space, in metres. Absent arrays are null.
 struct MeshArrays {
     std::size_t vertices, triangles;
-    const unsigned* corners;        // three vertices a triangle, counter-clockwise seen from outside
+    const unsigned* corners;        // three vertices per triangle, counter-clockwise seen from outside
     const float* position;          // x y z of each vertex
-    const float* const* normals;    // sets of unit vertex normals, likewise
-    const std::size_t* normals_of;  // which of the sets a shading model uses
+    const float* const* normals;    // sets of unit vertex normals, also x y z each
+    const std::size_t* normals_of;  // the set that each shading model uses
     const float* uv;                // u v of each vertex
     const float* dpdu;              // partial derivatives of position
     const float* dpdv;
-    const float* color;             // red green blue of each vertex, which the object's colour is multiplied with
+    const float* color;             // red green blue of each vertex, multiplied by the object's colour
 };
 @ARRAYS@

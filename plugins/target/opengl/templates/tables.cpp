@@ -1,8 +1,8 @@
-// The numbers of the models' tables, one table after the other: a model knows where its own begins, and its size.
+// The numbers of the models' tables, one table after the other; a model knows its own table's start and size.
 const std::vector<float> k_table_numbers = {
 @NUMBERS@};
 
-// The same as a texture, in rows of this width.
+// The numbers as a texture, in rows of this width.
 GLuint table_numbers() {
     const std::size_t width = @WIDTH@, height = k_table_numbers.size() / width + 1;
     std::vector<float> texels = k_table_numbers;

@@ -1,11 +1,11 @@
-// From a colour to an intensity: IEC 61966-2-1 (sRGB), or as it is.
+// From a colour to an intensity: IEC 61966-2-1 (sRGB), or unchanged.
 float decoded(float c) {
     if (!k_is_srgb) return c;
     return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
 }
 
 @FILE@
-// The pictures that the colours of surfaces are multiplied with: files in this program's folder.
+// The pictures by which the colours of surfaces are multiplied: files in this program's folder.
 const std::vector<const char*> k_textures = {
 @FILES@};
 
@@ -14,7 +14,7 @@ struct Texture {
     int width = 0, height = 0, levels = 0;
 };
 
-// A picture, and its levels in a row along its longer side, as a texture of whole numbers, which the shaders filter themselves.
+// A picture with its levels in a row along its longer side, as an integer texture that the shaders filter themselves.
 Texture make_texture(const std::string& file) {
     const std::vector<TextureLevel> levels = texture_levels(file);
     GLint largest = 0;
@@ -43,7 +43,7 @@ Texture make_texture(const std::string& file) {
     return texture;
 }
 
-// Has a program's shaders read a texture.
+// Binds a texture for a program's shaders.
 void bind(const Texture& texture, bool repeats, GLuint program, const Observer& observer, const View& view, int height) {
     glActiveTexture(GL_TEXTURE4);
     glBindTexture(GL_TEXTURE_2D, texture.name);

@@ -21,7 +21,7 @@ class Pass {
     }
 }
 
-/** Adds the pictures of all samples up as intensities, and shows them as the scene's colour management says. */
+/** Adds up the pictures of all samples as intensities, and shows them according to the scene's colour management. */
 export class Film {
     constructor(renderer, json) {
         const { width, height, is_srgb } = json.image, limit = renderer.capabilities.maxTextureSize;

@@ -12,7 +12,7 @@ function usualGeometry({ position, normals, color, indices }) {
     return geometry.setIndex(new BufferAttribute(indicesOf(indices), 1));
 }
 
-/** For kernels: all that a shading model may ask for. */
+/** For kernels: everything that a shading model may ask for. */
 function kernelGeometry(object) {
     const geometry = new BufferGeometry(), arrays = new VertexArrays(object.mesh);
     const sources = arrays.sourcesOf({ rate: object.rate, seesTriangle: object.sees_triangle, isTextured: object.texture !== null }, 0);
@@ -28,6 +28,6 @@ function kernelGeometry(object) {
 /** An object's triangles without a material, and the box around them. */
 export function geometryOf(object) {
     const mesh = new Mesh(object.lambert === null ? kernelGeometry(object) : usualGeometry(object.mesh));
-    mesh.frustumCulled = false;  // the camera's planes lie around the objects anyway
+    mesh.frustumCulled = false;  // the camera's planes enclose the objects anyway
     return { mesh, bounds: boxOf(object) };
 }

@@ -1,6 +1,6 @@
 import { Color, DirectionalLight, PointLight, SpotLight } from "three";
 
-/** What all lights have; those that shine in a direction also have a target, which is in the scene for its place. */
+/** The properties of all lights; those that shine in a direction also have a target, which is in the scene for its position. */
 function placed(light, { position, target }) {
     light.position.set(...position);
     if (target === undefined) return [light];
@@ -14,5 +14,5 @@ const MAKERS = {
     spot: (color, { intensity, angle, penumbra, decay }) => new SpotLight(color, intensity, 0, angle, penumbra, decay),
 };
 
-/** three.js's own lights, for its own materials. Kernels have theirs in a table. */
+/** three.js's own lights, for its own materials. Kernels read theirs from a table. */
 export const lightsOf = ({ lights }) => lights.flatMap((light) => placed(MAKERS[light.type](new Color(...light.color), light), light));

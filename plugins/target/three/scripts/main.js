@@ -3,7 +3,7 @@ import { Gestures } from "../../webgl/scripts/gestures.js";
 import { readScene } from "../../webgl/scripts/scene.js";
 import { Picture } from "./picture.js";
 
-/** The picture as somebody sees it who looks around. */
+/** The interactive picture. */
 class Page {
     constructor() {
         this.scene = readScene();
@@ -27,7 +27,7 @@ class Page {
         this.redraw();
     }
 
-    /** Once before the screen is next drawn. */
+    /** Runs once before the screen is next drawn. */
     redraw() {
         if (this.request !== 0) return;
         this.request = requestAnimationFrame(() => {
@@ -47,7 +47,7 @@ class Page {
 
 const opened = (async () => new Page())();
 
-/** For scripts: `ready` settles when the page works, or says why it does not; the others are promises of what they are called. */
+/** For scripts: `ready` resolves when the page works, or rejects with the reason; the others are promises of what their names say. */
 window.candela = {
     ready: opened.then(() => {}),
     page: opened,
@@ -56,6 +56,6 @@ window.candela = {
 
 opened.catch((error) => {
     const text = [error.message, error.detail].filter(Boolean).join("\n");
-    // Read by `candela verify`, too.
+    // Also read by `candela verify`.
     document.body.append(element("pre", { id: "problem", role: "alert" }, text));
 });

@@ -5,14 +5,14 @@ import { levelsOf, sizeWithLevels } from "../../webgl/scripts/texture_levels.js"
 
 export const HEADER = "precision highp float;\nprecision highp int;\n";
 
-/** Numbers as a texture that nobody filters. */
+/** Numbers as an unfiltered texture. */
 function dataTexture(array, width, height, format, type, internalFormat) {
     const texture = new DataTexture(array, width, height, format, type);
     Object.assign(texture, { internalFormat, minFilter: NearestFilter, magFilter: NearestFilter, needsUpdate: true });
     return texture;
 }
 
-/** `Type`: of the array; rows of `width` texels, filled up. */
+/** `Type`: of the array, in rows of `width` texels, padded. */
 function tableTexture(Type, bytes, components, width, ...formats) {
     const numbers = new Type(bytes.buffer), height = Math.max(1, Math.ceil(numbers.length / components / width));
     const texels = new Type(components * width * height);
@@ -20,7 +20,7 @@ function tableTexture(Type, bytes, components, width, ...formats) {
     return dataTexture(texels, width, height, ...formats);
 }
 
-/** What the shader reads of a texture, by the names of its uniforms. */
+/** A texture's uniforms, by name. */
 function textureUniforms(picture, isSrgb) {
     const [width, height] = sizeWithLevels(picture), texels = new Uint16Array(4 * width * height);
     const levels = levelsOf(picture, isSrgb);
@@ -36,7 +36,7 @@ function textureUniforms(picture, isSrgb) {
 
 const sideOf = ({ closed }) => (closed ? FrontSide : DoubleSide);
 
-/** Lambert's law, as three.js has it; ambient light is what the material emits. */
+/** Lambert's law by three.js; the material emits the ambient light. */
 function lambertMaterial({ lambert: { color, emissive }, mesh, ...object }) {
     return new MeshLambertMaterial({ color: new Color(...color), emissive: new Color(...emissive), vertexColors: mesh.color !== null, side: sideOf(object) });
 }
@@ -45,7 +45,7 @@ function lambertMaterial({ lambert: { color, emissive }, mesh, ...object }) {
 export class KernelMaterials {
     constructor(json) {
         this.json = json;
-        /** What the shaders know of the observer: uniforms that all materials share. */
+        /** The observer's uniforms, which all materials share. */
         this.seen = {
             view_projection: { value: new Matrix4() }, eye: { value: new Vector3() }, is_orthographic: { value: false },
             towards_observer: { value: new Vector3() }, pixel_right: { value: new Vector3() }, pixel_up: { value: new Vector3() },
@@ -74,5 +74,5 @@ export class KernelMaterials {
     }
 }
 
-/** three.js's own material where it is the same formula, else one of the kernels. */
+/** three.js's own material if it has the same formula, otherwise one made of the kernels. */
 export const materialOf = (object, kernels) => (object.lambert === null ? kernels.of(object) : lambertMaterial(object));

@@ -7,7 +7,7 @@ import { geometryOf } from "./geometry.js";
 import { lightsOf } from "./lights.js";
 import { KernelMaterials, materialOf } from "./materials.js";
 
-/** The scene as three.js's, and its picture on a canvas. */
+/** The scene in three.js, and its picture on a canvas. */
 export class Picture {
     constructor(json, canvas) {
         const { width, height, background } = json.image;
