@@ -134,7 +134,7 @@ class Formulas(Editing, PageTest):
         self.assertEqual(self.messages(), "")
         # Until something does.
         self.browser.enter("#models [data-path=reflection] select", "ggx")
-        self.browser.wait_for("document.getElementById('formula-status').textContent.includes('picture is that of the shipped')")
+        self.browser.wait_for("document.getElementById('formula-status').textContent.includes('picture is identical to that of the shipped')")
 
     def test_the_keyboard_gets_in_and_out(self):
         self.addCleanup(self.browser.resize, *self.window)

@@ -162,7 +162,7 @@ class Lights(PageTest):
         # Nothing of it is in the picture, nor in the options.
         self.assertEqual(self.picture(self.generated).pixels, own)
         self.browser.click("copy-options")
-        self.assertEqual(self.browser.text("#copy-options"), "All is as the scene says")
+        self.assertEqual(self.browser.text("#copy-options"), "No changes to copy")
         self.browser.click("copy-link")
         self.browser.rest(0.1)
         self.browser.open(self.browser.driver.current_url)
@@ -170,7 +170,7 @@ class Lights(PageTest):
 
     def test_from_outside_the_observer_and_all_lights_are_in_the_picture(self):
         self.load(scenes.PERSPECTIVE, "outside")
-        self.assertIn("outside of the picture", self.marker("lamp").accessible_name)
+        self.assertIn("outside the picture", self.marker("lamp").accessible_name)
         self.browser.click("show-observer")
         self.browser.rest(0.5)
         names = [m.accessible_name for m in self.browser.all("#outside-canvas + .markers .marker")]

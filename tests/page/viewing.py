@@ -492,7 +492,7 @@ class Viewing(unittest.TestCase):
         self.assertEqual(self.browser.run("return document.getElementById('notice').hidden"), True)
         self.assert_shows()
         self.browser.one("#save-scene").click()
-        self.wait_for("document.getElementById('save-scene').textContent === 'All is as the scene says'")
+        self.wait_for("document.getElementById('save-scene').textContent === 'No changes to save'")
         self.assertEqual(self.file.read_text(), after)
 
     def test_a_light_is_dragged_and_saved_and_the_file_has_changed_only_there(self):
@@ -526,7 +526,7 @@ class Viewing(unittest.TestCase):
         self.assertIn("intensity = 0\n", self.file.read_text())
         self.assert_shows()
         self.browser.one("#save-scene").click()
-        self.wait_for("document.getElementById('save-scene').textContent === 'All is as the scene says'")
+        self.wait_for("document.getElementById('save-scene').textContent === 'No changes to save'")
 
     def test_what_cannot_be_saved_is_said_and_the_changes_stay(self):
         self.view()

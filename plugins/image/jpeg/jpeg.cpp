@@ -1,4 +1,4 @@
-// JPEG, by libjpeg-turbo.
+// JPEG, with libjpeg-turbo.
 #include <turbojpeg.h>
 
 #include <algorithm>
@@ -41,14 +41,15 @@ std::string content_of(const char* path) {
     return content;
 }
 
-/// Whether the end-of-image marker follows the last scan: within a scan neither occurs. Where it is missing,
-/// the library fills up the picture with grey, and warns as it does of what is harmless.
+/// Whether the end-of-image marker follows the last scan; neither marker occurs within a scan. If it is
+/// missing, the library fills the picture with grey, and its warning is like those about harmless flaws.
 bool is_whole(std::string_view file) {
     const std::size_t scan = file.rfind("\xff\xda"), end = file.rfind("\xff\xd9");
     return scan != std::string_view::npos && end != std::string_view::npos && end > scan;
 }
 
-// A bit may stand for a block of 16 x 16 pixels in each of a progressive file's scans; there is one at least.
+// In each of a progressive file's scans, of which there is at least one, a bit may stand for a block of 16 x
+// 16 pixels.
 constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{8} * 16 * 16;
 
 struct JpegOptions {
@@ -75,8 +76,8 @@ class Jpeg final : public candela::ImageFormat {
         const std::string file = content_of(path);
         if (!file.starts_with("\xff\xd8\xff")) {
             throw std::runtime_error(file.starts_with("\x89PNG")
-                                         ? "it is no JPEG file but a PNG file; its name has to end in .png"
-                                         : "it is no JPEG file");
+                                         ? "it is not a JPEG file but a PNG file; its name must end in .png"
+                                         : "it is not a JPEG file");
         }
         if (!is_whole(file)) throw std::runtime_error("it is cut off");
         const auto* const bytes = reinterpret_cast<const unsigned char*>(file.data());
@@ -87,11 +88,11 @@ class Jpeg final : public candela::ImageFormat {
         require_plausible(static_cast<std::uintmax_t>(width) * static_cast<std::uintmax_t>(height),
                           file.size(), k_most_pixels_per_byte);
         const std::span<float> pixels = sink.allocate(width, height, true);
-        // Inks are kept apart, and multiplied below.
+        // Inks stay separate, and are multiplied below.
         const bool is_cmyk = space == TJCS_CMYK || space == TJCS_YCCK;
         const std::size_t channels = is_cmyk ? 4 : 3;
         Samples samples(pixels.size() / 3 * channels);
-        // Warnings are of what other programs show all the same, such as bytes between markers.
+        // Warnings are about files that other programs show nevertheless, such as bytes between markers.
         if (tjDecompress2(handle.get(), bytes, file.size(), samples.data(), width, 0, height,
                           is_cmyk ? TJPF_CMYK : TJPF_RGB, TJFLAG_ACCURATEDCT) != 0 &&
             tjGetErrorCode(handle.get()) != TJERR_WARNING)
@@ -99,7 +100,7 @@ class Jpeg final : public candela::ImageFormat {
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const unsigned char* const pixel = &samples[i / 3 * channels];
             const auto value = static_cast<float>(pixel[i % 3]) / 255;
-            // Inverted, as Adobe's programs write it: 255 is no ink.
+            // Inverted, as Adobe's programs write it: 255 means no ink.
             pixels[i] = is_cmyk ? value * static_cast<float>(pixel[3]) / 255 : value;
         }
     }
@@ -109,7 +110,7 @@ class Jpeg final : public candela::ImageFormat {
 };
 
 constexpr auto k_fields = fields(
-    integer(&JpegOptions::quality, "quality", 95, "from 1, smallest file, to 100, most like the picture")
+    integer(&JpegOptions::quality, "quality", 95, "from 1 (smallest file) to 100 (closest to the picture)")
         .range(1, 100));
 
 constexpr candela::FileFormat k_formats[] = {

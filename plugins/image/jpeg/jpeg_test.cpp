@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int k_width = 75, k_height = 41;  // no whole number of blocks
+constexpr int k_width = 75, k_height = 41;  // not a whole number of blocks
 
 using Bytes = std::vector<unsigned char>;
 
-/// Colours that change slowly, and a little noise.
+/// Slowly changing colours with a little noise.
 Bytes smooth_picture(std::size_t channels) {
     std::minstd_rand random(5);
     Bytes pixels;
@@ -78,7 +78,7 @@ double root_mean_square_difference(const Decoded& picture, const Bytes& pixels) 
 
 }  // namespace
 
-TEST_CASE("a JPEG of any kind is read as OpenImageIO reads it") {
+TEST_CASE("a JPEG of any kind is read like by OpenImageIO") {
     const fs::path file = scratch_directory() / "kind.jpg";
     const auto check = [&](const char* kind, const std::string& content, float tolerance = 1e-6f) {
         INFO(kind);
@@ -100,7 +100,7 @@ TEST_CASE("a JPEG of any kind is read as OpenImageIO reads it") {
     check("inks", jpeg_of(cmyk, TJPF_CMYK, TJSAMP_444), 0.6f / 255);
 }
 
-TEST_CASE("a JPEG is the more like its picture, and the larger, the higher its quality") {
+TEST_CASE("a JPEG of higher quality is larger and closer to its picture") {
     const Bytes pixels = smooth_picture(3);
     const fs::path file = scratch_directory() / "written.jpg";
     double last_difference = 1e9;
@@ -118,7 +118,7 @@ TEST_CASE("a JPEG is the more like its picture, and the larger, the higher its q
     CHECK(written(pixels, 95) == written(pixels, 95));
 }
 
-TEST_CASE("a JPEG that is cut off anywhere is an error, and so is what is none") {
+TEST_CASE("a JPEG that is cut off anywhere is an error, and so is another file") {
     const fs::path file = scratch_directory() / "cut.jpg";
     for (const int flags : {0, TJFLAG_PROGRESSIVE}) {
         const std::string whole = jpeg_of(smooth_picture(3), TJPF_RGB, TJSAMP_420, flags);
@@ -127,7 +127,7 @@ TEST_CASE("a JPEG that is cut off anywhere is an error, and so is what is none")
         for (std::size_t size = 0; size < whole.size(); size += 7) {
             INFO(size);
             write_file(file, whole.substr(0, size));
-            CHECK(problem_of("jpeg", file) == (size < 3 ? "it is no JPEG file" : "it is cut off"));
+            CHECK(problem_of("jpeg", file) == (size < 3 ? "it is not a JPEG file" : "it is cut off"));
         }
     }
     write_file(file, "\x89PNG\r\n\x1a\n");
@@ -135,7 +135,7 @@ TEST_CASE("a JPEG that is cut off anywhere is an error, and so is what is none")
     CHECK(problem_of("jpeg", scratch_directory() / "nowhere.jpg") == "it cannot be read");
 }
 
-TEST_CASE("a JPEG whose header speaks of more pixels than its bytes can hold is refused before it is read") {
+TEST_CASE("a JPEG whose header declares more pixels than its bytes can hold is refused before it is read") {
     std::string content = jpeg_of(smooth_picture(3), TJPF_RGB, TJSAMP_420);
     const std::size_t frame = content.find("\xff\xc0");  // its length, precision, height and width follow
     REQUIRE(frame != std::string::npos);

@@ -30,7 +30,8 @@ std::string head_of(const char* path) {
     return head;
 }
 
-/// OpenImageIO's name of the format that a file begins as. It tries some thirty otherwise.
+/// OpenImageIO's name of the format that a file's first bytes indicate. Otherwise OpenImageIO tries some
+/// thirty formats.
 std::string_view format_of(std::string_view head, const std::filesystem::path& path) {
     struct Beginning {
         std::string_view bytes, format;
@@ -50,12 +51,13 @@ std::string_view format_of(std::string_view head, const std::filesystem::path& p
     if (head.size() > 2 && head[0] == 'P' &&
         std::string_view("123456Ff").find(head[1]) != std::string_view::npos)
         return "pnm";
-    if (path.extension() == ".tga" || path.extension() == ".TGA") return "targa";  // begins as anything
+    if (path.extension() == ".tga" || path.extension() == ".TGA")
+        return "targa";  // has no distinctive beginning
     throw std::runtime_error("its content is not a picture of a known format");
 }
 
-/// Whether the end-of-image marker follows the last scan of a JPEG file: within a scan neither occurs. Where
-/// it is missing, libjpeg fills up the picture with grey, and OpenImageIO does not pass its warning on.
+/// Whether the end-of-image marker follows the last scan of a JPEG file; neither marker occurs within a scan.
+/// If it is missing, libjpeg fills the picture with grey, and OpenImageIO does not pass on its warning.
 bool is_whole_jpeg(const char* path) {
     std::ifstream in(path, std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(in), {});
@@ -63,8 +65,8 @@ bool is_whole_jpeg(const char* path) {
     return scan != std::string::npos && end != std::string::npos && end > scan;
 }
 
-/// Whether a file that begins as a PNG ends before its last chunk, IEND. Where libpng asks for bytes beyond
-/// the end, OpenImageIO's answer jumps over the destructor of the message that it makes.
+/// Whether a file that begins like a PNG ends before its last chunk, IEND. If libpng asks for bytes beyond
+/// the end, OpenImageIO jumps out over the destructor of its error message.
 bool is_cut_off_png(const char* path) {
     constexpr std::size_t k_signature = 8, k_around = 12;  // a chunk's length, type and checksum
     std::ifstream in(path, std::ios::binary);
@@ -83,7 +85,8 @@ bool is_cut_off_png(const char* path) {
     return true;
 }
 
-/// Of a WebP file, which OpenImageIO decodes as a whole when it opens it. Zero where it has no such header.
+/// The size of a WebP file, which OpenImageIO decodes as a whole when it opens it. Zero if the header is not
+/// WebP's.
 std::uintmax_t webp_pixels(std::string_view head) {
     const auto at = [&](std::size_t i) { return std::uintmax_t{static_cast<unsigned char>(head[i])}; };
     if (head.size() < 30) return 0;
@@ -103,11 +106,12 @@ std::uintmax_t webp_pixels(std::string_view head) {
     return width * height;
 }
 
-/// Deflate makes up to 1032 bytes of one, each of which is eight pixels of one bit; most formats less.
+/// Deflate expands one byte to at most 1032, each holding up to eight one-bit pixels; most formats expand
+/// less.
 constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
 
-/// For formats that do not bound how much they compress, in which a picture of one colour is a few bytes at
-/// any size: what a small file may have takes little time.
+/// For formats without a bound on compression, in which a picture of one colour takes a few bytes at any
+/// size: decoding the pixels allowed for a small file takes little time.
 void require_moderate(std::uintmax_t samples, std::uintmax_t file_size) {
     constexpr std::uintmax_t k_always = std::uintmax_t{1} << 22;
     if (samples > 4 * k_always) require_plausible(samples, file_size, 4 * k_most_pixels_per_byte);
@@ -124,7 +128,8 @@ void require_plausible_size(const OIIO::ImageInput& input, std::uintmax_t file_s
         return pixels * static_cast<std::uintmax_t>(std::max(spec.nchannels, 1));
     };
     require_moderate(samples(spec.image_pixels()), file_size);
-    require_moderate(samples(spec.tile_pixels()), file_size);  // read whole, however few of its pixels count
+    require_moderate(samples(spec.tile_pixels()),
+                     file_size);  // read whole, however few of its pixels are used
 }
 
 }  // namespace
@@ -135,7 +140,7 @@ std::unique_ptr<OIIO::ImageInput> opened(const char* path) {
     const std::uintmax_t size = std::filesystem::file_size(path);
     if (format == "png" && is_cut_off_png(path)) throw std::runtime_error("it is cut off");
     if (format == "webp") require_moderate(4 * webp_pixels(head), size);
-    // The colours are as they are in the file, however transparent the pixels.
+    // The colours stay as in the file, however transparent the pixels.
     OIIO::ImageSpec wanted, found;
     wanted.attribute("oiio:UnassociatedAlpha", 1);
     std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
@@ -144,7 +149,7 @@ std::unique_ptr<OIIO::ImageInput> opened(const char* path) {
     if (format == "jpeg" && !is_whole_jpeg(path)) throw std::runtime_error("it is cut off");
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.nchannels < 1) throw std::runtime_error("it has no channels");
-    if (spec.deep) throw std::runtime_error("it has many values at each pixel, which is not supported");
+    if (spec.deep) throw std::runtime_error("it has multiple values per pixel, which is not supported");
     require_plausible_size(*input, size);
     return input;
 }

@@ -1,4 +1,4 @@
-// Opens the files of other people.
+// Opens untrusted files.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -7,8 +7,8 @@
 
 namespace openimageio {
 
-/// A picture file, ready to read by read_image(). Its content decides its format, not its name, and only
-/// formats that the plugin declares are tried. What the file declares is compared with its size first.
+/// A picture file, ready to read by read_image(). Its content, not its name, determines its format, and only
+/// formats that the plugin declares are tried. The declared size is checked against the file's size first.
 /// Throws std::runtime_error.
 std::unique_ptr<OIIO::ImageInput> opened(const char* path);
 

@@ -31,7 +31,7 @@ bool has_rows(std::string_view extension) {
     return extension == "tif" || extension == "tiff" || extension == "exr";
 }
 
-/// The most bytes that a file may have here (ulimit -f), those in memory included.
+/// The largest file size allowed here (ulimit -f), which also applies to files in memory.
 std::uint64_t file_size_limit() {
     rlimit limit{};
     if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
@@ -39,11 +39,11 @@ std::uint64_t file_size_limit() {
     return limit.rlim_cur;
 }
 
-/// A file in memory with a path, which cannot be left behind.
+/// A file in memory that has a path and never outlives the process.
 class MemoryFile {
   public:
     MemoryFile() : descriptor_(::memfd_create("candela", MFD_CLOEXEC)) {
-        if (descriptor_ < 0) throw std::runtime_error("no file can be made in memory");
+        if (descriptor_ < 0) throw std::runtime_error("cannot create a file in memory");
     }
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
@@ -51,12 +51,12 @@ class MemoryFile {
 
     std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
-    /// Writers ignore some of the errors that they are told of, such as those of their last bytes.
+    /// Writers ignore some errors, such as those when writing their last bytes.
     void require_whole(const OIIO::ImageSpec& spec) const {
         struct stat status{};
         if (::fstat(descriptor_, &status) != 0)
-            throw std::runtime_error("the file in memory cannot be read back");
-        // A number at an even offset may be what did not fit.
+            throw std::runtime_error("cannot read back the file in memory");
+        // The part that did not fit may be a number at an even offset.
         if (static_cast<std::uint64_t>(status.st_size) + 1 >= file_size_limit())
             throw std::runtime_error("the file would exceed the limit on file sizes (ulimit -f)");
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path());
@@ -65,7 +65,7 @@ class MemoryFile {
             input != nullptr && input->spec().width == spec.width && input->spec().height == spec.height &&
             input->spec().nchannels == spec.nchannels && input->spec().format == spec.format &&
             (spec.tile_width > 0 || input->read_scanline(spec.height - 1, 0, spec.format, row.data()));
-        if (!is_whole) throw std::runtime_error("the file in memory is not whole");
+        if (!is_whole) throw std::runtime_error("the file in memory is incomplete");
     }
 
     void send(candela::ByteSink& sink) const {
@@ -73,7 +73,7 @@ class MemoryFile {
         off_t offset = 0;
         for (;;) {
             const ssize_t count = ::pread(descriptor_, buffer.data(), buffer.size(), offset);
-            if (count < 0) throw std::runtime_error("the file in memory cannot be read back");
+            if (count < 0) throw std::runtime_error("cannot read back the file in memory");
             if (count == 0) return;
             sink.write(std::span(buffer).first(static_cast<std::size_t>(count)));
             offset += count;
@@ -84,8 +84,8 @@ class MemoryFile {
     int descriptor_;
 };
 
-constexpr int k_tile = 256;          // pixels, of files that have tiles
-constexpr int k_tiled_from = 16384;  // pixels: wider or higher pictures are looked at in parts
+constexpr int k_tile = 256;          // pixels, for files that have tiles
+constexpr int k_tiled_from = 16384;  // pixels: wider or higher pictures are handled in parts
 constexpr std::size_t k_at_once = std::size_t{1} << 26;  // bytes of pixels
 
 OIIO::ImageSpec spec_of(const candela::PictureView& picture) {
@@ -101,8 +101,8 @@ const void* pixels_of(const candela::PictureView& picture) {
                                                       : static_cast<const void*>(picture.bytes.data());
 }
 
-/// A file as OpenImageIO writes it. Libraries in C call this; what goes wrong is thrown when they have
-/// returned, whether or not they care.
+/// The file that OpenImageIO writes to. C libraries call it, so errors are thrown after they have returned,
+/// whether or not they reported them.
 class WriteProxy : public OIIO::Filesystem::IOProxy {
   public:
     WriteProxy() : IOProxy("picture", Write) {}
@@ -157,7 +157,7 @@ class SinkProxy final : public WriteProxy {
     candela::RandomAccessSink& sink_;
 };
 
-/// A file that the host gets when it is whole.
+/// A file that the host receives when it is complete.
 class MemoryProxy final : public WriteProxy {
   public:
     const char* proxytype() const override { return "memory"; }
@@ -190,14 +190,14 @@ class MemoryProxy final : public WriteProxy {
     std::vector<Block> blocks_;
 };
 
-/// Where the bytes go that a writer makes.
+/// The destination of a writer's bytes.
 enum class Way {
-    memory,  // all at once: many writers go back to what they have written
-    file,    // likewise, through a file in memory: the writer reads back what it has written
-    direct   // as they are made, if the sink allows that
+    memory,  // all at once: many writers seek back in their output
+    file,    // all at once, through a file in memory: the writer reads back its output
+    direct   // as they are produced, if the sink allows that
 };
 
-/// Has the writer write to the proxy.
+/// Makes the writer write to the proxy.
 template <class WritePixels>
 void write_through(WriteProxy& proxy, OIIO::ImageOutput& output, const OIIO::ImageSpec& spec,
                    const WritePixels& write_pixels) {
@@ -207,7 +207,7 @@ void write_through(WriteProxy& proxy, OIIO::ImageOutput& output, const OIIO::Ima
     if (!is_written) throw std::runtime_error(output.geterror());
 }
 
-/// Sends a file of the extension's format, with the pixels that `write_pixels` writes.
+/// Sends a file in the extension's format, with the pixels that `write_pixels` writes.
 template <class WritePixels>
 void write_file(OIIO::ImageSpec& spec, const char* extension, candela::ByteSink& sink, Way way,
                 const WritePixels& write_pixels) {
@@ -217,7 +217,7 @@ void write_file(OIIO::ImageSpec& spec, const char* extension, candela::ByteSink&
         OIIO::ImageOutput::create(std::string("picture.") + extension);
     if (output == nullptr) throw std::runtime_error(OIIO::geterror());
     spec.attribute("Software", "Candela");
-    // If it is missing, some writers insert the current time, and no two files of one picture are the same.
+    // If it is missing, some writers insert the current time, so that no two files of a picture are the same.
     spec.attribute("DateTime", "");
     spec.attribute("CompressionQuality", 95);
     auto* const random_access = dynamic_cast<candela::RandomAccessSink*>(&sink);
@@ -261,10 +261,10 @@ class OpenImageIo final : public candela::ImageFormat, public candela::RowFormat
         const bool has_tiles = std::max(whole.width, whole.height) >= k_tiled_from;
         if (has_tiles) spec.tile_width = spec.tile_height = k_tile;
         const bool is_exr = std::string_view(extension) == "exr";
-        // It is in the Exif data of a TIFF, for which libtiff reads back what it has written.
+        // In a TIFF it goes into the Exif data, for which libtiff reads back its own output.
         if (has_tiles && !is_exr) spec.erase_attribute("oiio:ColorSpace");
         const Way way = has_tiles || is_exr ? Way::direct : Way::file;
-        // So many rows at once that all cores have something to compress.
+        // Enough rows at once to keep all cores busy compressing.
         const auto tile_rows = std::max<std::size_t>(k_at_once / (spec.scanline_bytes(true) * k_tile), 1);
         const int at_once = k_tile * static_cast<int>(std::min<std::size_t>(tile_rows, 1024));
         write_file(spec, extension, sink, way, [&](OIIO::ImageOutput& output) {
@@ -307,8 +307,8 @@ class OpenImageIo final : public candela::ImageFormat, public candela::RowFormat
         const OIIO::ImageSpec& spec = input->spec();
         const std::span<float> pixels =
             sink.allocate(spec.width, spec.height, !spec.format.is_floating_point());
-        // Grey pictures have one channel; channels after the third are alpha and the like. All at once: row
-        // by row, a file with tiles, or with a plane for each channel, would be decoded once for each row.
+        // Grey pictures have one channel; channels after the third are alpha and the like. Read all at once:
+        // row by row, a file with tiles or a plane per channel would be decoded once per row.
         const bool is_grey = spec.nchannels < 3;
         constexpr OIIO::stride_t k_pixel = 3 * sizeof(float);
         if (!input->read_image(0, 0, 0, is_grey ? 1 : 3, OIIO::TypeFloat, pixels.data(), k_pixel))
@@ -348,7 +348,7 @@ CANDELA_PLUGIN(
     image, OpenImageIo, k_no_fields,
     {.title = "OpenImageIO",
      .summary =
-         "Every other format: OpenEXR, TIFF, Radiance and more. Yields to plugins made for one format.",
+         "All other formats: OpenEXR, TIFF, Radiance and more. Yields to plugins dedicated to one format.",
      .reference = "Gritz and contributors (2008-), OpenImageIO",
      .properties = k_properties,
      .formats = k_formats})

@@ -1,5 +1,5 @@
-// Where something is wrong, libpng calls longjmp(). So that no destructor is jumped over, its functions are
-// called by calls() alone.
+// On errors, libpng calls longjmp(). Its functions are called only by calls(), so that no destructor is
+// jumped over.
 #include "decode.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace {
 
-/// What reads a file, and what libpng has found wrong with it.
+/// The file being read, and the error that libpng found in it.
 class Decoder {
   public:
     explicit Decoder(std::FILE* file) : file_(file) {
@@ -37,7 +37,7 @@ class Decoder {
     Decoder& operator=(const Decoder&) = delete;
     ~Decoder() { libpng.destroy_read_struct(&png_, &info_, nullptr); }
 
-    /// Calls `function(png, info)`, which may be left at any call of libpng.
+    /// Calls `function(png, info)`, which any libpng call may leave early.
     template <class Function>
     void calls(const Function& function) {
         // NOLINTNEXTLINE(modernize-avoid-setjmp-longjmp)
@@ -78,15 +78,15 @@ void require_signature(std::FILE* file) {
     const std::string_view begin(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), file));
     if (begin == k_png) return;
     throw std::runtime_error(begin.starts_with(k_jpeg)
-                                 ? "it is no PNG file but a JPEG file; its name has to end in .jpg"
-                                 : "it is no PNG file");
+                                 ? "it is not a PNG file but a JPEG file; its name must end in .jpg"
+                                 : "it is not a PNG file");
 }
 
-// Deflate makes up to 1032 bytes of one, each of which is eight pixels of one bit.
+// Deflate expands one byte to at most 1032, each holding up to eight one-bit pixels.
 constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
 
-/// A row's samples of 8 or 16 bits as numbers from 0 to 1. Of grey and opacity, or colour and opacity, the
-/// last channel goes to `opacity`, unless that is null.
+/// Converts a row's samples of 8 or 16 bits to numbers from 0 to 1. The opacity channel, if any, goes to
+/// `opacity`, unless that is null.
 void convert(std::span<const png_byte> row, int depth, std::size_t channels, float* to, float* opacity) {
     const std::size_t sample = depth == 16 ? 2 : 1;
     const auto value = [&](const png_byte* at) {
@@ -118,7 +118,7 @@ void read_png(const char* path, candela::PictureSink& sink) {
     int passes = 1, depth = 0;
     std::size_t channels = 0, row_size = 0;
     decoder.calls([&](png_structp png, png_infop info) {
-        libpng.set_expand(png);  // palettes, and samples of less than 8 bits
+        libpng.set_expand(png);  // palettes, and samples of fewer than 8 bits
         passes = libpng.set_interlace_handling(png);
         libpng.read_update_info(png, info);
         depth = libpng.get_bit_depth(png, info);

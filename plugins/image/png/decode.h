@@ -2,6 +2,6 @@
 
 #include "candela/image.h"
 
-/// Reads a PNG file of any kind, by libpng: its first three channels, or its grey; neither gamma nor
-/// transparency is applied. Throws std::runtime_error.
+/// Reads a PNG file of any kind with libpng: its first three channels, or its grey channel. Applies neither
+/// gamma nor transparency. Throws std::runtime_error.
 void read_png(const char* path, candela::PictureSink& sink);

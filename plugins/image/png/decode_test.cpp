@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int k_width = 37, k_height = 23;  // of which Adam7's passes leave remainders
+constexpr int k_width = 37, k_height = 23;  // so that Adam7's passes have remainders
 
 struct Kind {
     int color_type;
@@ -59,7 +59,7 @@ std::vector<Kind> all_kinds() {
     return kinds;
 }
 
-/// A file of random samples, with transparency and a gamma that change nothing, and the colours that it has.
+/// A file of random samples, with transparency and a gamma that must have no effect, and its colours.
 std::vector<float> write_random_png(const fs::path& file, const Kind& kind) {
     std::minstd_rand random(11);
     const auto sample = [&] { return static_cast<unsigned>(random() >> 8) & ((1u << kind.depth) - 1); };
@@ -115,7 +115,7 @@ std::vector<float> write_random_png(const fs::path& file, const Kind& kind) {
 
 }  // namespace
 
-TEST_CASE("a PNG of any kind is read as what was written, whatever its transparency and gamma") {
+TEST_CASE("a PNG of any kind is read as it was written, whatever its transparency and gamma") {
     const fs::path file = scratch_directory() / "random.png";
     for (const Kind& kind : all_kinds()) {
         INFO("colour type " << kind.color_type << ", " << kind.depth << " bits"
@@ -141,7 +141,7 @@ TEST_CASE("a PNG that is cut off anywhere, or damaged, is an error") {
         for (std::size_t size = 0; size < whole.size(); size += size < 100 ? 1 : 97) {
             INFO(size);
             write_file(file, whole.substr(0, size));
-            CHECK(problem_of("png", file) == (size < 8 ? "it is no PNG file" : "it is cut off"));
+            CHECK(problem_of("png", file) == (size < 8 ? "it is not a PNG file" : "it is cut off"));
         }
         std::string damaged = whole;
         damaged[whole.size() / 2] ^= 1;
@@ -150,7 +150,7 @@ TEST_CASE("a PNG that is cut off anywhere, or damaged, is an error") {
     }
 }
 
-TEST_CASE("a PNG whose header speaks of more pixels than its bytes can hold is refused before it is read") {
+TEST_CASE("a PNG whose header declares more pixels than its bytes can hold is refused before it is read") {
     const fs::path file = scratch_directory() / "large.png";
     write_random_png(file, {PNG_COLOR_TYPE_GRAY, 1, false});
     const std::string whole = read_file(file);
@@ -165,11 +165,11 @@ TEST_CASE("a PNG whose header speaks of more pixels than its bytes can hold is r
     CHECK(problem_of("png", picture).find("too small for its pixels") != std::string::npos);
 }
 
-TEST_CASE("what is no PNG is said to be none, and a JPEG by its name") {
+TEST_CASE("a file that is not a PNG is refused as such, and a JPEG by name") {
     const fs::path file = scratch_directory() / "other.png";
     write_file(file, "\xff\xd8\xff\xe0 the rest");
     CHECK(problem_of("png", file).find("JPEG") != std::string::npos);
     write_file(file, "GIF89a and so on");
-    CHECK(problem_of("png", file) == "it is no PNG file");
+    CHECK(problem_of("png", file) == "it is not a PNG file");
     CHECK(problem_of("png", scratch_directory() / "nowhere.png") == "it cannot be opened");
 }

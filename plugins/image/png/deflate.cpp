@@ -15,10 +15,10 @@
 
 namespace {
 
-/// What the output of `deflate` may take: the band itself with the frames of stored blocks.
+/// The largest size of the output of `deflate`: the band itself, framed as stored blocks.
 std::size_t room_for(std::span<const std::uint8_t> band) { return band.size() + band.size() / 8 + 64; }
 
-[[noreturn]] void fail() { throw std::logic_error("a band could not be compressed"); }
+[[noreturn]] void fail() { throw std::logic_error("a band cannot be compressed"); }
 
 /// Several times faster than zlib.
 class IsalDeflater final : public Deflater {
@@ -57,7 +57,8 @@ class IsalDeflater final : public Deflater {
     }
 
   private:
-    /// As a block that is not compressed (RFC 1951, 3.2.4) and not the last. The number of bytes written.
+    /// Writes an uncompressed block (RFC 1951, 3.2.4) that is not the last. Returns the number of bytes
+    /// written.
     static std::size_t store(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> out) {
         const auto size = static_cast<std::uint16_t>(bytes.size());
         const auto inverse = static_cast<std::uint16_t>(~size);

@@ -1,4 +1,4 @@
-// From bytes to a deflate stream (RFC 1951), in bands that different threads can process.
+// Turns bytes into a deflate stream (RFC 1951), in bands that different threads can process.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class Deflater {
     Deflater& operator=(const Deflater&) = delete;
     virtual ~Deflater();
 
-    /// The band of less than 2^31 bytes, compressed; valid until the next call. `is_last`: it ends the
-    /// stream. Throws std::bad_alloc.
+    /// Compresses a band of less than 2^31 bytes. The result is valid until the next call. `is_last`: it ends
+    /// the stream. Throws std::bad_alloc.
     virtual std::span<const std::uint8_t> deflate(std::span<const std::uint8_t> band, bool is_last) = 0;
 };

@@ -6,7 +6,7 @@
 
 namespace {
 
-/// For less than 256 bytes: many are counted at a time, in vectors of small numbers.
+/// For fewer than 256 bytes, so that many counters fit into a vector of bytes.
 [[gnu::always_inline]] inline std::uint8_t differences_in_block(const std::uint8_t* a, const std::uint8_t* b,
                                                                 std::size_t count) {
     std::uint8_t sum = 0;
@@ -26,7 +26,7 @@ struct DifferencesLoop {
     }
 };
 
-/// How many of `count` bytes differ.
+/// The number of differing bytes among `count`.
 std::size_t differences(const std::uint8_t* a, const std::uint8_t* b, std::size_t count) {
     std::size_t result = 0;
     std::size_t* const found = &result;
@@ -48,7 +48,8 @@ void filter_row(std::span<const std::uint8_t> row, const std::uint8_t* above, st
     enum : std::uint8_t { k_sub = 1, k_up = 2 };
     const std::uint8_t* const left = row.data();
     const std::span<const std::uint8_t> rest = row.subspan(k_pixel);
-    if (above != nullptr && std::memcmp(row.data(), above, row.size()) == 0) {  // a background is soon done
+    if (above != nullptr &&
+        std::memcmp(row.data(), above, row.size()) == 0) {  // a background is done quickly
         *result++ = k_up;
         std::memset(result, 0, row.size());
     } else if (above != nullptr &&

@@ -14,9 +14,9 @@ boost::dll::shared_library loaded() {
     boost::dll::shared_library library(
         name, problem, boost::dll::load_mode::search_system_folders | boost::dll::load_mode::rtld_local);
     if (problem) {
-        throw std::runtime_error("PNG files are read by " + name +
-                                 ", which cannot be loaded (Debian's package libpng" + number + "-" + number +
-                                 " has it): " + problem.message());
+        throw std::runtime_error("reading PNG files needs " + name +
+                                 ", which cannot be loaded (it is in Debian's package libpng" + number + "-" +
+                                 number + "): " + problem.message());
     }
     return library;
 }
@@ -26,7 +26,7 @@ boost::dll::shared_library loaded() {
 LibPng::LibPng() : library(loaded()) {}
 
 const LibPng& LibPng::instance() {
-    // Not destroyed: threads may still read.
+    // Never destroyed: threads may still be reading.
     static const LibPng* const k_libpng = new LibPng;
     return *k_libpng;
 }

@@ -4,8 +4,8 @@
 
 #include <boost/dll/shared_library.hpp>
 
-/// libpng's functions, loaded when a picture is first read: writing does without, and starts sooner so. One
-/// for the process, which lives until its end.
+/// libpng's functions, loaded when a picture is first read: writing does not need them, and so starts sooner.
+/// One instance per process, never destroyed.
 struct LibPng {
     boost::dll::shared_library library;
 
@@ -31,7 +31,7 @@ struct LibPng {
     CANDELA_PNG_FUNCTION(read_end);
 #undef CANDELA_PNG_FUNCTION
 
-    /// Throws std::runtime_error that names the library where it cannot be loaded.
+    /// Throws std::runtime_error naming the library if it cannot be loaded.
     static const LibPng& instance();
 
   private:

@@ -60,7 +60,7 @@ struct Tools {
     Scratch filtered;
 };
 
-/// The rows from `begin` to `end`, compressed, and their contribution to the checksum of the whole.
+/// The compressed rows from `begin` to `end`, and their contribution to the checksum of the whole.
 struct Band {
     std::size_t begin = 0, end = 0;
     Bytes chunk{};
@@ -82,7 +82,7 @@ struct Rows {
     }
 };
 
-[[noreturn]] void fail() { throw std::runtime_error("this is no picture that a PNG file can hold"); }
+[[noreturn]] void fail() { throw std::runtime_error("a PNG file cannot hold this picture"); }
 
 struct PngOptions {
     std::int32_t compression;
@@ -126,7 +126,7 @@ class Png final : public candela::ImageFormat, public candela::RowFormat {
         candela::Pool<Tools> pool;
         const auto make = [&] { return std::make_unique<Tools>(options_.compression); };
         uLong adler = k_adler_of_nothing;
-        Bytes above;  // the row before those at hand
+        Bytes above;  // the row before the current ones
         std::vector<Band> bands;
         for (std::size_t first = 0; first < count; first += bands.size()) {
             std::size_t end = first + 1;
@@ -178,7 +178,7 @@ class Png final : public candela::ImageFormat, public candela::RowFormat {
 };
 
 constexpr auto k_fields = fields(
-    integer(&PngOptions::compression, "compression", 1, "from 0, none, to 9, smallest file").range(0, 9));
+    integer(&PngOptions::compression, "compression", 1, "from 0 (none) to 9 (smallest file)").range(0, 9));
 
 constexpr candela::FileFormat k_formats[] = {
     {.extension = "png", .title = "Portable Network Graphics, 8 bits per channel", .reads = true}};
@@ -187,6 +187,6 @@ constexpr candela::FileFormat k_formats[] = {
 
 CANDELA_PLUGIN(image, Png, k_fields,
                {.title = "PNG",
-                .summary = "The everyday format: lossless, small, read by everything.",
+                .summary = "The everyday format: lossless, compact, read by every program.",
                 .reference = "W3C (2003), Portable Network Graphics (PNG) Specification, second edition",
                 .formats = k_formats})

@@ -78,7 +78,7 @@ Bytes png_of(const Picture& picture, int compression = 1, int threads = 2,
     return memory.bytes;
 }
 
-/// As libpng reads it, without a warning.
+/// Reads a file with libpng, without a warning.
 Picture read_by_libpng(const Bytes& file) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -172,7 +172,7 @@ class FullDisk final : public candela::ByteSink {
 
 }  // namespace
 
-TEST_CASE("a PNG holds the pixels to the bit, whatever its size, its compression and what it shows") {
+TEST_CASE("a PNG preserves every bit of the pixels, whatever its size, compression and content") {
     const int compression = GENERATE(range(0, 10));
     for (const auto& [width, height] : k_sizes) {
         check_round_trip(flat(width, height), compression);
@@ -200,7 +200,7 @@ TEST_CASE("a PNG is the same to the byte wherever its compressor lies in memory"
     for (const Spot& spot : {Spot{6, 3, 44}, Spot{7, 3, 44}, Spot{8, 3, 37}, Spot{6, 4, 44}, Spot{7, 4, 44},
                              Spot{8, 4, 30}, Spot{7, 5, 37}, Spot{8, 5, 37}})
         std::fill_n(&dark.pixels[3 * (16 * spot.y + spot.x)], 3, spot.gray);
-    // Large blocks get mappings of their own, and whatever lay at the last one's address moves on.
+    // Large blocks get their own mappings, so that the next compressor lies at another address.
     mallopt(M_MMAP_THRESHOLD, 1 << 16);
     const Bytes file = png_of(dark, 1, 1);
     int differing = 0;
@@ -213,7 +213,7 @@ TEST_CASE("a PNG is the same to the byte wherever its compressor lies in memory"
     CHECK(differing == 0);
 }
 
-TEST_CASE("a PNG gets no larger the more it is compressed") {
+TEST_CASE("a PNG does not grow with its compression level") {
     const Picture picture = gradient(1280, 720);
     std::size_t before = png_of(picture, 0).size();
     CHECK(before > picture.pixels.size());
@@ -226,7 +226,7 @@ TEST_CASE("a PNG gets no larger the more it is compressed") {
     CHECK(png_of(noise(1280, 720)).size() < picture.pixels.size() + picture.pixels.size() / 500);
 }
 
-TEST_CASE("a PNG says that it is sRGB only if it is") {
+TEST_CASE("a PNG is marked as sRGB only if it is") {
     const Picture picture = gradient(30, 20);
     const Bytes file = png_of(picture, 1, 1, candela::ColorEncoding::none);
     CHECK(types_of(chunks_of(file)) == " IHDR IDAT IEND");
@@ -235,7 +235,7 @@ TEST_CASE("a PNG says that it is sRGB only if it is") {
     CHECK(chunks.at(1).contents == Bytes{0});
 }
 
-TEST_CASE("what the sink of a PNG throws comes out, wherever the disk is full") {
+TEST_CASE("an exception from a PNG's sink propagates, wherever the disk is full") {
     const Picture picture = noise(641, 479);
     const std::size_t size = png_of(picture).size();
     const auto writer = instance<candela::ImageFormat>("png");
@@ -252,7 +252,7 @@ TEST_CASE("what the sink of a PNG throws comes out, wherever the disk is full") 
     CHECK_NOTHROW(writer->write(picture.view(), "png", disk));
 }
 
-TEST_CASE("a picture that no PNG can hold is refused") {
+TEST_CASE("a picture that a PNG cannot hold is refused") {
     const auto writer = instance<candela::ImageFormat>("png");
     const Picture whole = flat(4, 4);
     for (const auto& [width, height] : {std::pair{0, 4}, {4, 0}, {-4, 4}, {4, 5}}) {

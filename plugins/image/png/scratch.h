@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
-/// Grows, and keeps what it has for the next band. Nobody fills it with zeros, so that pages which nothing is
-/// written to cost nothing.
+/// Grows, and keeps its memory for the next band. It is not filled with zeros, so that untouched pages cost
+/// nothing.
 class Scratch {
   public:
     /// Its contents are undefined; valid until the next call.

@@ -18,7 +18,7 @@ using namespace candela::sdk;
 
 namespace {
 
-/// The two formats that take a dozen lines to write and a few more to read.
+/// Two formats that take a dozen lines to write and a few more to read.
 class Pnm final : public candela::ImageFormat, public candela::RowFormat {
   public:
     explicit Pnm(const NoParams&) {}
@@ -38,7 +38,7 @@ class Pnm final : public candela::ImageFormat, public candela::RowFormat {
         }
     }
 
-    /// Those of a PFM run from the bottom.
+    /// A PFM's rows run from the bottom.
     bool writes_rows(const char* extension) const override { return std::string_view(extension) == "ppm"; }
 
     void write_rows(const candela::PictureView& whole, candela::PictureRows& rows, const char*,
@@ -86,11 +86,11 @@ class Pnm final : public candela::ImageFormat, public candela::RowFormat {
         int number = 0;
         const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (problem != std::errc() || end != text.data() + text.size() || number < 1 || number > 65536)
-            throw std::runtime_error("'" + text + "' in its header is no number from 1 to 65536");
+            throw std::runtime_error("'" + text + "' in its header is not a number from 1 to 65536");
         return number;
     }
 
-    /// Before memory is asked for that the header alone speaks of.
+    /// Checked before memory is allocated on the header's word alone.
     static void require_bytes(std::istream& file, const char* path, std::uintmax_t count) {
         const std::uintmax_t size = std::filesystem::file_size(path);
         const auto begin = static_cast<std::uintmax_t>(file.tellg());
@@ -147,6 +147,7 @@ constexpr candela::FileFormat k_formats[] = {
 CANDELA_PLUGIN(
     image, Pnm, k_no_fields,
     {.title = "PPM and PFM",
-     .summary = "Uncompressed pictures, 8-bit and float, that every tool reads and a dozen lines write.",
+     .summary =
+         "Uncompressed 8-bit and float pictures, which every tool reads and a dozen lines of code write.",
      .reference = "Poskanzer (1988), PPM; Debevec (2001), PFM",
      .formats = k_formats})

@@ -40,7 +40,7 @@ Json vector_json(Vec3 v) { return {v.x, v.y, v.z}; }
 
 Json limit_json(float limit) { return std::isfinite(limit) ? Json(limit) : Json(); }
 
-/// A value as a person writes it in a scene file.
+/// A value as written in a scene file.
 Json value_json(const ParamSpec& p, const ParamValue& written) {
     switch (p.type) {
         case ParamType::real:
@@ -56,13 +56,14 @@ Json value_json(const ParamSpec& p, const ParamValue& written) {
     }
 }
 
-/// Whether the page has a control for it. The others keep the scene's value.
+/// Whether the page has a control for it; otherwise it keeps the scene's value.
 bool is_adjustable(const ParamSpec& p) {
     return p.type != ParamType::text && p.type != ParamType::file && p.type != ParamType::matrix &&
            p.type != ParamType::numbers;
 }
 
-/// What kernels read of values that the page cannot change: { name: { kind, value } }, as shaders take them.
+/// The values that kernels read and the page cannot change: { name: { kind, value } }, in the form for
+/// shaders.
 Json fixed_json(const ExportedModel& model, const ExportedValues& values) {
     Json result = Json::object();
     for (const std::size_t i : model.plugin->kernel.members) {
@@ -95,7 +96,7 @@ Json parameter_json(const ParamSpec& p) {
             {"choices", std::move(choices)}};
 }
 
-/// Values that people choose by a name: { name, source, values, color }.
+/// Named sets of values: { name, source, values, color }.
 Json preset_json(const PluginDescriptor& plugin, const PresetSpec& preset) {
     Json values = Json::object();
     for (const PresetValue& v : preset.values) {
@@ -129,7 +130,7 @@ Json model_json(const ExportedModel& model, const std::string& glsl) {
             {"glsl", glsl}};
 }
 
-/// Where a light model's lights are in the table that shaders read.
+/// The places of a light model's lights in the table that shaders read.
 Json block_json(const ExportedModel& model, const LightBlock& block) {
     Json members = Json::array();
     for (const std::size_t i : model.plugin->kernel.members)
@@ -224,7 +225,7 @@ Json image_json(const ExportedImage& image) {
             {"color_management", image.color_management == ColorEncoding::srgb ? "srgb" : "none"}};
 }
 
-/// How many times as high as its own angle or height the picture is, so that the scene's frame fits in.
+/// The factor by which the picture is higher than its own angle or height, so that the scene's frame fits in.
 double widening(const ExportedObserver& observer) {
     if (observer.projection == Projection::orthographic)
         return observer.height == observer.unfitted_height
@@ -245,7 +246,7 @@ Json observer_json(const ExportedObserver& observer) {
             {"widening", widening(observer)}};
 }
 
-/// The arrays that it names are put where they belong.
+/// Adds the arrays that it names to the page.
 Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
     const GlslParts glsl = glsl_of(scene);
     Json lights = Json::array(), objects = Json::array();
@@ -306,7 +307,7 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
             {"arrays", arrays.names()}};
 }
 
-/// Bytes that are not UTF-8 are replaced.
+/// Invalid UTF-8 is replaced.
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 class WebGlTarget final : public Target {
@@ -342,6 +343,7 @@ class WebGlTarget final : public Target {
 
 using candela::webgl_target::WebGlTarget;
 
-CANDELA_PLUGIN(target, WebGlTarget, candela::sdk::k_no_fields,
-               {.title = "WebGL",
-                .summary = "one HTML page with WebGL 2: look around, switch models, move sliders"})
+CANDELA_PLUGIN(
+    target, WebGlTarget, candela::sdk::k_no_fields,
+    {.title = "WebGL",
+     .summary = "one HTML page with WebGL 2 in which to look around, switch models and move sliders"})

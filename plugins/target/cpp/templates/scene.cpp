@@ -127,7 +127,7 @@ void find_normals(Object& o) {
     }
 }
 
-// ---- 5. What each pixel sees ----------------------------------------------------------------------------------------
+// ---- 5. The surface that each pixel sees ----------------------------------------------------------------------------
 
 const vec3 k_forward = normalize(k_look_at - k_eye);
 const vec3 k_right = normalize(cross(k_forward, k_up));

@@ -14,7 +14,7 @@ async function copyToClipboard(text) {
 
 const SHOWN_MS = 2500;
 
-/** Says for a while on a button what it has done. */
+/** Shows the outcome on a button for a while. */
 function showOn(button, text) {
     button.dataset.name ??= button.textContent;
     button.textContent = text;
@@ -34,28 +34,28 @@ export function connectActions(settings, render) {
     const onClick = (id, action) => document.getElementById(id).addEventListener("click", action);
     onClick("reset-view", () => {
         settings.resetView();
-        announce("The view is as the scene says.");
+        announce("The view is reset.");
     });
     onClick("reset-all", () => {
         settings.reset();
         showNotice("");
         history.replaceState(null, "", location.pathname + location.search);
-        announce("All is as the scene says.");
+        announce("All settings are reset to the scene's.");
     });
     onClick("copy-link", async () => {
         history.replaceState(null, "", fragmentOf(settings) || location.pathname + location.search);
         const isCopied = await copyToClipboard(location.href);
-        announce(isCopied ? "The link is copied." : "The link is in the address bar.");
-        showOn(document.getElementById("copy-link"), isCopied ? "Link copied" : "Link is in the address bar");
+        announce(isCopied ? "Link copied." : "The link is in the address bar.");
+        showOn(document.getElementById("copy-link"), isCopied ? "Link copied" : "Link in the address bar");
     });
     onClick("copy-options", async () => {
         const button = document.getElementById("copy-options"), text = commandLineOf(settings);
         if (text === "") {
-            showOn(button, "All is as the scene says");
+            showOn(button, "No changes to copy");
             return;
         }
         const isCopied = await copyToClipboard(text);
-        announce(isCopied ? "The options of candela render are copied." : text);
+        announce(isCopied ? "Options for candela render copied." : text);
         if (isCopied) showOn(button, "Options copied");
         else showNotice(text);
     });
@@ -64,21 +64,21 @@ export function connectActions(settings, render) {
         try {
             const href = pngUrl(await render(width, height), width, height);
             element("a", { href, download: `${settings.scene.title}.png` }).click();
-            announce("The picture is saved.");
+            announce("Picture saved.");
         } catch (error) {
             showError(error);
         }
     });
 }
 
-/** Where `candela view` serves the page, what has been changed in it can be written into the scene's files. */
+/** If `candela view` serves the page, changes made in it can be written to the scene's files. */
 export function connectSaving(settings) {
     const button = document.getElementById("save-scene");
     button.hidden = false;
     button.addEventListener("click", async () => {
         const query = queryOf(settings);
         if (query === "") {
-            showOn(button, "All is as the scene says");
+            showOn(button, "No changes to save");
             return;
         }
         button.disabled = true;
@@ -86,14 +86,14 @@ export function connectSaving(settings) {
         let problem = "";
         try {
             const response = await fetch(`save?${query}`, { method: "POST" });
-            if (response.ok) announce("The changes are saved.");
+            if (response.ok) announce("Changes saved.");
             else problem = (await response.text()).trim();
         } catch (error) {
             problem = error.message;
         }
         button.disabled = false;
         if (problem !== "") settings.expectSaved(new Map());
-        showNotice(problem === "" ? "" : `The changes are not saved. ${problem}`);
+        showNotice(problem === "" ? "" : `The changes were not saved. ${problem}`);
         showOn(button, problem === "" ? "Saved" : "Not saved");
     });
 }

@@ -2,7 +2,7 @@ import { decodeColor } from "./colors.js";
 import { COLOR } from "./parameters.js";
 import { normalize } from "./vectors.js";
 
-/** What a shader gets for a parameter's value: { kind: "int" | "float" | "vec3", value }, angles in radians. */
+/** A parameter's value for a shader: { kind: "int" | "float" | "vec3", value }, angles in radians. */
 function toUniform(parameter, value, isSrgb) {
     switch (parameter.type) {
         case "real":
@@ -29,8 +29,8 @@ function fixedUniforms(name, { kind, value }) {
 }
 
 /**
- * Pairs of a uniform's name and value: the setting `${prefix}${name}` becomes the member `${struct}.${name}`, and so does
- * what is `fixed`.
+ * Pairs of a uniform's name and value: the setting `${prefix}${name}` becomes the member `${struct}.${name}`, as do the `fixed`
+ * members.
  */
 function modelUniforms(settings, model, prefix, fixed, struct, isSrgb) {
     const adjustable = model.parameters
@@ -49,14 +49,14 @@ function structMembers(settings, model, prefix, fixed, isSrgb) {
     });
 }
 
-/** What a reflection model reads of an object's material, be it the object's own model or not. */
+/** The values of an object's material that a reflection model reads, whether or not it is the object's own model. */
 export function materialUniforms(settings, index, reflection) {
     const { scene } = settings, isSrgb = scene.image.color_management === "srgb";
     return modelUniforms(settings, scene.reflection_models[reflection], `object.${index}.material.${reflection}.`,
         scene.objects[index].fixed.material[reflection], "material", isSrgb);
 }
 
-/** A snapshot of the settings as the renderer takes them, so that they may change while it refines a picture. */
+/** A snapshot of the settings for the renderer, so that they may change while it refines a picture. */
 export function appearanceOf(settings) {
     const { scene } = settings;
     const isSrgb = scene.image.color_management === "srgb";

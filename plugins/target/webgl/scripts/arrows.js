@@ -2,9 +2,9 @@ import { viewAxes, viewHeight } from "./camera.js";
 import { svgElement } from "./elements.js";
 import { add, dot, scale, subtract } from "./vectors.js";
 
-export const ARROW_LENGTH = 0.16;  // of the picture's height, at the depth of the point
+export const ARROW_LENGTH = 0.16;  // relative to the picture's height, at the depth of the point
 
-/** Where a point of the scene is in the picture, in units of its height from its middle, to the right and down; null behind the observer. */
+/** The position of a scene's point in the picture, in picture heights to the right of and below its centre; null behind the observer. */
 export function project(observer, position) {
     const { forward, right, up } = viewAxes(observer), from = subtract(position, observer.position);
     const depth = dot(forward, from);
@@ -12,10 +12,10 @@ export function project(observer, position) {
     return across > 0 ? { x: dot(right, from) / across, y: -dot(up, from) / across, across } : null;
 }
 
-/** What arrows are drawn into; it lies over the picture. */
+/** The drawing that arrows are added to; it lies over the picture. */
 export const arrowLayer = () => svgElement("svg", { id: "arrows", "aria-hidden": "true" });
 
-/** Unit vectors that stand on a point, as arrows with their names, drawn into an SVG element that covers the picture. */
+/** Draws unit vectors at a point as named arrows into an SVG element that covers the picture. */
 export function drawArrows(svg, observer, width, height, position, vectors) {
     svg.replaceChildren();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);

@@ -15,7 +15,7 @@ export function encodeTextForUrl(text) {
     return btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/** The inverse of encodeTextForUrl. Throws where the text is not base64url, or not UTF-8. */
+/** The inverse of encodeTextForUrl. Throws if the text is not base64url or not UTF-8. */
 export function decodeTextFromUrl(base64url) {
     const bytes = decodeBase64(base64url.replaceAll("-", "+").replaceAll("_", "/"));
     return new TextDecoder("utf-8", { fatal: true }).decode(bytes);

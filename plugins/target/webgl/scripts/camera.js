@@ -14,18 +14,17 @@ export function viewHeight(observer) {
     return (observer.widening ?? 1) * own;
 }
 
-/** What is wrong with an observer; null if it is valid. */
+/** An invalid observer's error; null if it is valid. */
 export function validateObserver(observer) {
     const view = subtract(observer.look_at, observer.position);
-    if (!(length(view) > 0)) return "the observer must look at another place than its own";
-    if (length(cross(normalize(view), normalize(observer.up))) < 1e-6) return "the observer must not look along up";
+    if (!(length(view) > 0)) return "the observer must not look at its own position";
+    if (length(cross(normalize(view), normalize(observer.up))) < 1e-6) return "the observer must not look along its 'up'";
     return null;
 }
 
 /**
- * Clipping planes: nothing nearer than Candela shows, which is a tenth of a millimetre and less in a small scene, and all bounding
- * boxes before the far one. The depth buffer is filled by the fragment shader, with the same
- * relative precision at all distances.
+ * Clipping planes: the near one is Candela's, a tenth of a millimetre or less in a small scene, and the far one lies behind all
+ * bounding boxes. The fragment shader fills the depth buffer, with the same relative precision at all distances.
  */
 export function clippingPlanes(observer, forward, bounds) {
     let nearest = Infinity, farthest = -Infinity;
@@ -43,7 +42,7 @@ export function clippingPlanes(observer, forward, bounds) {
     return { near: Math.max(0.9 * nearest, Math.min(1e-4, 1e-5 * farthest)), far };
 }
 
-/** World space to clip space, column by column; `offset` moves the picture by so many pixels to the right and down. */
+/** World space to clip space, column by column; `offset` moves the picture right and down by that many pixels. */
 export function viewProjection(observer, bounds, width, height, offset) {
     const { forward, right, up } = viewAxes(observer);
     const { near, far } = clippingPlanes(observer, forward, bounds);
@@ -62,10 +61,10 @@ export function viewProjection(observer, bounds, width, height, offset) {
     return new Float32Array([0, 1, 2, 3].flatMap((i) => [x[i], y[i], z[i], w[i]]));
 }
 
-/** How far apart the lines of sight of two pixels, one beside the other, are: in metres, at a distance of 1 in perspective. */
+/** The distance between the lines of sight of two adjacent pixels: in metres, at a distance of 1 in perspective. */
 export const pixelSize = (observer, height) => viewHeight(observer) / height;
 
-/** The observer turned around what it looks at, by angles in radians; it stops short of the poles. */
+/** The observer turned around the point it looks at, by angles in radians, stopping short of the poles. */
 export function orbit(observer, azimuth, elevation) {
     const pole = normalize(observer.up);
     const offset = subtract(observer.position, observer.look_at);

@@ -1,4 +1,4 @@
-/** From 0-255 to linear intensities; sRGB is decoded as IEC 61966-2-1 says. */
+/** From 0-255 to linear intensities; sRGB is decoded by IEC 61966-2-1. */
 export function decodeColor(color, isSrgb) {
     return color.map((byte) => {
         const c = Math.min(byte, 255) / 255;

@@ -54,7 +54,7 @@ export class Controls {
         return result;
     }
 
-    /** A number field and a slider that show the same number; `take` gets what is entered, and in which of them. */
+    /** A number field and a slider that show the same number; `take` gets the entered number and its source. */
     numberPair(parameter, { low, high, step }, name, take) {
         const number = element("input", {
             type: "number", step: parameter.type === "integer" ? "1" : "any", inputMode: "decimal", "aria-label": name,
@@ -108,7 +108,7 @@ export class Controls {
         return row;
     }
 
-    /** One number for all channels, until someone asks for three or they differ. */
+    /** One number for all channels, until the user asks for three or they differ. */
     rgb(path, title) {
         const { parameter, initial } = this.settings.find(path);
         const isGray = ([r, g, b]) => r === g && g === b;
@@ -173,7 +173,7 @@ export class Controls {
         return row;
     }
 
-    /** The control for a path, as its parameter's type asks; null if there is no such setting. */
+    /** The control for a path, according to its parameter's type; null if there is no such setting. */
     of(path, title) {
         const found = this.settings.find(path);
         if (found === null) return null;

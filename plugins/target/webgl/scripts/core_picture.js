@@ -1,6 +1,6 @@
 import { queryOf } from "./options.js";
 
-/** Fetches the renderer's own picture of what the page shows, from `candela view`. Throws what it says is wrong. */
+/** Fetches the renderer's own picture of the page's scene from `candela view`. Throws the error that it reports. */
 export async function fetchPicture(settings, term = "") {
     const query = [queryOf(settings), term === "" ? "" : `terms=${term}`].filter((part) => part !== "").join("&");
     const response = await fetch(`reference.png?${query}`);
@@ -9,11 +9,11 @@ export async function fetchPicture(settings, term = "") {
 }
 
 /**
- * The picture of a page without WebGL 2: the renderer's own, which `candela view` makes anew whenever something has changed. Takes the
- * place of a Viewport.
+ * The picture of a page without WebGL 2: the renderer's own, which `candela view` renders again after every change. Replaces a
+ * Viewport.
  */
 export class CorePicture {
-    /** `onError` gets an error, or null after a picture has come. */
+    /** `onError` gets an error, or null after a picture has arrived. */
     constructor({ canvas, container, settings, onError }) {
         Object.assign(this, { canvas, container, settings, onError });
         this.context = canvas.getContext("2d", { alpha: false, willReadFrequently: true });
@@ -24,7 +24,7 @@ export class CorePicture {
         this.invalidate();
     }
 
-    /** As of Viewport: another scene. */
+    /** Like Viewport: another scene. */
     use() {
         this.invalidate();
     }
@@ -35,7 +35,7 @@ export class CorePicture {
         if (!this.isFetching) this.update();
     }
 
-    /** One picture at a time; what has changed meanwhile is in the next. */
+    /** One picture at a time; changes made meanwhile appear in the next. */
     async update() {
         this.isFetching = true;
         while (this.shown < this.wanted) {
@@ -61,10 +61,10 @@ export class CorePicture {
         Object.assign(this.canvas.style, { width: `${w}px`, height: `${h}px` });
     }
 
-    /** Rows of RGBA bytes, from the top, as soon as they show what is wanted; of the scene's size. */
+    /** Rows of RGBA bytes, from the top, of the scene's size, once they show the current settings. */
     async pixels(width, height) {
         const { image } = this.settings.scene;
-        if (width !== image.width || height !== image.height) throw new Error("Without WebGL 2, there is only a picture of the scene's own size.");
+        if (width !== image.width || height !== image.height) throw new Error("Without WebGL 2, only a picture of the scene's own size is available.");
         const picture = await fetchPicture(this.settings);
         const context = new OffscreenCanvas(width, height).getContext("2d", { alpha: false });
         context.drawImage(picture, 0, 0);

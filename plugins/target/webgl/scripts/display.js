@@ -6,9 +6,9 @@ import { SHOWN } from "./parameters.js";
 
 const TITLES = { lights: "Lights", room: "Room", axes: "Axes", observer: "From outside" };
 
-/** What is shown besides the scene's picture: lights, room and axes over it, and other pictures beside it. */
+/** The display in addition to the scene's picture: lights, room and axes over it, and other pictures next to it. */
 export class Display {
-    /** `bounds`: gives the objects' boxes; `setOthers`: gets the other views, as Viewport takes them; null where there can be none. */
+    /** `bounds`: returns the objects' boxes; `setOthers`: gets the other views in Viewport's form; null if there can be none. */
     constructor({ settings, picture, controls, bounds, onReset, setOthers }) {
         Object.assign(this, { settings, bounds, setOthers, container: picture.parentElement });
         this.markers = new Markers({ settings, picture, observer: () => settings.observer(), bounds });
@@ -52,7 +52,7 @@ export class Display {
         this.setOthers([...this.paneViews, ...(this.outside === null ? [] : [this.outside.view])]);
     }
 
-    /** After another scene has come. */
+    /** Called after another scene has arrived. */
     rebuild() {
         this.outside?.release();
         this.outside = null;

@@ -2,7 +2,7 @@ let elementCount = 0;
 export const newId = (word) => `${word}-${++elementCount}`;
 
 /**
- * `properties`: the element's own, "class", and attributes where the name holds a "-" or is "role" or "for". Children that
+ * `properties`: the element's own, "class", and attributes if the name contains a "-" or is "role" or "for". Children that
  * are null are left out. Texts come from scene files, so they are only ever set as text, never as HTML.
  */
 export function element(tag, properties = {}, ...children) {
@@ -25,5 +25,5 @@ export function svgElement(tag, attributes, ...children) {
     return result;
 }
 
-/** A text of any language, whose writing direction does not affect what stands around it. */
+/** A text of any language, whose writing direction does not affect its surroundings. */
 export const isolated = (text) => element("bdi", {}, text);

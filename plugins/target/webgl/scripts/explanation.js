@@ -33,11 +33,11 @@ function steps(title, list) {
 }
 
 /**
- * Explains a pixel, which is clicked or named by its coordinates: what `candela explain` says of it, with its vectors as arrows in the
- * picture. Only where `candela view` serves the page, since the explanation comes from there.
+ * Explains a pixel that is clicked or given by its coordinates: the output of `candela explain`, with its vectors as arrows in
+ * the picture. Available only if `candela view` serves the page, since the explanation comes from there.
  */
 export class Explanation {
-    /** `renderer`: gives the one that draws the page now. */
+    /** `renderer`: returns the page's current renderer. */
     constructor(settings, canvas, renderer) {
         Object.assign(this, { allSettings: settings, first: canvas, request: 0 });
         const byId = (id) => document.getElementById(id);
@@ -65,12 +65,12 @@ export class Explanation {
         this.fit();
     }
 
-    /** That of the first pane, and those beside it. */
+    /** The picture of the first pane, and those of the others. */
     pictures() {
         return [this.first, ...this.first.parentElement.querySelectorAll("canvas.pane")];
     }
 
-    /** There may be other pictures now, of another size. */
+    /** Called when there may be other pictures, or pictures of another size. */
     fit() {
         const { width, height } = this.allSettings.scene.image, count = this.pictures().length;
         this.x.max = width - 1;
@@ -80,14 +80,14 @@ export class Explanation {
         this.use(Number(this.pane.value));
     }
 
-    /** From now on, it is about that pane's picture, and the values that it shows. */
+    /** From now on explains that pane's picture, with the values that it shows. */
     use(pane) {
         this.pane.value = pane;
         Object.assign(this, { settings: this.allSettings.inPane(pane), canvas: this.pictures()[pane] });
         this.lobes.use(this.settings, this.canvas);
     }
 
-    /** What was explained is not what is shown any more. */
+    /** Called when the picture no longer shows the explained state. */
     clear() {
         this.request += 1;
         this.fit();
@@ -98,7 +98,7 @@ export class Explanation {
     }
 
     explainAt(pane, { clientX, clientY }) {
-        const box = this.pictures()[pane].getBoundingClientRect();  // before a change has the page laid out anew
+        const box = this.pictures()[pane].getBoundingClientRect();  // before a change triggers a new layout of the page
         this.pane.value = pane;
         this.fit();
         const { width, height } = this.settings.scene.image;
@@ -132,7 +132,7 @@ export class Explanation {
         this.result.replaceChildren(element("p", {}, `${pixel}: `, element("b", { class: "bytes" }, bytes.join(", "))), this.pixelTable(explanation), encodingAt(explanation));
         if (explanation.note) this.result.append(element("p", { class: "reference" }, explanation.note));
         const shown = element("div");
-        if (fragments.length === 0) this.result.append(element("p", {}, "No object is seen here: this is the background."));
+        if (fragments.length === 0) this.result.append(element("p", {}, "No object here: this is the background."));
         else this.result.append(...this.choice("Triangle", fragments.map((f) => `${nameOf(f.object)}, triangle ${f.triangle} (${number(100 * f.weight)} %)`), (i) => shown.replaceChildren(...this.fragmentParts(fragments[i]))), shown);
         announce(`${pixel} is explained: ${bytes.join(", ")}.`);
     }
@@ -163,7 +163,7 @@ export class Explanation {
     pointParts(fragment, point) {
         const shown = element("div"), name = ({ light, sample }) => nameOf(light) + (sample > 0 ? `, sample ${sample + 1}` : "");
         const choice = this.choice("Light", point.lights.map(name), (i) => shown.replaceChildren(...this.lightParts(fragment, point, point.lights[i])));
-        const sums = table("Of all lights", ["red", "green", "blue"], ["I_a", "I_d", "I_s", "I"].map((sum) => row(sum, ...point[sum].map(number))));
+        const sums = table("All lights", ["red", "green", "blue"], ["I_a", "I_d", "I_s", "I"].map((sum) => row(sum, ...point[sum].map(number))));
         if (point.lights.length === 0) this.drawVectors(point, vectorsOf(point, {}));
         return [steps("How N is found", point.normal_steps), ...choice, shown, sumAt(point), sums].filter((part) => part !== null);
     }
@@ -178,10 +178,10 @@ export class Explanation {
             element("p", {}, `C_o = ${numbers(point.C_o)}`),
             ...this.formulas(fragment.index, point, light),
             "N.L" in light ? element("p", {}, `N·L = ${number(light["N.L"])}`) : null,
-            table(`Of ${nameOf(light.light)}`, ["red", "green", "blue"],
+            table(`Light: ${nameOf(light.light)}`, ["red", "green", "blue"],
                 [...arriving, ...["I_a", "I_d", "I_s"].map((sum) => [sum, light[sum]])].map(([name, values]) => row(name, ...values.map(number)))),
-            steps(`What ${light.type} sends, step by step`, light.light_steps),
-            steps(`What ${light.reflection} reflects, step by step`, light.reflection_steps),
+            steps(`How ${light.type} emits, step by step`, light.light_steps),
+            steps(`How ${light.reflection} reflects, step by step`, light.reflection_steps),
         ].filter((part) => part !== null);
     }
 
@@ -192,7 +192,7 @@ export class Explanation {
             .filter((path) => settings.find(path) !== null).map((path) => [path.slice(prefix.length), settings.get(path)]));
         const reflection = settings.modelOf(scene.objects[index], "reflection"), named = scene.lights.filter(({ label }) => label === light.light);
         const models = [[scene.reflection_models[reflection], `object.${index}.material.${reflection}.`, light.reflection_steps]];
-        // Of two lights of one name, nobody knows which it is.
+        // With two lights of the same name, it is ambiguous.
         if (named.length === 1) models.unshift([scene.light_models[named[0].model], `light.${scene.lights.indexOf(named[0])}.value.`, light.light_steps]);
         return models.flatMap(([model, prefix, done]) => {
             const formula = formulaAt(model, point, light, valuesOf(model, prefix), done);

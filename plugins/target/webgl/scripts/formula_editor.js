@@ -10,18 +10,18 @@ import { compare } from "./reference.js";
 const DELAY_MS = 150;  // of the difference, which is drawn twice
 
 /**
- * A model's kernel in an editor. What compiles is drawn at once; what does not is said at its line, and the last that did stays. It can
- * be held against the shipped formula, and be kept as the beginning of a plugin.
+ * A model's kernel in an editor. A text that compiles is drawn at once; errors are shown at their lines, and the last text that
+ * compiled stays. It can be compared with the shipped formula, and be kept as the start of a plugin.
  */
 export class FormulaEditor {
     /**
-     * `page`: has settings, canvas, formulas (a map of texts by id), useFormulas(texts), which throws where they do not compile, and
-     * pixelsWith(texts, width, height). `isLive`: the page is served by `candela view`.
+     * `page`: has settings, canvas, formulas (a map of texts by id), useFormulas(texts), which throws if they do not compile,
+     * and pixelsWith(texts, width, height). `isLive`: the page is served by `candela view`.
      */
     constructor(page, isLive) {
         Object.assign(this, { page, isLive });
         this.id = null;
-        this.drafts = new Map();  // what was typed, by id, right or not
+        this.drafts = new Map();  // typed texts, by id, valid or not
         this.overlay = element("canvas", { id: "formula-canvas", "aria-hidden": "true", hidden: true });
         page.canvas.parentElement.append(this.overlay);
         onMoved(this.overlay, page.canvas, () => layOver(this.overlay, page.canvas));
@@ -37,7 +37,7 @@ export class FormulaEditor {
         this.sceneChanged();
     }
 
-    /** The choice of models is the new scene's; edits of models that it does not have are gone. */
+    /** Offers the new scene's models; edits of models that it does not have are dropped. */
     sceneChanged() {
         const { scene } = this.page.settings, ids = idsOf(scene);
         const chosen = ids.includes(this.model.value) ? this.model.value : ids.find((id) => id === `reflection/${scene.objects[0]?.reflection}`) ?? ids[0];
@@ -48,7 +48,7 @@ export class FormulaEditor {
             this.close();
             return;
         }
-        // The focus stays where it is. A shipped formula may be another one now.
+        // The focus stays where it is. A shipped formula may have changed.
         const isOwn = this.page.formulas.has(this.id) || this.drafts.has(this.id);
         if (!isOwn && this.editor.text !== this.shipped()) this.editor.text = this.shipped();
         this.show();
@@ -73,7 +73,7 @@ export class FormulaEditor {
             element("option", { value: "edited" }, "the edited formula"), element("option", { value: "shipped" }, "the shipped formula"), element("option", { value: "difference" }, "where the two differ"));
         this.showing.addEventListener("change", () => this.show());
         this.status = element("p", { id: "formula-status", role: "status" });
-        const reset = element("button", { type: "button", id: "formula-reset" }, "Shipped formula again");
+        const reset = element("button", { type: "button", id: "formula-reset" }, "Restore the shipped formula");
         reset.addEventListener("click", () => {
             this.editor.text = this.shipped();
             this.editor.focus();
@@ -103,7 +103,7 @@ export class FormulaEditor {
         this.show();
     }
 
-    /** What the picture shows follows the choice. */
+    /** Draws the picture that is chosen. */
     show() {
         const { page } = this, isEdited = page.formulas.size > 0, mode = this.showing.value;
         page.drawWith(mode === "shipped" ? new Map() : page.formulas);
@@ -118,7 +118,7 @@ export class FormulaEditor {
         if (this.page.formulas.size > 0 && this.showing.value !== "shipped") this.timer = setTimeout(() => this.compare(), DELAY_MS);
     }
 
-    /** Whether the picture would be another one if the formula were. */
+    /** Whether the picture depends on the formula. */
     isSeen() {
         return isUsed(appearanceOf(this.page.settings), this.id);
     }
@@ -127,7 +127,7 @@ export class FormulaEditor {
         const { page, overlay } = this, { width, height } = page.settings.scene.image;
         const { heat, largest, beyond, pixels } = compare(page.pixelsWith(page.formulas, width, height), page.pixelsWith(new Map(), width, height));
         this.status.textContent = !this.isSeen() ? "It compiles. Nothing in the picture uses this model."
-            : largest === 0 ? "The picture is that of the shipped formula."
+            : largest === 0 ? "The picture is identical to that of the shipped formula."
             : `${beyond} of ${pixels} pixels differ from the shipped formula's picture by more than 2 levels of 255; at most ${largest}.`;
         if (this.showing.value !== "difference") return;
         Object.assign(overlay, { width, height });
@@ -136,7 +136,7 @@ export class FormulaEditor {
         layOver(overlay, page.canvas);
     }
 
-    /** A name, and a button that makes a plugin's project of the formula, or says how. */
+    /** A name, and a button that makes a plugin project of the formula, or tells how. */
     keeping() {
         const name = element("input", { id: "formula-name", type: "text", value: "my-model", pattern: "[a-z][a-z0-9]*(-[a-z0-9]+)*", required: true, autocomplete: "off", spellcheck: false });
         const result = element("p", { id: "formula-kept", role: "status" });
@@ -144,7 +144,7 @@ export class FormulaEditor {
         button.addEventListener("click", async () => {
             if (!name.checkValidity()) {
                 name.setAttribute("aria-invalid", "true");
-                result.textContent = "A plugin's name has lower-case letters, digits and single hyphens, a letter first.";
+                result.textContent = "A plugin's name consists of lower-case letters, digits and single hyphens, and begins with a letter.";
                 return;
             }
             name.removeAttribute("aria-invalid");
@@ -156,13 +156,13 @@ export class FormulaEditor {
         return [element("div", { class: "line-of-controls" }, element("label", { for: "formula-name" }, "As a plugin called"), name, button), result];
     }
 
-    /** `candela view` makes the project in the folder that it was started in. */
+    /** `candela view` creates the project in the folder in which it was started. */
     async keepHere(name) {
         try {
             const response = await fetch(`keep?model=${encodeURIComponent(this.id)}&name=${encodeURIComponent(name)}`, { method: "POST", body: this.editor.text });
             return (await response.text()).trim();
         } catch (error) {
-            return `It is not kept. ${error.message}`;
+            return `The formula was not kept. ${error.message}`;
         }
     }
 
@@ -170,6 +170,6 @@ export class FormulaEditor {
         const href = URL.createObjectURL(new Blob([this.editor.text], { type: "text/plain" }));
         element("a", { href, download: `${name}.kernel` }).click();
         setTimeout(() => URL.revokeObjectURL(href));
-        return `${name}.kernel is downloaded. Beside it, run: candela plugin new reflection ${name} --from ${this.id} --kernel ${name}.kernel`;
+        return `${name}.kernel was downloaded. In its folder, run: candela plugin new reflection ${name} --from ${this.id} --kernel ${name}.kernel`;
     }
 }

@@ -6,7 +6,7 @@ import { dot } from "./vectors.js";
 const shown = (x) => (x === 0 ? "0" : String(Number(x.toPrecision(4))).replace("-", "−"));
 const VECTORS = ["N", "V", "L", "R", "H"];
 
-/** A number, or three of them; one for three equal ones. */
+/** A number, or three; one if all three are equal. */
 function valueElement(value) {
     if (typeof value === "number") return mathNumber(shown(value));
     const same = value.every((x) => x === value[0]);
@@ -14,7 +14,7 @@ function valueElement(value) {
     return mathRow(mathSign("("), ...value.flatMap((x, i) => (i === 0 ? [mathNumber(shown(x))] : [mathSign(","), mathNumber(shown(x))])), mathSign(")"));
 }
 
-/** What stands in place of a node, where its names have values. */
+/** The replacement of a node whose names have values. */
 function substitution(values) {
     return (node) => {
         const valueOf = (one) => (one.kind === "name" ? values.get(one.text) : undefined);
@@ -27,10 +27,10 @@ function substitution(values) {
     };
 }
 
-/** Formulas may be wider than the panel, and can be scrolled by keys. */
+/** Formulas may be wider than the panel, and can be scrolled with keys. */
 const scrollable = (name, ...lines) => element("div", { class: "formula", tabIndex: 0, role: "group", "aria-label": name }, ...lines);
 
-/** The name that a line gives a value to, and what it is given; null if it is no such line. */
+/** The name that a line assigns, and its expression; null if the line is not an assignment. */
 function definition({ tree }) {
     if (tree?.kind !== "row") return null;
     const [left, equals, ...right] = tree.of;
@@ -38,10 +38,10 @@ function definition({ tree }) {
     return isOne ? { name: left.text, right: { kind: "row", of: right } } : null;
 }
 
-/** The values of names in a model's formula, from what `candela explain` says of a light at a point; `own`: the model's parameters. */
+/** The values of names in a model's formula, from the explanation of a light at a point; `own`: the model's parameters. */
 function valuesAt(point, light, own, steps) {
     const values = new Map(Object.entries(own).filter(([, value]) => typeof value === "number" || Array.isArray(value)));
-    // What the kernel names itself, at the top; a letter may be capital in the formula.
+    // The kernel's own names, at the top level; a letter may be capital in the formula.
     for (const { kind, name, value, depth } of steps) {
         if (kind === "value" && depth <= 1 && (typeof value === "number" || value?.length === 3)) values.set(name, value);
     }
@@ -56,8 +56,9 @@ function valuesAt(point, light, own, steps) {
 }
 
 /**
- * A model's formula with numbers in place of names: for each line that gives a name a value, the line, the line with what is known, and
- * the value. Lines for another choice than the scene's ('falloff = "linear"') are left out, as are those that do not matter for this light.
+ * A model's formula with numbers in place of names: for each assignment, the line, the line with known values filled in, and
+ * its value. Lines for choices other than the scene's ('falloff = "linear"') are left out, as are those that do not matter for
+ * this light.
  */
 export function formulaAt(model, point, light, own, steps) {
     const known = knownNames(model), values = valuesAt(point, light, own, steps), isAmbient = Boolean(light.ambient);

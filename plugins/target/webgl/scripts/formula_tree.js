@@ -1,6 +1,6 @@
 /**
- * Formulas as models' manifests have them, "I_d = kd C_o I_L max(N.L, 0)", as trees. Juxtaposition multiplies, and binds like "/", from
- * left to right; two spaces and more separate a formula from what is said about it.
+ * Formulas as written in models' manifests, "I_d = kd C_o I_L max(N.L, 0)", as trees. Juxtaposition multiplies, and binds like
+ * "/", from left to right; two or more spaces separate a formula from a remark.
  *
  * Nodes: { kind: "number" | "name" | "word", text }, { kind: "dot" | "power" | "fraction", of: [a, b] }, { kind: "call", name, of },
  * { kind: "group" | "norm" | "minus", of: [a] }, { kind: "product" | "row", of }, { kind: "sign", text } within rows.
@@ -18,7 +18,7 @@ function tokensOf(text) {
     TOKEN.lastIndex = 0;
     while (TOKEN.lastIndex < text.length) {
         const at = TOKEN.lastIndex, match = TOKEN.exec(text);
-        if (match === null) throw new NoFormula(`'${text[at]}' is no part of a formula`);
+        if (match === null) throw new NoFormula(`unexpected '${text[at]}' in a formula`);
         const isSpace = match[0].trim() === "";
         if (isSpace && tokens.length > 0) tokens.at(-1).isSpaced = true;
         if (!isSpace) tokens.push({ text: match[0], isSpaced: false });
@@ -33,7 +33,7 @@ class Parser {
     constructor(text) {
         this.tokens = tokensOf(text);
         this.at = 0;
-        this.norms = 0;  // that are open: a "|" ends the innermost
+        this.norms = 0;  // open ones: a "|" ends the innermost
     }
 
     get next() {
@@ -47,12 +47,12 @@ class Parser {
     }
 
     expect(text) {
-        if (!this.take(text)) throw new NoFormula(`'${text}' is missing`);
+        if (!this.take(text)) throw new NoFormula(`expected '${text}'`);
     }
 
     whole() {
         const row = this.row();
-        if (this.next !== undefined) throw new NoFormula(`'${this.next}' is left over`);
+        if (this.next !== undefined) throw new NoFormula(`unexpected '${this.next}' after the formula`);
         return row;
     }
 
@@ -104,7 +104,7 @@ class Parser {
 
     primary() {
         const token = this.tokens[this.at++];
-        if (token === undefined) throw new NoFormula("something is missing at the end");
+        if (token === undefined) throw new NoFormula("the formula ends too early");
         const { text, isSpaced } = token;
         if (isNumber(text)) return { kind: "number", text };
         if (isName(text)) {
@@ -122,7 +122,7 @@ class Parser {
             this.norms -= 1;
             return { kind: "norm", of };
         }
-        throw new NoFormula(`'${text}' begins nothing`);
+        throw new NoFormula(`unexpected '${text}'`);
     }
 
     inParentheses() {
@@ -136,13 +136,13 @@ class Parser {
     }
 }
 
-/** Names within a text that are neither letters nor known: of sentences. */
+/** Whether a text has names that are neither letters nor known, as sentences do. */
 const sentenceWords = (text, known) =>
     (text.match(/[A-Za-z]\w*/g) ?? []).filter((word) => /^[a-z]{3,}$/.test(word) && !known.has(word) && !FUNCTIONS.has(word) && !WORDS.has(word));
 
 /**
- * A line as its parts: { text, tree } each, tree null for what is said in words. `known`: what the names of several letters are that
- * stand for something.
+ * A line as its parts: { text, tree } each, with a null tree for words. `known`: the names of several letters that stand for
+ * something.
  */
 export function partsOfLine(line, known) {
     return line.trim().split(/\s{2,}/).filter((text) => text !== "").map((text) => {

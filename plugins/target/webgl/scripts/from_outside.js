@@ -6,9 +6,9 @@ import { Markers } from "./markers.js";
 import { add, length, normalize, scale, subtract } from "./vectors.js";
 
 const FOV = 40;  // degrees
-const AZIMUTH = 0.9, ELEVATION = 0.35;  // from where the observer is, in radians
+const AZIMUTH = 0.9, ELEVATION = 0.35;  // from the observer's direction, in radians
 
-/** Somebody who sees the objects, the lights and the observer from outside. */
+/** An observer who sees the objects, the lights and the scene's observer from outside. */
 function outsider(settings, bounds) {
     const own = settings.observer(), { width, height } = settings.scene.image;
     const points = [own.position, ...lightPlaces(settings, bounds).flatMap(({ handles }) => handles.map(({ at }) => at))];
@@ -19,14 +19,14 @@ function outsider(settings, bounds) {
     return orbit(start, AZIMUTH, ELEVATION);
 }
 
-/** The scene and its observer from outside, beside the other pictures: what the observer sees, as lines, and where the lights are. */
+/** The scene and its observer from outside, next to the other pictures: the observer's view, as lines, and the lights. */
 export class FromOutside {
     constructor({ settings, bounds, container }) {
         Object.assign(this, { settings, bounds });
         this.canvas = element("canvas", { id: "outside-canvas", role: "img" });
         container.append(this.canvas);
         this.reset();
-        // A gesture turns this view, and nobody else's.
+        // A gesture turns only this view.
         const view = { scene: { observer: this.observer }, observer: () => this.observer, moveObserver: (observer) => this.turn(observer) };
         new Gestures(this.canvas, view, () => this.turn(outsider(settings, bounds())));
         this.markers = new Markers({ settings, picture: this.canvas, observer: () => this.observer, bounds, isFromOutside: true });

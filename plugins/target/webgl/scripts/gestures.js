@@ -23,7 +23,7 @@ export class Gestures {
         this.settings.moveObserver(orbit(this.settings.observer(), azimuth, elevation));
     }
 
-    /** Within limits, beyond which nothing would be left to see. */
+    /** Within limits, beyond which nothing would be visible. */
     zoom(factor) {
         const initial = this.settings.scene.observer, moved = zoom(this.settings.observer(), factor);
         const viewSize = (o) => (o.projection === "orthographic" ? o.height : length(subtract(o.position, o.look_at)));

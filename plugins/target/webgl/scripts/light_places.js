@@ -3,7 +3,7 @@ import { toHex } from "./colors.js";
 import { add, cross, length, normalize, rotate, scale, subtract } from "./vectors.js";
 
 const CIRCLE_STEPS = 36, RULINGS = 6;
-const MOST_AT_ONCE = 12;  // more of them would cover the picture, unless they are asked for
+const MOST_AT_ONCE = 12;  // more would cover the picture, unless they are asked for
 
 /** The middle of boxes { low, high }, and the radius of a ball around all of them. */
 export function ballAround(bounds) {
@@ -22,15 +22,15 @@ function valueOf(settings, model, index, name, type) {
 const hasPlace = (model) => model.parameters.some(({ name, type }) =>
     (name === "position" && type === "point") || (name === "direction" && type === "direction"));
 
-/** Whether a scene's lights are shown before anybody has said so. */
+/** Whether a scene's lights are shown by default. */
 export const areLightsShown = (scene) =>
     scene.lights.filter(({ model }) => hasPlace(scene.light_models[model])).length <= MOST_AT_ONCE;
 
-/** To steps of a size, except for what has hardly changed since `before`. */
+/** Rounds to steps of a size, except coordinates that have hardly changed since `before`. */
 const inSteps = (value, before, step) =>
     value.map((x, i) => (Math.abs(x - before[i]) < 0.5 * step ? before[i] : Math.round(x / step) * step));
 
-/** A light's direction as a place that can be moved: `sign` times the direction from `origin`. */
+/** A light's direction as a movable place: `sign` times the direction from `origin`. */
 function directionHandle(path, direction, origin, reach, sign) {
     return {
         part: "direction", path, at: add(origin, scale(normalize(direction), sign * reach)),
@@ -60,9 +60,9 @@ function arrowLines(from, to, across) {
 }
 
 /**
- * Where the lights are that are somewhere: by the names and types of their parameters, so that those of other plugins are shown as
- * well. A light that comes from a direction stands where it comes from, beside the scene. `handles`: what can be moved, each
- * with the setting that it changes and the value that it has at another place; `lines`: pairs of points.
+ * The places of lights, found by the names and types of their parameters, so that lights of other plugins are shown as well. A
+ * directional light is placed next to the scene, where it comes from. `handles`: movable points, each with the setting that it
+ * changes and its value at another place; `lines`: pairs of points.
  */
 export function lightPlaces(settings, bounds) {
     const { scene } = settings, { centre, radius } = ballAround(bounds);

@@ -1,4 +1,4 @@
-/** The lights' parameters as shaders read them: a texture with a texel for each, as bits. */
+/** The lights' parameters for shaders: a texture with a texel for each, as bits. */
 export class LightTable {
     constructor(gl, scene) {
         this.gl = gl;
@@ -7,7 +7,7 @@ export class LightTable {
         const blocks = Object.values(this.models).map(({ block }) => block);
         const total = blocks.reduce((sum, { lights, texels }) => sum + lights * texels, 0);
         this.height = Math.max(1, Math.ceil(total / this.width));
-        if (this.height > gl.getParameter(gl.MAX_TEXTURE_SIZE)) throw new Error("This device's graphics have no room for so many lights.");
+        if (this.height > gl.getParameter(gl.MAX_TEXTURE_SIZE)) throw new Error("This device's graphics do not have room for this many lights.");
         this.texture = gl.createTexture();
         gl.bindTexture(gl.TEXTURE_2D, this.texture);
         gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32I, this.width, this.height);

@@ -7,8 +7,8 @@ const PREFIX = "#s=";
 const LINK_VERSION = 1;
 
 /**
- * The URL fragment that restores the settings: "#s=" and what differs from the scene, as base64url of JSON; "" where
- * nothing differs.
+ * The URL fragment that restores the settings: "#s=" and the differences from the scene, as base64url of JSON; "" if nothing
+ * differs.
  */
 export function fragmentOf(settings) {
     if (!settings.isChanged()) return "";
@@ -26,14 +26,13 @@ function parseFragment(fragment) {
 }
 
 /**
- * Sets the settings to what a fragment says; values that do not fit this scene are left out. Returns a notice to show about
- * that, or "".
+ * Applies a fragment's settings, leaving out values that do not fit this scene. Returns a notice about those, or "".
  */
 export function restoreSettings(settings, fragment) {
     if (fragment.length < 2 && settings.isChanged()) settings.reset();
     if (!fragment.startsWith(PREFIX)) return "";
     const entries = parseFragment(fragment);
-    if (entries === null) return "The link's settings cannot be read; this is the scene without them.";
+    if (entries === null) return "The link's settings cannot be read; the scene is shown without them.";
     settings.changes.clear();
     // The observer is validated as a whole, since one value may only be valid together with the next.
     const observer = { ...settings.observer() };

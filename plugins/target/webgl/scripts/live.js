@@ -3,9 +3,9 @@ import { announce, showNotice, showSceneProblems } from "./messages.js";
 
 const RETRY_MS = 1000;
 const MOST_PARTS = 50;  // in one request, whose length is limited
-const ENDED = "candela view has ended, or cannot be reached; this is the last picture.";
+const ENDED = "candela view has ended or cannot be reached; this is the last picture.";
 
-/** Texts of elements of another generation of this page; null if the server has gone on to a newer one, which has no such elements. */
+/** Texts of elements of another generation of this page; null if the server has moved on to a newer one. */
 async function fetchParts(generation, ids) {
     const response = await fetch([`?live=${generation}`, ...ids.map((id) => `part=${id}`)].join("&"));
     const newest = Number(new URL(response.url).searchParams.get("live"));
@@ -13,7 +13,7 @@ async function fetchParts(generation, ids) {
     return { generation: newest, texts: response.ok ? (await response.text()).split("\n") : null };
 }
 
-/** The scene of another generation of this page, or of a newer one, with the arrays that this page has not had. */
+/** The scene of another generation of this page, or of a newer one, with the arrays that this page does not have yet. */
 async function fetchScene(wanted) {
     const { generation, texts } = await fetchParts(wanted, ["scene"]);
     const scene = JSON.parse(texts[0]);
@@ -26,11 +26,12 @@ async function fetchScene(wanted) {
     return { scene, generation };
 }
 
-/** Whether `candela view` serves the page: the address then says of which generation it is. */
+/** Whether `candela view` serves the page: the address then contains its generation. */
 export const isServed = () => new URLSearchParams(location.search).has("live");
 
 /**
- * Keeps the page up to date where `candela view` serves it. `show` takes a scene. Without a server, nothing happens, and the result is false.
+ * Keeps the page up to date if `candela view` serves it. `show` takes a scene. Without a server, does nothing and returns
+ * false.
  */
 export function followScene(show, onError) {
     if (!isServed()) return false;
@@ -48,12 +49,12 @@ export function followScene(show, onError) {
                 keepArrays(scene.arrays);
                 shown = generation;
                 history.replaceState(null, "", `?live=${shown}${location.hash}`);
-                announce("The scene's file has been saved; this is what it shows now.");
+                announce("The scene's file was saved; the page shows the new version.");
             }
             onError(null);
         } catch (error) {
             onError(error);
-            // No event may come any more that would have it fetched.
+            // No further event would cause it to be fetched.
             if (isMissing) setTimeout(update, RETRY_MS);
         } finally {
             isFetching = false;

@@ -7,10 +7,10 @@ const STEPS = 360;              // of the curve
 /** Rec. 709. */
 export const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
-/** Axes at a point: N, the direction along the surface to where a mirror sends the light, and the third. */
+/** Axes at a point: N, the direction along the surface in which a mirror sends the light, and the third. */
 function axesAt({ N, V }, { L }) {
     const along = (v) => subtract(v, scale(N, dot(N, v)));
-    // Light that falls in along N has no plane of incidence, so the observer's is taken.
+    // Light that arrives along N has no plane of incidence, so the observer's is used.
     const candidates = [scale(along(L), -1), along(V), ...[[1, 0, 0], [0, 1, 0]].map(along)];
     const mirror = normalize(candidates.find((v) => length(v) > 1e-3));
     return { normal: N, mirror, across: cross(N, mirror) };
@@ -29,12 +29,12 @@ export function planeOfIncidence(point, light) {
     return { angles, directions: angles.map((angle) => direction(axes, radians(angle), 0)) };
 }
 
-/** The angle of a mirror's direction with N in degrees; that of the light is its negative. */
+/** The angle of the mirror direction with N in degrees; the light's angle is its negative. */
 export const mirrorAngle = ({ N }, { L }) => (Math.acos(Math.max(-1, Math.min(1, dot(N, L)))) * 180) / Math.PI;
 
 /**
- * All directions above a surface, as rows of equal angles with N. They are the closer together, the nearer they are to the mirror's
- * direction, where lobes are narrow.
+ * All directions above a surface, as rows of equal angles with N. They are denser near the mirror direction, where lobes are
+ * narrow.
  */
 export function hemisphere(point, light) {
     const axes = axesAt(point, light);
@@ -52,8 +52,8 @@ export function hemisphere(point, light) {
 }
 
 /**
- * What a reflection model sends into each direction of a light's intensity: its own shader code, run once a direction. `uniforms`: the
- * material's; `point` and `light`: as `candela explain` describes them.
+ * The intensity that a reflection model sends into each direction: its own shader code, run once per direction. `uniforms`: the
+ * material's; `point` and `light`: as described by `candela explain`.
  */
 export function reflectedInto(renderer, reflection, uniforms, point, light, directions) {
     const { gl } = renderer, program = renderer.programs.lobe(reflection).check();
@@ -74,7 +74,7 @@ export function reflectedInto(renderer, reflection, uniforms, point, light, dire
     for (const [name, uniform] of [...uniforms, ...Object.entries(renderer.bindTables())]) program.setUniform(name, uniform);
     gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, feedback);
     gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, output);
-    // Whatever draws to the canvas has it cleared, even if no pixel is drawn.
+    // Any drawing to the canvas clears it, even if no pixel is drawn.
     const film = renderer.createFilm(1, 1);
     gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
     gl.enable(gl.RASTERIZER_DISCARD);

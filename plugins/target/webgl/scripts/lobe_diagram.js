@@ -2,7 +2,7 @@ import { svgElement } from "./elements.js";
 
 const RADIUS = 100, MARGIN = 16, DECADES = 4;
 
-/** How far from the centre an intensity is drawn, the largest at 1. */
+/** The distance from the centre at which an intensity is drawn; the largest is drawn at 1. */
 function radiusOf(value, peak, isLogarithmic) {
     const share = peak > 0 ? Math.max(0, value) / peak : 0;
     return isLogarithmic ? Math.max(0, 1 + Math.log10(Math.max(share, 1e-30)) / DECADES) : share;

@@ -5,8 +5,8 @@ import { add, cross, dot, normalize, scale, subtract } from "./vectors.js";
 const COLOR = [120, 225, 205], OPACITY = 0.9;
 
 /**
- * Intensities over a surface as a surface themselves: each stands as far from the point as it is large, the largest as far as an arrow is
- * long. Drawn into a canvas that covers the picture, from back to front; `grid`: of lobe.js's hemisphere().
+ * Intensities over a surface as a surface themselves: each is as far from the point as it is large, and the largest as far as
+ * an arrow is long. Drawn into a canvas that covers the picture, from back to front; `grid`: of lobe.js's hemisphere().
  */
 export function drawLobe(canvas, observer, [width, height], position, grid, values) {
     [canvas.width, canvas.height] = [width, height];
@@ -32,6 +32,6 @@ export function drawLobe(canvas, observer, [width, height], position, grid, valu
         context.closePath();
         context.fillStyle = context.strokeStyle = `rgb(${COLOR.map((c) => Math.round(c * (0.35 + 0.65 * towards))).join(" ")} / ${OPACITY})`;
         context.fill();
-        context.stroke();  // or the ground shows between two of them
+        context.stroke();  // otherwise the background shows between two of them
     }
 }

@@ -7,9 +7,9 @@ import { layOver, onMoved } from "./overlay.js";
 
 const number = (x) => String(Number(x.toPrecision(4)));
 
-/** What is reflected at a point of one light, in all directions: as a surface that stands on the point, and as a diagram in the panel. */
+/** The light of one source reflected at a point in all directions: as a surface at the point, and as a diagram in the panel. */
 export class Lobes {
-    /** `renderer`: gives the one that draws the page now. */
+    /** `renderer`: returns the page's current renderer. */
     constructor(settings, picture, renderer) {
         Object.assign(this, { settings, picture, renderer });
         this.canvas = element("canvas", { id: "lobe-canvas", "aria-hidden": "true" });
@@ -19,7 +19,7 @@ export class Lobes {
         onMoved(this.canvas, picture, () => layOver(this.canvas, this.picture));
     }
 
-    /** From now on, they stand in that picture of these settings. */
+    /** From now on, draws them in that picture of these settings. */
     use(settings, picture) {
         Object.assign(this, { settings, picture });
     }
@@ -28,13 +28,13 @@ export class Lobes {
         this.canvas.width = this.canvas.height = 1;
     }
 
-    /** Whether what a model is told of the point is all that it looks at. */
+    /** Whether a model reads only the values of the point that the explanation contains. */
     isKnown(reflection, { tangent }) {
         const { needs_tangent: needsTangent, needs_uv: needsUv } = this.settings.scene.reflection_models[reflection];
         return !needsUv && (!needsTangent || tangent.some((x) => x !== 0));
     }
 
-    /** Elements for the panel; none where the light has no direction. */
+    /** Elements for the panel; none if the light has no direction. */
     parts(index, point, light) {
         this.clear();
         const { scene } = this.settings, reflection = this.settings.modelOf(scene.objects[index], "reflection");
@@ -66,7 +66,7 @@ export class Lobes {
         choice.addEventListener("change", () => { this.other = choice.value; redraw(); });
         const logarithmic = element("input", { type: "checkbox", checked: this.isLogarithmic });
         logarithmic.addEventListener("change", () => { this.isLogarithmic = logarithmic.checked; redraw(); });
-        return [element("h3", {}, "What is reflected, by direction"), shown, element("div", { class: "lobe-choices" },
+        return [element("h3", {}, "Reflected light by direction"), shown, element("div", { class: "lobe-choices" },
             element("label", { for: id }, "Beside"), choice, element("label", {}, logarithmic, " logarithmic, four decades"))];
     }
 }

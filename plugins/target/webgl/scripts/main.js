@@ -5,7 +5,7 @@ import { Page } from "./page.js";
 const page = new Page();
 const ready = (async () => page.start())();
 
-/** For scripts: `ready` settles when the page works, or says why it does not; `render` resolves to rows of RGBA bytes. */
+/** For scripts: `ready` resolves when the page works, or rejects with the reason; `render` resolves to rows of RGBA bytes. */
 window.candela = {
     ready,
     render: async (width, height) => {
@@ -16,7 +16,7 @@ window.candela = {
 
 ready.catch((error) => {
     document.body.classList.add("failed");
-    // The page's own heading stands beside the picture, which is not shown.
+    // The page's own heading is next to the picture, which is not shown.
     document.querySelector("main").prepend(element("h1", { dir: "auto" }, document.title));
     showError(error);
     // Read by `candela verify`.

@@ -9,20 +9,20 @@ import { roundToFloat } from "./values.js";
 import { add, dot, scale, subtract } from "./vectors.js";
 import { boxLines, drawLines, drawWord, viewLines } from "./wires.js";
 
-const MARGIN = 14;         // from the picture's border, in CSS pixels, of lights that are outside of it
-const KEY_STEP = 1 / 50;   // of what is seen of the plane that a light is moved in
+const MARGIN = 14;         // from the picture's border, in CSS pixels, for lights outside of it
+const KEY_STEP = 1 / 50;   // relative to the visible height of the plane in which a light is moved
 const AXES = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
 
 const numbers = (vector) => roundToFloat(vector).join(", ");
 
-/** The height of what is seen in the plane through a point that faces the observer. */
+/** The visible height in the plane through a point that faces the observer. */
 function heightAt(observer, point) {
     if (observer.projection === "orthographic") return viewHeight(observer);
     const depth = Math.abs(dot(viewAxes(observer).forward, subtract(point, observer.position)));
     return Math.max(depth, 1e-3) * viewHeight(observer);
 }
 
-/** Where a point is in the picture, in its heights from its middle; what is outside stands at a margin from the border. */
+/** A point's position in the picture, in picture heights from its centre; points outside are put at a margin from the border. */
 function placeInPicture(observer, aspect, margin, point) {
     const { right, up } = viewAxes(observer), from = subtract(point, observer.position);
     const inside = project(observer, point), { x, y } = inside ?? { x: dot(right, from), y: -dot(up, from) };
@@ -33,20 +33,20 @@ function placeInPicture(observer, aspect, margin, point) {
 }
 
 /**
- * The lights of a picture as handles that can be dragged, or moved by keys, in the plane that faces the observer; with their cones
- * and directions, the room's edges, the axes and the observer as lines. It changes the same settings as the sliders.
+ * The lights of a picture as handles that can be dragged or moved with keys in the plane that faces the observer; with their
+ * cones and directions, the room's edges, the axes and the observer as lines. They change the same settings as the sliders.
  */
 export class Markers {
     /**
-     * `picture`: the canvas that it lies over; `observer`: gives who looks; `bounds`: gives the objects' boxes; `isFromOutside`: the
-     * picture is not what the scene's observer sees.
+     * `picture`: the canvas that it covers; `observer`: returns the observer; `bounds`: returns the objects' boxes;
+     * `isFromOutside`: the picture is not the view of the scene's observer.
      */
     constructor({ settings, picture, observer, bounds, isFromOutside = false }) {
         Object.assign(this, { settings, picture, observer, bounds, isFromOutside });
         this.buttons = new Map();
         this.seen = new Map();
         this.how = element("p", { id: newId("markers-how"), class: "unseen" },
-            "Drag it, or move it by the arrow keys; Page Up and Page Down move it away and nearer, with Shift in small steps.");
+            "Drag it or use the arrow keys; Page Up and Page Down move it away and nearer; hold Shift for small steps.");
         this.layer = element("div", { class: "markers" });
         picture.after(this.layer);
         this.endMoves = onMoved(this.layer, picture, () => this.refresh());
@@ -70,7 +70,7 @@ export class Markers {
         const wanted = new Set(), margin = Math.min(0.25, MARGIN / Math.max(1, this.picture.getBoundingClientRect().height));
         for (const place of this.places) {
             const spots = place.handles.map(({ at }) => placeInPicture(observer, width / height, margin, at));
-            // Outside of the picture, a light is one handle at the border.
+            // A light outside the picture is one handle at the border.
             const count = spots.every(({ isOutside }) => isOutside) ? 1 : spots.length;
             place.handles.slice(0, count).forEach((handle, i) => {
                 const key = `${place.index} ${handle.part}`;
@@ -83,7 +83,7 @@ export class Markers {
             button.remove();
             this.buttons.delete(key);
         }
-        // None of it is there unless it is needed.
+        // No element exists unless it is needed.
         const parts = [this.wires, this.buttons.size > 0 ? this.how : null].filter((part) => part !== null);
         for (const part of [this.how, this.layer.querySelector("svg")]) {
             if (part && !parts.includes(part)) part.remove();
@@ -109,7 +109,7 @@ export class Markers {
         this.wires = drawn.length === 0 ? null : svgElement("svg", { "aria-hidden": "true", viewBox: `0 0 ${size[0]} ${size[1]}`, preserveAspectRatio: "none" }, ...drawn);
     }
 
-    /** `spot`: where it is in the picture. */
+    /** `spot`: its position in the picture. */
     showHandle(key, place, handle, { x, y, isOutside }, aspect) {
         if (!this.buttons.has(key)) this.makeButton(key, handle.part);
         const button = this.buttons.get(key);
@@ -122,7 +122,7 @@ export class Markers {
         button.classList.toggle("behind", isHidden);
         button.classList.toggle("right", x > aspect / 6);  // its name has room to the left
         if (handle.part === "position" || place.handles.length === 1) button.querySelector(".marker-name").replaceChildren(isolated(place.name));
-        const states = [place.isOn ? "" : "off", isOutside ? "outside of the picture" : "", isHidden ? "behind an object" : ""];
+        const states = [place.isOn ? "" : "off", isOutside ? "outside the picture" : "", isHidden ? "behind an object" : ""];
         const what = `${handle.part} ${numbers(this.settings.get(handle.path))}`;
         button.setAttribute("aria-label", [place.name, place.title, what, ...states].filter((part) => part !== "").join(", "));
     }
@@ -166,7 +166,7 @@ export class Markers {
                 this.key(event, button);
             }
         });
-        // Over a light, too, the wheel comes nearer.
+        // The wheel also zooms over a light.
         button.addEventListener("wheel", (event) => {
             event.preventDefault();
             this.picture.dispatchEvent(new WheelEvent("wheel", event));
@@ -184,7 +184,7 @@ export class Markers {
         announce(`${place.name}: ${handle.part} ${numbers(this.settings.get(handle.path))}`);
     }
 
-    /** By parts of the picture's height to the right, down and away; `precision`: of where it is put, as such a part. */
+    /** Moves it right, down and away by fractions of the picture's height; `precision`: of its new position, as such a fraction. */
     move(handle, x, y, away, precision) {
         const observer = this.observer(), { forward, right, up } = viewAxes(observer), height = heightAt(observer, handle.at);
         const by = add(scale(right, x * height), add(scale(up, -y * height), scale(forward, away * height)));
@@ -203,9 +203,9 @@ export class Markers {
         details.scrollIntoView({ block: "nearest" });
     }
 
-    /** After a picture has been drawn: says of each light whether it is behind an object there. */
+    /** Called after a picture has been drawn; marks each light that is behind an object. */
     async lookBehind(renderer, film) {
-        // A direction's handle is nowhere.
+        // A direction's handle has no real place.
         const looked = this.places.flatMap((place) => place.handles.filter(({ part }) => part === "position").map((handle) => [`${place.index} ${handle.part}`, handle.at]));
         if (looked.length === 0) return;
         const seen = await seenPlaces(renderer, film, this.observer(), looked.map(([, at]) => at));

@@ -38,7 +38,7 @@ export class Mesh {
         return vertexArray;
     }
 
-    /** Whether a scene's mesh is this one, as far as a renderer can tell. */
+    /** Whether a scene's mesh is the same as this one for a renderer. */
     isOf(mesh) {
         const areEqual = (a, b) => a === b || (a instanceof Object && JSON.stringify(a) === JSON.stringify(b));
         return ["vertices", "indices", "position", "uv", "dpdu", "dpdv", "color", "normals", "normals_of"].every((name) => areEqual(this.mesh[name], mesh[name]));

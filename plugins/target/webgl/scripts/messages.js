@@ -1,4 +1,4 @@
-/** For screen readers; what it says can be seen anyway. */
+/** For screen readers; the text's content is visible anyway. */
 export function announce(text) {
     document.getElementById("status").textContent = text;
 }
@@ -14,7 +14,7 @@ export function showError(error) {
     document.getElementById("problem-more").open = document.body.classList.contains("failed");
 }
 
-/** What is wrong with the scene's file, which the page follows; an empty text hides it. */
+/** Shows the errors of the scene's file, which the page follows; an empty text hides them. */
 export function showSceneProblems(text) {
     document.getElementById("scene-problems-text").textContent = text;
     document.getElementById("scene-problems").hidden = text === "";

@@ -10,7 +10,7 @@ void main() {
     gl_PointSize = 1.0;
 }`;
 
-// The same depths as those of the lit picture.
+// The depths are the same as in the lit picture.
 const FRAGMENT = `
 uniform float near;
 uniform int is_orthographic;
@@ -23,8 +23,8 @@ void main() {
 }`;
 
 /**
- * Which of some places are seen, and not behind an object, in the picture that has just been drawn into a film: by its depth buffer,
- * which the graphics look at themselves. Resolves to a truth value for each; never if the graphics are lost before.
+ * Which of some places are visible and not behind an object in the picture just drawn into a film, by an occlusion query
+ * against its depth buffer. Resolves to a boolean for each; never resolves if the graphics are lost first.
  */
 export function seenPlaces(renderer, film, observer, places) {
     const { gl, bounds } = renderer, { forward } = viewAxes(observer), { near, far } = clippingPlanes(observer, forward, bounds);
@@ -39,7 +39,7 @@ export function seenPlaces(renderer, film, observer, places) {
     gl.depthMask(false);
     gl.colorMask(false, false, false, false);
     const queries = places.map((place) => {
-        // A place before all objects, or behind them, is outside of what is drawn.
+        // A place in front of all objects, or behind all of them, is outside the clipping planes.
         const depth = dot(forward, subtract(place, observer.position));
         const inside = Math.min(Math.max(depth, near * 1.001), Math.max(far * 0.999, near * 1.001));
         const isClamped = observer.projection === "orthographic" || depth < near;

@@ -1,7 +1,7 @@
-/** As TOML, and so as --set takes it: numbers, arrays, truth values and texts. */
+/** A value as TOML, the form that --set takes: numbers, arrays, booleans and texts. */
 const tomlOf = (value) => JSON.stringify(value);
 
-/** What has been changed, as a pane shows it: pairs of a path and a value. */
+/** The changes as a pane shows them: pairs of a path and a value. */
 function changesIn(settings, pane) {
     const prefix = `pane.${pane}.`, all = [...settings.changes];
     const own = all.filter(([path]) => path.startsWith(prefix)).map(([path, value]) => [path.slice(prefix.length), value]);
@@ -9,9 +9,9 @@ function changesIn(settings, pane) {
 }
 
 /**
- * What has been changed in the page, as options of `candela render`: pairs of an option's name ("set", "shading", "reflection") and
- * its value. What is shown over the picture and beside it is not of the scene. Values of models that are not in force have no effect, and are left out.
- * `pane`: whose picture is meant; 0 is the first.
+ * The page's changes as options of `candela render`: pairs of an option's name ("set", "shading", "reflection") and its value.
+ * The display over and next to the picture is not part of the scene. Values of models that are not in use have no effect and
+ * are left out. `pane`: the pane whose picture is meant; 0 is the first.
  */
 export function optionsOf(allSettings, pane = 0) {
     const settings = allSettings.inPane(pane), { scene } = settings, options = [];
@@ -31,14 +31,14 @@ export function optionsOf(allSettings, pane = 0) {
             options.push(["set", `${path}=${tomlOf(value)}`]);
         }
     }
-    // An intensity that was changed and then switched off is off.
+    // A light whose intensity was changed and then switched off is off.
     return options.sort(([, a], [, b]) => Number(a.endsWith(".intensity=0")) - Number(b.endsWith(".intensity=0")));
 }
 
-/** The same as a query of an address. */
+/** The options as the query of an address. */
 export const queryOf = (settings, pane) => optionsOf(settings, pane).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
 
 const quoted = (text) => (/^[\w.,=:+/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
-/** The same as words of a shell. */
+/** The options as words of a shell. */
 export const commandLineOf = (settings) => optionsOf(settings).map(([name, value]) => `--${name} ${quoted(value)}`).join(" ");

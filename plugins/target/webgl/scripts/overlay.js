@@ -5,8 +5,8 @@ export function layOver(overlay, picture) {
 }
 
 /**
- * Calls `place` whenever the picture may have moved: without another size, too, when there is less room around it, and
- * where pictures beside it come and go ("arranged", an event of the picture area). Returns what ends it.
+ * Calls `place` whenever the picture may have moved: also without a change of size, when there is less room around it, and when
+ * pictures next to it come and go ("arranged", an event of the picture area). Returns a function that ends it.
  */
 export function onMoved(overlay, picture, place) {
     const observer = new ResizeObserver(place);

@@ -22,7 +22,7 @@ import { Viewport } from "./viewport.js";
 
 /** The page, from the scene in its HTML to a picture that can be looked at and changed. */
 export class Page {
-    /** Throws where the page cannot work, for want of WebGL 2 for one, unless `candela view` has a picture in its place. */
+    /** Throws if the page cannot work, for example without WebGL 2, unless `candela view` provides a picture instead. */
     start() {
         this.scene = readScene();
         document.querySelector("h1").textContent = this.scene.title;
@@ -35,8 +35,8 @@ export class Page {
         this.gl = this.canvas.getContext("webgl2", options);
         if (this.gl === null && !isServed()) {
             throw new Error(
-                "This page needs WebGL 2, which this browser does not offer. It may be switched off in its settings, or the " +
-                "graphics driver may be too old; a current Firefox, Chrome, Edge or Safari should do.");
+                "This page needs WebGL 2, which this browser does not offer. It may be switched off in the settings, or the " +
+                "graphics driver may be too old; a current Firefox, Chrome, Edge or Safari should work.");
         }
         const isVerification = location.hash === "#verify";
         const notice = restoreSettings(this.settings, location.hash);
@@ -52,7 +52,7 @@ export class Page {
     /** Rows of RGBA bytes, from the top; a promise of them without WebGL 2. */
     pixels(width, height) {
         for (const size of [width, height]) {
-            if (!Number.isInteger(size) || size < 1) throw new Error("A picture's width and height are whole numbers from 1.");
+            if (!Number.isInteger(size) || size < 1) throw new Error("A picture's width and height must be whole numbers of at least 1.");
         }
         if (this.renderer === null) return this.viewport.pixels(width, height);
         if (this.gl.isContextLost()) throw new Error("The graphics have been interrupted.");
@@ -85,7 +85,7 @@ export class Page {
         this.canvas.addEventListener("webglcontextlost", (event) => {
             event.preventDefault();
             this.viewport.stop();
-            showError(new Error("The graphics have been interrupted; the picture comes back when they do."));
+            showError(new Error("The graphics have been interrupted; the picture returns when they do."));
         });
         this.canvas.addEventListener("webglcontextrestored", () => {
             this.renderer = new Renderer(this.gl, withFormulas(this.scene, this.formulas));
@@ -106,8 +106,8 @@ export class Page {
     }
 
     /**
-     * Another state of the scene in place of the present one, from where it is looked at, with what has been changed here and
-     * not in the scene. Throws where it cannot be drawn; then everything stays as it is.
+     * Replaces the scene by another state, keeping the view and the changes made here but not in the scene. Throws if it cannot
+     * be drawn; then everything stays as it is.
      */
     show(scene) {
         if (this.renderer !== null) this.replaceRenderer(scene);
@@ -125,7 +125,7 @@ export class Page {
         this.formulaEditor?.sceneChanged();
     }
 
-    /** By one that draws another scene. Throws where it cannot, and leaves the present one. */
+    /** Replaces the renderer by one that draws another scene. Throws if that fails, and keeps the present one. */
     replaceRenderer(scene) {
         if (this.gl.isContextLost()) throw new Error("The graphics have been interrupted.");
         const settings = this.settings.continuedIn(scene);
@@ -136,7 +136,7 @@ export class Page {
             if (this.formulas.size === 0) throw error;
             renderer = this.rendererOf(scene, new Map(), settings);
             this.formulas = new Map();
-            showNotice("The edited formula does not fit the models of the scene any more; this is the scene without it.");
+            showNotice("The edited formula no longer fits the scene's models; the scene is shown without it.");
         }
         this.renderer.release();
         this.renderer = renderer;
@@ -153,7 +153,7 @@ export class Page {
         document.getElementById("without-graphics").hidden = false;
     }
 
-    /** A renderer of a scene with edited formulas, beside the present one. Throws where it cannot draw the settings' picture. */
+    /** A renderer of a scene with edited formulas, in addition to the present one. Throws if it cannot draw the settings' picture. */
     rendererOf(scene, formulas, settings) {
         const renderer = new Renderer(this.gl, withFormulas(scene, formulas), this.renderer);
         try {
@@ -166,7 +166,7 @@ export class Page {
         return renderer;
     }
 
-    /** From now on, draws with these. Throws where they do not compile; then everything stays as it is. */
+    /** Draws with these formulas from now on. Throws if they do not compile; then everything stays as it is. */
     drawWith(formulas) {
         if (this.gl.isContextLost()) throw new Error("The graphics have been interrupted.");
         const renderer = this.rendererOf(this.scene, formulas, this.settings);
@@ -175,13 +175,13 @@ export class Page {
         this.viewport.use(renderer);
     }
 
-    /** The same, and the formulas are the page's. */
+    /** Like drawWith(), and makes the formulas the page's. */
     useFormulas(formulas) {
         this.drawWith(formulas);
         this.formulas = formulas;
     }
 
-    /** As pixels(), with other formulas. */
+    /** Like pixels(), with other formulas. */
     pixelsWith(formulas, width, height) {
         const renderer = this.rendererOf(this.scene, formulas, this.settings);
         try {

@@ -6,7 +6,7 @@ import { formulaLines } from "./typeset.js";
 
 const INITIALLY_OPEN = 2;
 
-/** A <details> whose contents are made when it is first opened, since scenes may have many. */
+/** A <details> whose contents are made when it is first opened, since a scene may have many. */
 export function disclosure(summary, isOpen, contents) {
     const body = element("div", { class: "body" });
     const details = element("details", { open: isOpen }, element("summary", {}, ...summary), body);
@@ -22,7 +22,7 @@ export function disclosure(summary, isOpen, contents) {
     return details;
 }
 
-/** What decides which panels and controls there are; what they show is not part of it. */
+/** The data that determine which panels and controls exist, but not their values. */
 function structureOf(scene) {
     const shown = ({ title, summary, formula, reference, parameters, presets }) => [title, summary, formula, reference, parameters, presets];
     const models = ["light_models", "shading_models", "reflection_models"]
@@ -32,7 +32,7 @@ function structureOf(scene) {
     return JSON.stringify([models, objects, lights, scene.observer.projection]);
 }
 
-/** The controls beside the picture: models and their formulas, objects, lights, the observer. */
+/** The controls next to the picture: models and their formulas, objects, lights, the observer. */
 export class Panels {
     constructor(settings, controls) {
         this.settings = settings;
@@ -46,7 +46,7 @@ export class Panels {
         return this.settings.scene;
     }
 
-    /** After another scene has come: with what was open and where the focus was, as far as that is there still. */
+    /** Called after another scene has arrived: restores the open panels and the focus as far as they still exist. */
     rebuild() {
         const summaryOf = (details) => details.querySelector("summary").textContent;
         const panels = [...document.querySelectorAll("aside > section:not(#explanation, #panes, #formula-editor)")];
@@ -66,7 +66,7 @@ export class Panels {
         if (again) [...again.querySelectorAll("input, select, button")][place]?.focus();
     }
 
-    /** Makes only those controls anew whose part of the scene is another one: layout takes a browser longer than anything else here. */
+    /** Rebuilds only the controls whose part of the scene has changed: layout takes a browser longer than anything else here. */
     refill() {
         for (const one of this.sections) {
             const content = JSON.stringify(one.contentOf());
@@ -101,7 +101,7 @@ export class Panels {
         const own = new Set(this.scene.objects.map((object) => object[kind]));
         const models = this.scene[`${kind}_models`];
         if (name !== "") return models[name].title;
-        return own.size === 1 ? `As the scene says (${models[[...own][0]].title})` : "As the scene says";
+        return own.size === 1 ? `As in the scene (${models[[...own][0]].title})` : "As in the scene";
     }
 
     fillModels(section) {
@@ -109,7 +109,7 @@ export class Panels {
         section.append(select("shading", "Shading model"), select("reflection", "Reflection model"));
     }
 
-    /** The names of all models in force, by the number of objects that use them, most first. */
+    /** The names of all models in use, by the number of objects that use them, most first. */
     modelsInForce(kind) {
         const uses = new Map();
         for (const object of this.scene.objects) {
@@ -155,7 +155,7 @@ export class Panels {
                     presetChoice(settings, `object.${i}.`, reflection),
                     controls.of(`object.${i}.color`, "color"),
                     texture === null ? null
-                        : element("p", { class: "about" }, `The colour is multiplied with the picture ${this.scene.textures[texture].title}.`),
+                        : element("p", { class: "about" }, `The colour is multiplied by the picture ${this.scene.textures[texture].title}.`),
                     ...of("reflection", reflection, "material"),
                     ...of("shading", shading, "shading"),
                 ].filter((control) => control !== null);
@@ -184,7 +184,7 @@ export class Panels {
             i < INITIALLY_OPEN && this.scene.lights.length <= 3 * INITIALLY_OPEN,
             () => model.parameters.map((p) => controls.of(`light.${i}.value.${p.name}`, p.name)).filter((control) => control !== null),
         );
-        // Beside the summary, not in it: assistive technology cannot reach a control within a control.
+        // Next to the summary, not in it: assistive technology cannot reach a control within a control.
         const lightSwitch = controls.boolean(`light.${i}.on`, `${name} is on`);
         lightSwitch.classList.add("switch");
         section.show = () => {
@@ -195,7 +195,7 @@ export class Panels {
         return element("div", { class: "light" }, lightSwitch, this.register(section, name, `light.${i}.`, () => this.scene.lights[i].values));
     }
 
-    /** `prefix`: what the paths of the section's settings begin with. `contentOf`: gives what the scene says of them. */
+    /** `prefix`: of the paths of the section's settings. `contentOf`: returns the scene's data for them. */
     register(section, name, prefix, contentOf) {
         section.querySelector(".body").setAttribute("role", "group");
         section.querySelector(".body").setAttribute("aria-label", name);
@@ -205,7 +205,7 @@ export class Panels {
     }
 
     follow(section, prefix, content) {
-        // Sliders reach as far as the scene does.
+        // The sliders cover the extent of the scene.
         const contentOf = () => [content(), this.controls.extent];
         this.sections.push({ section, prefix, contentOf, content: JSON.stringify(contentOf()) });
     }
@@ -221,7 +221,7 @@ export class Panels {
         if (!isFromControl) this.refreshControls(path);
     }
 
-    /** Of the settings whose path begins so; null stands for any. */
+    /** Refreshes the controls of settings whose path begins so; null stands for any. */
     refreshControls(path) {
         const isAffected = (control) => path === null || control.dataset.path.startsWith(path);
         for (const control of document.querySelectorAll(".setting")) {

@@ -7,16 +7,16 @@ import { displayName } from "./scene.js";
 import { areEqual } from "./values.js";
 
 const COUNTS = { one: 1, two: 2, three: 3, four: 4, wipe: 2 };
-const LAYOUT_TITLES = { one: "one picture", two: "two pictures", three: "three pictures", four: "four pictures", wipe: "two, one over the other" };
+const LAYOUT_TITLES = { one: "one picture", two: "two pictures", three: "three pictures", four: "four pictures", wipe: "two pictures with a wipe" };
 export const PANE_NAMES = ["A", "B", "C", "D"];
 const MODELS = ["reflection", "shading"];
 
 /**
- * Pictures of the same view beside the first one, or over a part of it, with models and values of their own. What a pane has not of its
- * own, it has from the first, A.
+ * Pictures of the same view next to the first one, or over a part of it, with their own models and values. A pane takes every
+ * other setting from the first, A.
  */
 export class Panes {
-    /** `change`: gets the views of the others, as Viewport takes them. */
+    /** `change`: gets the views of the others, in Viewport's form. */
     constructor({ settings, picture, controls, onReset, change }) {
         Object.assign(this, { settings, picture, controls, onReset, change });
         this.panes = [];
@@ -36,7 +36,7 @@ export class Panes {
         return this.settings.get("panes");
     }
 
-    /** A pane that opens has another model than those that are there, so that there is something to compare. */
+    /** A pane that opens has a model that no other has, so that there is something to compare. */
     choose(layout) {
         const { settings } = this;
         settings.set("panes", layout);
@@ -54,13 +54,13 @@ export class Panes {
         settings.notify(null);
     }
 
-    /** The models in force in a pane. */
+    /** The models in use in a pane. */
     modelsIn(index, kind) {
         const settings = this.settings.inPane(index);
         return [...new Set(settings.scene.objects.map((object) => settings.modelOf(object, kind)))];
     }
 
-    /** What a pane shows, in a few words. */
+    /** A short description of a pane's picture. */
     describe(index) {
         const { settings } = this, { scene } = settings, prefix = `pane.${index}.`;
         const models = MODELS.map((kind) => this.modelsIn(index, kind).map((name) => scene[`${kind}_models`][name].title).join(", "));
@@ -82,7 +82,7 @@ export class Panes {
         this.tell();
     }
 
-    /** As many canvases as the layout has, with the controls for what they show. */
+    /** Creates the layout's canvases, with their controls. */
     arrange() {
         this.arrangement = `${this.layout} ${this.settings.scene.objects.length}`;
         this.select.value = this.layout;
@@ -90,7 +90,8 @@ export class Panes {
         this.share.parentElement.hidden = !isWipe;
         while (this.panes.length > count - 1) this.panes.pop().canvas.remove();
         while (this.panes.length < count - 1) {
-            // Of the first one's size, not a canvas's 300 x 150 until it is drawn on, which moves what lies below.
+            // The first one's size, not a canvas's default of 300 x 150 until it is drawn on, which would move the page's
+            // content.
             const { width, height } = this.picture, canvas = element("canvas", { class: "pane", role: "img", width, height }), index = this.panes.length + 1;
             new Gestures(canvas, this.settings, this.onReset);
             const last = this.panes.at(-1)?.canvas ?? parent.querySelector(".markers") ?? this.picture;
@@ -111,7 +112,7 @@ export class Panes {
         this.place();
     }
 
-    /** Names over the pictures, and for those who do not see them. */
+    /** Names over the pictures, and for assistive technology. */
     tell() {
         if (this.panes.length === 0) return;
         [{ index: 0, canvas: null }, ...this.panes].forEach(({ index, canvas }) => {
@@ -147,7 +148,7 @@ export class Panes {
             if (wereOpen.has(name)) details.open = true;
             return details;
         };
-        this.section.replaceChildren(element("h2", {}, "Panes"), element("p", { class: "about" }, "What differs from A, which all other controls belong to."),
+        this.section.replaceChildren(element("h2", {}, "Panes"), element("p", { class: "about" }, "Settings that differ from picture A; all other controls belong to A."),
             ...this.panes.map(({ index }) => this.paneSection(index, part)));
         if (focused) [...this.section.querySelectorAll(".setting")].find(({ dataset }) => dataset.path === focused)?.querySelector("select, input")?.focus();
     }
@@ -156,7 +157,7 @@ export class Panes {
         const { settings, controls } = this, { scene } = settings, prefix = `pane.${index}.`;
         const title = (text) => element("span", { class: "title" }, text);
         const models = MODELS.map((kind) => controls.choice(prefix + kind, `${kind === "reflection" ? "Reflection" : "Shading"} model of ${PANE_NAMES[index]}`,
-            (name) => (name === "" ? "As the scene says" : scene[`${kind}_models`][name].title)));
+            (name) => (name === "" ? "As in the scene" : scene[`${kind}_models`][name].title)));
         const own = settings.inPane(index);
         const objects = scene.objects.map((object, i) => part(`${index} ${i}`, disclosure([title(isolated(displayName(object.label, "object", i)))], false, () => {
             const of = (kind, group) => {
@@ -169,7 +170,7 @@ export class Panes {
         return element("div", { class: "pane-controls", role: "group", "aria-label": `Pane ${PANE_NAMES[index]}` }, ...models, ...objects);
     }
 
-    /** What follows A has its values. */
+    /** Controls that follow A show its values. */
     refreshControls() {
         for (const control of this.section.querySelectorAll(".setting")) control.refresh();
     }

@@ -3,8 +3,8 @@ import { announce } from "./messages.js";
 import { areEqual, canonicalValue } from "./values.js";
 
 /**
- * A choice among the presets of an object's reflection model, such as those of materials; null if there are none. `prefix`: what the
- * object's paths begin with. It sets what the sliders set, and shows which preset all of them have.
+ * A choice among the presets of an object's reflection model, such as materials; null if there are none. `prefix`: of the
+ * object's paths. It sets the same values as the sliders, and shows the preset that matches all of them.
  */
 export function presetChoice(settings, prefix, reflection) {
     const { presets, parameters } = settings.scene.reflection_models[reflection];
@@ -16,7 +16,7 @@ export function presetChoice(settings, prefix, reflection) {
     ];
     const isInForce = (preset) => settingsOf(preset).every(([path, value]) => areEqual(settings.get(path), value));
     const id = newId("preset"), source = element("p", { class: "meaning", id: newId("meaning") });
-    const select = element("select", { id, "aria-describedby": source.id }, element("option", { value: "" }, "as below"),
+    const select = element("select", { id, "aria-describedby": source.id }, element("option", { value: "" }, "custom"),
         ...presets.map(({ name }, i) => element("option", { value: i }, name)));
     select.addEventListener("change", () => {
         if (select.value === "") return;
@@ -25,7 +25,7 @@ export function presetChoice(settings, prefix, reflection) {
         settings.notify(prefix);
         announce(`The values are those of ${preset.name}.`);
     });
-    const row = element("div", { class: "preset" }, element("label", { class: "name", for: id }, "like"), select, source);
+    const row = element("div", { class: "preset" }, element("label", { class: "name", for: id }, "preset"), select, source);
     row.refresh = () => {
         const found = presets.findIndex(isInForce);
         select.value = found < 0 ? "" : found;
@@ -35,7 +35,7 @@ export function presetChoice(settings, prefix, reflection) {
     return row;
 }
 
-/** Has the choices follow the values. */
+/** Makes the choices follow the values. */
 export function followPresets(settings) {
     settings.listeners.push(() => {
         for (const row of document.querySelectorAll(".preset")) row.refresh();

@@ -1,6 +1,6 @@
 const HEADER = "#version 300 es\nprecision highp float;\nprecision highp int;\n";
 
-/** `detail` holds what the graphics driver says. */
+/** `detail` is the graphics driver's message. */
 class ShaderError extends Error {
     constructor(message, log) {
         super(message);
@@ -36,14 +36,14 @@ export class Program {
         if (this.users === 0) this.gl.deleteProgram(this.handle);
     }
 
-    /** Apart from the constructor, since asking for the status waits: until then a browser may compile many at once. */
+    /** Separate from the constructor, since asking for the status blocks: until then a browser may compile many at once. */
     check() {
         const { gl } = this;
         if (this.isChecked || gl.isContextLost()) return this;
         if (!gl.getProgramParameter(this.handle, gl.LINK_STATUS)) {
             const logs = this.shaders.map((shader) => gl.getShaderInfoLog(shader));
             const log = [...new Set([...logs, gl.getProgramInfoLog(this.handle)])].filter((text) => text).join("\n").trim();
-            throw new ShaderError(`The graphics driver cannot compile ${this.title}.`, log || "It does not say why.");
+            throw new ShaderError(`The graphics driver cannot compile ${this.title}.`, log || "It does not report a reason.");
         }
         for (const shader of this.shaders) gl.deleteShader(shader);
         this.isChecked = true;
@@ -55,7 +55,7 @@ export class Program {
         return this.locations.get(name);
     }
 
-    /** Of the program in use. A uniform that the compiler removed is passed over. */
+    /** Sets uniforms of the program in use. Skips a uniform that the compiler removed. */
     setUniform(name, { kind, value }) {
         const { gl } = this, at = this.location(name);
         if (at === null) return;
@@ -67,9 +67,9 @@ export class Program {
     }
 }
 
-/** Shader programs by what they draw, each compiled once. */
+/** Shader programs by their purpose, each compiled once. */
 export class ProgramCache {
-    /** `previous`: that of an earlier state of the scene; a program of the same text is shared with it. */
+    /** `previous`: the programs of an earlier state of the scene; programs with the same text are shared. */
     constructor(gl, scene, previous) {
         this.gl = gl;
         this.scene = scene;
@@ -88,7 +88,7 @@ export class ProgramCache {
         return program;
     }
 
-    /** One that stays for as long as its context does: another scene needs it at once. */
+    /** A program that lives as long as its context: another scene needs it at once. */
     compiledToLast(title, vertexSource, fragmentSource) {
         const source = `${vertexSource}\n${fragmentSource}`;
         if (!this.lasting.has(source)) this.lasting.set(source, new Program(this.gl, title, vertexSource, fragmentSource, []));
@@ -125,7 +125,7 @@ export class ProgramCache {
         return this.programs.get(key);
     }
 
-    /** A program of the page's own, which has its name. */
+    /** One of the page's own programs, by name. */
     own(name, vertexSource, fragmentSource) {
         if (!this.programs.has(name)) this.programs.set(name, this.compiledToLast(name, vertexSource, fragmentSource));
         return this.programs.get(name);

@@ -3,9 +3,9 @@ import { element } from "./elements.js";
 import { layOver, onMoved } from "./overlay.js";
 import { displayName } from "./scene.js";
 
-const DELAY_MS = 120;  // a hand that moves a slider does not wait for pictures
+const DELAY_MS = 120;  // a moving slider does not wait for pictures
 
-/** What can be shown of a picture: names of terms, as `candela render --terms` has them, and what they are. */
+/** The terms of a picture that can be shown: names, as in `candela render --terms`, and descriptions. */
 function termsOf(scene) {
     const terms = [["", "the picture"], ["ambient", "ambient, I_a"], ["diffuse", "diffuse, the sum of I_d"], ["specular", "specular, the sum of I_s"]];
     scene.lights.forEach(({ label }, i) => terms.push([`light.${i}`, `${displayName(label, "light", i)} alone`], [`n_dot_l.${i}`, `N·L of ${displayName(label, "light", i)}`]));
@@ -32,8 +32,8 @@ export function compare(a, b) {
 }
 
 /**
- * The renderer's own picture of what the page shows, laid over the page's: a part of it (wipe), or where the two differ. Only where
- * `candela view` serves the page, since the picture comes from there.
+ * The renderer's own picture of the page's scene, laid over the page's: a part of it (wipe), or the difference. Available only
+ * if `candela view` serves the page, since the picture comes from there.
  */
 export class Reference {
     /** `pixels`: the page's picture of the scene's size, as rows of RGBA bytes. */
@@ -54,7 +54,7 @@ export class Reference {
         settings.listeners.push(() => this.invalidate());
     }
 
-    /** Something has changed that the picture shows. */
+    /** Called when something in the picture has changed. */
     invalidate() {
         this.request += 1;
         const isOn = this.mode.value !== "off";

@@ -12,9 +12,9 @@ const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 const TABLES_UNIT = 3;
 const TEXTURE_UNIT = 4;
 
-/** Turns an appearance (observer, lights, objects) into pixels: a pass per sample, their weighted sum, its encoding. */
+/** Turns an appearance (observer, lights, objects) into pixels: one pass per sample, their weighted sum, its encoding. */
 export class Renderer {
-    /** `previous`: a renderer in the same context, whose programs, meshes and textures are used where they are the same. Both have to be released. */
+    /** `previous`: a renderer in the same context, whose programs, meshes and textures are reused if they are the same. Both must be released. */
     constructor(gl, scene, previous) {
         this.gl = gl;
         this.scene = scene;
@@ -37,7 +37,7 @@ export class Renderer {
         gl.cullFace(gl.BACK);
     }
 
-    /** The programs that another renderer uses stay. */
+    /** Programs that another renderer uses stay. */
     release() {
         for (const one of [...this.meshes, ...this.textures]) one.release();
         this.lights.release();
@@ -56,7 +56,7 @@ export class Renderer {
                 if (isComplete) return format;
             }
         }
-        throw new Error("This device's graphics cannot draw into pictures of floating-point numbers, which light is added up in.");
+        throw new Error("This device's graphics cannot draw to floating-point textures, which adding up light needs.");
     }
 
     /** The uniforms with which shaders read the models' tables. */
@@ -64,7 +64,7 @@ export class Renderer {
         return this.tables.bind(TABLES_UNIT);
     }
 
-    /** A film of that size; the caller releases it. Throws where the device has no room for it. */
+    /** A film of that size; the caller releases it. Throws if the device has no room for it. */
     createFilm(width, height) {
         const { gl } = this;
         const limit = Math.min(gl.getParameter(gl.MAX_TEXTURE_SIZE), gl.getParameter(gl.MAX_RENDERBUFFER_SIZE));
@@ -76,8 +76,8 @@ export class Renderer {
     }
 
     /**
-     * Compiles all programs that an appearance needs, so that errors come before anything is drawn, and those with models beside them:
-     * `unused` has the kind and the name of each.
+     * Compiles all programs that an appearance needs, so that errors come before anything is drawn, and those with further
+     * models: `unused` has the kind and name of each.
      */
     prepare(appearance, unused = []) {
         const { objects } = appearance;
@@ -89,8 +89,8 @@ export class Renderer {
     }
 
     /**
-     * Renders one sample per pixel into the film's picture; `position` is within the pixel, from its top left. `rows`: from
-     * which row to which, counted from the bottom; others stay as they are.
+     * Renders one sample per pixel into the film's picture; `position` is within the pixel, from its top left. `rows`: the
+     * range of rows, counted from the bottom; others stay as they are.
      */
     drawSample(film, appearance, position, rows = [0, film.height]) {
         const { gl } = this, { observer } = appearance;
@@ -136,7 +136,7 @@ export class Renderer {
         return texture === null ? [] : Object.entries(this.textures[texture].bind(TEXTURE_UNIT, texture_repeats));
     }
 
-    /** Calls back once the graphics have finished all that they have been given; never if they are lost before. */
+    /** Calls back once the graphics have finished all submitted work; never if they are lost first. */
     whenFinished(callback) {
         const { gl } = this, fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
         gl.flush();
@@ -189,7 +189,7 @@ export class Renderer {
         film.swap();
     }
 
-    /** Writes a target's intensities to a framebuffer as the screen or a file takes them; null is the canvas. */
+    /** Writes a target's intensities to a framebuffer, encoded for the screen or a file; null is the canvas. */
     encode(target, framebuffer) {
         this.drawPass("encode", framebuffer, { sum: target }, { is_srgb: { kind: "int", value: this.isSrgb ? 1 : 0 } });
     }

@@ -7,14 +7,14 @@ const MOST_BANDS = 8;  // each of them has to go through all triangles
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
-/** How coarse drafts have to be, so that they follow a hand, from how long the last one has taken. */
+/** How coarse drafts must be to follow the user's hand, given the time that the last one took. */
 export class AdaptiveResolution {
     constructor() {
         this.scale = 1;  // of width and height
-        this.bands = 1;  // in which a picture at full resolution is drawn, so that a hand does not wait for all of it
+        this.bands = 1;  // in which a picture at full resolution is drawn, so that the user need not wait for all of it
     }
 
-    /** `elapsed`: the milliseconds until the graphics had finished a draft at this scale. Most go into its pixels. */
+    /** `elapsed`: the milliseconds that the graphics took for a draft at this scale, most of them for its pixels. */
     adapt(elapsed) {
         this.bands = clamp(Math.ceil(elapsed / (this.scale * this.scale) / BAND_MS), 1, MOST_BANDS);
         if (elapsed >= FAST_DRAFT_MS && elapsed <= SLOW_DRAFT_MS) return;

@@ -7,8 +7,7 @@ export function readScene() {
 export const nameOf = (label) => (/^'[^]*'$/.test(label) ? label.slice(1, -1) : label);
 
 /**
- * The name that a person gave. Unnamed objects and lights go by their number, as
- * on the command line.
+ * The name from the scene file. Unnamed objects and lights are called by their number, as on the command line.
  */
 export function displayName(label, kind, index) {
     const bare = nameOf(label);

@@ -7,13 +7,13 @@ import { areEqual, canonicalValue } from "./values.js";
 /** Paths come from links, which anybody can write: names that every object inherits must not be found. */
 const ownMember = (object, name) => (object && Object.hasOwn(object, name) ? object[name] : undefined);
 const PANE = /^pane\.[123]\.((?:shading|reflection)$|(?:object|light)\..*$)/;
-/** Pairs of a path and a value, those of panes last: whether a pane's value is one of its own depends on the first pane's. */
+/** Pairs of a path and a value, those of panes last: whether a pane's value is its own depends on the first pane's. */
 export const panesLast = (changes) => [...changes].sort(([a], [b]) => Number(PANE.test(a)) - Number(PANE.test(b)));
 const itemAt = (list, index) => (/^\d+$/.test(index) ? ownMember(list, index) : undefined);
 
 /**
- * All that a person can change, each under a path such as "object.0.material.phong.kd". Only what differs from the scene
- * is kept.
+ * Everything that a user can change, each under a path such as "object.0.material.phong.kd". Only differences from the scene
+ * are stored.
  */
 export class Settings {
     constructor(scene) {
@@ -24,12 +24,12 @@ export class Settings {
         this.saved = new Map();
     }
 
-    /** These changes are in the scene that comes next. */
+    /** Tells that the next scene contains these changes. */
     expectSaved(changes) {
         this.saved = changes;
     }
 
-    /** Settings for another state of the scene: with the changes of these that it has a place for, and whose values it left alone. */
+    /** Settings for another state of the scene, with those changes that still apply and whose values that state left alone. */
     continuedIn(scene) {
         const result = new Settings(scene);
         for (const [path, value] of panesLast(this.changes)) {
@@ -44,7 +44,7 @@ export class Settings {
         return result;
     }
 
-    /** As continuedIn(), in place. Listeners are not told. */
+    /** Like continuedIn(), in place. Listeners are not notified. */
     replaceScene(scene) {
         const { changes } = this.continuedIn(scene);
         Object.assign(this, { scene, changes, cache: new Map(), saved: new Map() });
@@ -57,7 +57,7 @@ export class Settings {
 
     /** The parameter at a path and the scene's own value for it: { parameter, initial }; null if there is none. */
     find(path) {
-        // What a pane has not of its own follows the first one.
+        // Settings that a pane does not override follow the first one.
         const ofPane = PANE.exec(path);
         if (ofPane !== null) {
             const found = this.find(ofPane[1]);
@@ -115,7 +115,7 @@ export class Settings {
         return own;
     }
 
-    /** The same seen by somebody else, whom `observer` gives. */
+    /** These settings with another observer, which `observer` returns. */
     seenBy(observer) {
         return Object.assign(Object.create(this), { observer });
     }
@@ -124,7 +124,7 @@ export class Settings {
         return this.changes.size > 0;
     }
 
-    /** What is wrong with a value for a path; null if it is valid. */
+    /** The error of a value for a path; null if it is valid. */
     validate(path, value) {
         const found = this.find(path);
         if (found === null) return "is not a part of this scene";
@@ -141,17 +141,17 @@ export class Settings {
     }
 
     /**
-     * Tells listeners that a path, or all paths that begin with it, has changed; null stands for any. `isFromControl`: the
-     * path's own control made the change, and shows it already.
+     * Tells listeners that a path, or all paths that begin with it, have changed; null stands for any. `isFromControl`: the
+     * path's own control made the change and shows it already.
      */
     notify(path, isFromControl = false) {
-        // Some of them come and go with what is shown.
+        // Some of them come and go with the display.
         for (const listener of [...this.listeners]) {
             if (this.listeners.includes(listener)) listener(path, isFromControl);
         }
     }
 
-    /** Sets a value that was entered in a control, if it is valid; what is wrong with it, or null. */
+    /** Sets a value that was entered in a control, if it is valid. Returns its error, or null. */
     change(path, value) {
         const error = this.validate(path, value);
         if (error === null) {
@@ -174,7 +174,7 @@ export class Settings {
         return { up, projection, widening, ...Object.fromEntries(values) };
     }
 
-    /** For an observer that orbiting or zooming made, which is valid. */
+    /** For a valid observer, the result of orbiting or zooming. */
     moveObserver(observer) {
         for (const { name } of this.observerParameters()) this.set(`observer.${name}`, observer[name]);
         this.notify("observer");
@@ -184,7 +184,7 @@ export class Settings {
         this.reset((path) => path.startsWith("observer."));
     }
 
-    /** The model in force for an object: the one chosen for all objects, or the object's own. */
+    /** The model in use for an object: the one chosen for all objects, or the object's own. */
     modelOf(object, kind) {
         return this.get(kind) || object[kind];
     }

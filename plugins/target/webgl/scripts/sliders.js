@@ -26,7 +26,7 @@ export function sliderRange(parameter, initial, axis, extent) {
         high = Math.max(1, niceCeiling(size));
         low = -high;
     } else {
-        // A limit far beyond the value is as good as none: nobody could aim in so wide a range.
+        // A limit far beyond the value is useless for a slider: nobody could aim in so wide a range.
         const isOpen = (limit) => limit === null || Math.abs(limit) > 25 * size;
         if (isOpen(low)) low = null;
         if (isOpen(high)) high = niceCeiling(Math.max(4 * size, low === null ? 0 : 2 * Math.abs(low)));

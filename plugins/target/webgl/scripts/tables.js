@@ -1,12 +1,12 @@
 import { floatsOf } from "./arrays.js";
 
-/** The numbers of the models' tables as shaders read them: a texture with a texel for each. They never change. */
+/** The numbers of the models' tables for shaders: a texture with a texel for each. They never change. */
 export class Tables {
     constructor(gl, scene) {
         this.gl = gl;
         const width = scene.table_width, numbers = floatsOf(scene.tables);
         const height = Math.max(1, Math.ceil(numbers.length / width));
-        if (height > gl.getParameter(gl.MAX_TEXTURE_SIZE)) throw new Error("This device's graphics have no room for so large tables.");
+        if (height > gl.getParameter(gl.MAX_TEXTURE_SIZE)) throw new Error("This device's graphics do not have room for tables of this size.");
         const texels = new Float32Array(width * height);
         texels.set(numbers);
         this.texture = gl.createTexture();

@@ -3,7 +3,7 @@ import { decodeColor } from "./colors.js";
 
 const ONE = 65535;  // an intensity of 1
 
-/** The texels of a picture of the scene: red, green, blue, and nothing. */
+/** The texels of one of the scene's pictures: red, green, blue, and padding. */
 function texelsOf({ width, height, encoded, pixels }, isSrgb) {
     const bytes = bytesOf(pixels), texels = new Uint16Array(4 * width * height);
     const intensities = Uint16Array.from({ length: 256 }, (_, byte) => Math.round(ONE * decodeColor([byte], isSrgb)[0]));
@@ -14,7 +14,7 @@ function texelsOf({ width, height, encoded, pixels }, isSrgb) {
     return { width, height, texels };
 }
 
-/** Which of `count` texels in a row each of the next level's covers, and by how much: two, or parts of three where one is left over. */
+/** The texels, among `count` in a row, that each texel of the next level covers, with weights: two, or parts of three if one is left over. */
 function coversOf(count) {
     const coarser = Math.max(count >> 1, 1), ratio = count / coarser;
     return Array.from({ length: coarser }, (_, i) => {

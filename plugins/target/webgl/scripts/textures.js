@@ -1,14 +1,14 @@
 import { levelsOf, sizeWithLevels } from "./texture_levels.js";
 
 /**
- * A picture that colours of surfaces are multiplied with, on the GPU, with its mip levels.
- * Texels are whole numbers, between which shaders filter, since how exactly a device does is its own affair.
+ * A picture by which colours of surfaces are multiplied, on the GPU, with its mip levels. Texels are integers, which shaders
+ * filter themselves, since the precision of a device's filtering is unspecified.
  */
 export class Texture {
     constructor(gl, picture, isSrgb) {
         const size = sizeWithLevels(picture), limit = gl.getParameter(gl.MAX_TEXTURE_SIZE);
         if (Math.max(...size) > limit)
-            throw new Error(`The texture ${picture.title} has ${size.join(" x ")} pixels with its levels; this device's graphics take ${limit} x ${limit}.`);
+            throw new Error(`The texture ${picture.title} has ${size.join(" x ")} pixels with its levels; this device's graphics support at most ${limit} x ${limit}.`);
         const levels = levelsOf(picture, isSrgb);
         Object.assign(this, { gl, picture, isSrgb, levels: levels.length });
         this.users = 0;  // renderers
@@ -32,7 +32,7 @@ export class Texture {
         if (this.users === 0) this.gl.deleteTexture(this.texture);
     }
 
-    /** Binds the texture to a unit; returns the uniforms with which it is read. `repeats`: beyond its edges. */
+    /** Binds the texture to a unit; returns the uniforms with which it is read. `repeats`: whether it repeats beyond its edges. */
     bind(unit, repeats) {
         const { gl, levels, picture: { width, height } } = this;
         gl.activeTexture(gl.TEXTURE0 + unit);

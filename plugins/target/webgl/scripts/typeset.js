@@ -31,7 +31,8 @@ const withoutGroup = (node) => (node.kind === "group" ? node.of[0] : node);
 const fenced = (open, content, close) => mathElement("mrow", {}, sign(open, { stretchy: "false" }), content, sign(close, { stretchy: "false" }));
 
 /**
- * A tree as MathML, which browsers set. `valueOf`: gets a node, and gives what stands in its place, or null: numbers in place of names.
+ * A tree as MathML, which browsers typeset. `valueOf`: gets a node and returns its replacement, such as a number for a name, or
+ * null.
  */
 export function treeElement(node, valueOf = () => null) {
     const value = valueOf(node);
@@ -66,7 +67,7 @@ export function treeElement(node, valueOf = () => null) {
                 const isNumeric = (one) => one.kind === "number" || valueOf(one) !== null;
                 const isLong = (one) => one.kind === "call" || (one.kind === "name" && one.text.length > 2);
                 const before = node.of[i - 1];
-                // Between numbers a product has to be seen.
+                // Between numbers, multiplication must be visible.
                 const between = i > 0 && isNumeric(before) && isNumeric(factor) ? sign("·")
                     : mathElement("mspace", { width: i > 0 && (isLong(before) || isLong(factor)) ? "0.22em" : "0.08em" });
                 return i === 0 ? [inner(factor)] : [between, inner(factor)];
@@ -85,7 +86,7 @@ export const mathPower = (base, exponent) => mathElement("msup", {}, base, expon
 /** The names of several letters that stand for something in a model's formula. */
 export const knownNames = (model) => new Set([...NAMED, ...model.parameters.map(({ name }) => name)]);
 
-/** A model's formula, typeset line by line; what is no formula stays as it was written. */
+/** A model's formula, typeset line by line; lines that are not formulas stay as they were written. */
 export function formulaLines(model) {
     const known = knownNames(model);
     return model.formula.split("\n").map((line) => {

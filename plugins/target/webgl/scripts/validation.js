@@ -8,12 +8,12 @@ function describeRange({ minimum, maximum, minimum_excluded, maximum_excluded })
 }
 
 function isInRange({ minimum, maximum, minimum_excluded, maximum_excluded }, x) {
-    // Limits are floats, too: 0.95 must be allowed where the limit reads 0.949999988.
+    // Limits are also floats: 0.95 must be allowed if the limit reads 0.949999988.
     if (minimum !== null && (x < roundToFloat(minimum) || (minimum_excluded && x === roundToFloat(minimum)))) return false;
     return maximum === null || !(x > roundToFloat(maximum) || (maximum_excluded && x === roundToFloat(maximum)));
 }
 
-/** What is wrong with a parameter's value, as a predicate ("must be ..."); null if it is valid. */
+/** The error of a parameter's value, as a predicate ("must be ..."); null if it is valid. */
 export function validateValue(parameter, value) {
     const validateRange = (x) => (isInRange(parameter, x) ? null : `must be ${describeRange(parameter)}`);
     switch (parameter.type) {

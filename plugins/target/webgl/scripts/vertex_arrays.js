@@ -4,9 +4,9 @@ import { cross, normalize, subtract } from "./vectors.js";
 /** The vertex shader's inputs, in the order of their locations. */
 export const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", "uv", "dpdu", "dpdv", "barycentric",
     "vertex_color"];
-/** Those of shading models that see their triangle: equal ones at its three vertices. */
+/** The inputs of shading models that read their triangle, equal at its three vertices. */
 export const TRIANGLE_ATTRIBUTES = ["p0", "p1", "p2", "n0", "n1", "n2"];
-/** Of textured objects: how u and v change from a triangle's first vertex to the second and to the third. */
+/** The inputs of textured objects: how u and v change from a triangle's first vertex to the second and to the third. */
 export const TEXTURE_ATTRIBUTES = ["uv_edges"];
 export const sizeOf = (attribute) => ({ uv: 2, uv_edges: 4 })[attribute] ?? 3;
 
@@ -47,7 +47,7 @@ function repeatCorner(values, corner) {
     return values.map((_, i) => values[i - (i % 9) + 3 * corner + (i % 3)]);
 }
 
-/** Of each triangle, the differences of its second and third pair to the first, at each of its vertices. */
+/** For each triangle, the differences of its second and third pair from the first, at each of its vertices. */
 function edgesPerTriangle(uv) {
     const result = new Float32Array(2 * uv.length);
     for (let i = 0; i < uv.length; i += 6) {
@@ -67,8 +67,8 @@ function faceNormals(positions) {
 }
 
 /**
- * An object's triangles as vertex shaders read them. Triangles share no vertices, so that what is lit once per face can differ between
- * them.
+ * An object's triangles in the form that vertex shaders read. Triangles do not share vertices, so that values per face can
+ * differ between them.
  */
 export class VertexArrays {
     constructor(mesh) {
@@ -80,7 +80,7 @@ export class VertexArrays {
         this.positions = expandIndexed(positions, this.indices, 3);
     }
 
-    /** For each attribute the name of its values, or three numbers where it is the same everywhere. */
+    /** For each attribute the name of its values, or three numbers if it is the same everywhere. */
     sourcesOf({ rate, seesTriangle, isTextured }, normalSet) {
         const { uv, dpdu, dpdv, color } = this.mesh;
         const mean = rate === "face" ? " mean" : "";

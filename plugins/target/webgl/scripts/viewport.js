@@ -7,8 +7,8 @@ const PIXEL_CENTER = [0.5, 0.5];
 const GAP = 8;  // between pictures, in CSS pixels
 
 /**
- * Keeps the canvases up to date: one sample per pixel, at a lower resolution where frames are slow, while something changes;
- * all samples once it rests. A frame is begun when the graphics have finished the one before, so that none queue up.
+ * Keeps the canvases up to date: one sample per pixel while something changes, at a lower resolution if frames are slow; all
+ * samples once nothing changes. A frame begins when the graphics have finished the previous one, so that none queue up.
  *
  * There may be several views of the scene. All are drawn in one context, whose canvas shows the first of them; the pictures of the
  * others are copied from it.
@@ -31,7 +31,7 @@ export class Viewport {
         this.invalidate();
     }
 
-    /** Other views, beside the first or over it: { canvas, settings, isOver } each. */
+    /** Further views, next to the first or over it: { canvas, settings, isOver } each. */
     setOthers(others) {
         for (const { films } of this.views.slice(1)) Object.values(films).forEach((film) => film.release());
         this.views = [this.views[0], ...others.map((view) => ({ ...view, films: {}, film: null, context: view.canvas.getContext("2d", { alpha: false }) }))];
@@ -45,7 +45,7 @@ export class Viewport {
         this.isStopped = true;
     }
 
-    /** From now on, draws with another renderer of the same context: at once, so that the graphics work while the page does. */
+    /** Draws with another renderer of the same context from now on, starting at once so that the graphics work in parallel with the page. */
     use(renderer) {
         this.renderer = renderer;
         this.invalidate();
@@ -54,7 +54,7 @@ export class Viewport {
         this.drawFrame();
     }
 
-    /** Starts anew with a draft, at the next frame. */
+    /** Starts again with a draft at the next frame. */
     invalidate() {
         if (this.isStopped) return;
         this.startRefinement(false);
@@ -62,7 +62,7 @@ export class Viewport {
         this.requestFrame();
     }
 
-    /** The first view's picture stays in the context's canvas, so it is the last to be refined. */
+    /** The first view's picture stays in the context's canvas, so it is refined last. */
     startRefinement(hasDraft) {
         this.unfinished = hasDraft ? [...this.views.slice(1), this.views[0]] : null;  // null: a draft comes first
         this.nextSample = 0;
@@ -73,7 +73,7 @@ export class Viewport {
         if (this.frameRequest === 0 && !this.isDrawing) this.frameRequest = requestAnimationFrame(() => this.drawFrame());
     }
 
-    /** How many pictures stand in a row, so that they are as large as possible, and how large each is in CSS pixels. */
+    /** The number of pictures in a row that makes them as large as possible, and the size of each in CSS pixels. */
     layout() {
         const { width, height } = this.settings.scene.image, box = this.container.getBoundingClientRect();
         const count = this.views.filter(({ isOver }) => !isOver).length;
@@ -86,7 +86,7 @@ export class Viewport {
         return { columns: best.columns, size: [width, height].map((side) => Math.max(1, Math.floor(side * best.ratio))) };
     }
 
-    /** What lies over pictures follows them when they move. */
+    /** Overlays follow their pictures when they move. */
     tellArrangement() {
         const arrangement = JSON.stringify([this.layout(), this.views.length]);
         if (arrangement === this.arrangement) return;
@@ -95,8 +95,8 @@ export class Viewport {
     }
 
     /**
-     * Gives a view a film of its size on the screen, times `resolutionScale`. Those of drafts and of finished pictures both stay, since
-     * they take turns, and a browser waits for the graphics when one is made.
+     * Gives a view a film of its size on the screen, times `resolutionScale`. The films of drafts and of finished pictures are
+     * both kept, since they alternate, and a browser waits for the graphics when one is made.
      */
     prepareFilm(view, resolutionScale) {
         const { columns, size: [width, height] } = this.layout();
@@ -117,7 +117,7 @@ export class Viewport {
 
     /** Puts a film's target into the context's canvas. */
     encode({ film, target }) {
-        // Resizing clears the canvas, so that it is drawn to in the same frame.
+        // Resizing clears the canvas, so it is drawn in the same frame.
         if (this.canvas.width !== film.width) this.canvas.width = film.width;
         if (this.canvas.height !== film.height) this.canvas.height = film.height;
         this.renderer.encode(target, null);
@@ -191,7 +191,7 @@ export class Viewport {
         });
     }
 
-    /** Calls back when the graphics have finished the frame, until when no other is begun. */
+    /** Calls back when the graphics have finished the frame; no other begins until then. */
     whenFinished(callback) {
         this.isDrawing = true;
         this.renderer.whenFinished(() => {

@@ -15,7 +15,7 @@ export function boxLines(extent) {
     return lines;
 }
 
-/** What an observer sees as a pyramid, or a box, as far as what it looks at. */
+/** An observer's view as a pyramid or a box, up to the point that it looks at. */
 export function viewLines(observer, aspect) {
     const { forward, right, up } = viewAxes(observer), depth = dot(forward, subtract(observer.look_at, observer.position));
     const isOrthographic = observer.projection === "orthographic";
@@ -26,7 +26,7 @@ export function viewLines(observer, aspect) {
     return corners.flatMap((_, i) => [[begins[i], ends[i]], [ends[i], ends[(i + 1) % 4]], ...(isOrthographic ? [[begins[i], begins[(i + 1) % 4]]] : [])]);
 }
 
-/** A line's ends in the picture, as project() has them; null where all of it is behind the observer. */
+/** A line's ends in the picture, as returned by project(); null if all of it is behind the observer. */
 function projectLine(observer, [a, b]) {
     if (observer.projection !== "orthographic") {
         const { forward } = viewAxes(observer), depths = [a, b].map((point) => dot(forward, subtract(point, observer.position)));

@@ -1,4 +1,4 @@
-// What a reflection model sends into a direction of one light's intensity that arrives at a point.
+// The intensity that a reflection model sends into a direction, of one light's arriving at a point.
 layout(location = 0) in vec3 direction;
 
 uniform vec3 lobe_normal;

@@ -2,7 +2,7 @@ import { element, newId } from "../elements.js";
 
 const DELAY_MS = 200;  // after the last key
 
-/** CodeMirror stands in the page as a text, which becomes a script when it is first used. */
+/** The page contains CodeMirror as text, which becomes a script when it is first used. */
 function codeMirror() {
     if (globalThis.CodeMirror === undefined) {
         const script = document.createElement("script");
@@ -13,10 +13,10 @@ function codeMirror() {
 }
 
 /**
- * A text in the kernel language that can be edited, and below it what is wrong with it. Tab leaves it, as it leaves any field.
+ * An editor for a text in the kernel language, with its errors below. Tab leaves it like any field.
  */
 export class Editor {
-    /** `label`: what assistive technology calls it. `onInput` gets the text a moment after the last key. */
+    /** `label`: its name for assistive technology. `onInput` gets the text a moment after the last key. */
     constructor({ label, text, onInput }) {
         const area = element("div", { class: "editor" });
         this.problemList = element("ul", { class: "editor-problems", id: newId("problems"), "aria-live": "polite" });
@@ -24,7 +24,7 @@ export class Editor {
         this.mirror = codeMirror()(area, {
             value: text, mode: "x-shader/x-fragment", lineNumbers: true, indentUnit: 4, matchBrackets: true, viewportMargin: Infinity,
             screenReaderLabel: label, extraKeys: { Tab: false, "Shift-Tab": false },
-            // A screen reader reads the lines themselves, and what scrolls has the focus in it.
+            // A screen reader reads the lines themselves, and the scrolling element contains the focus.
             inputStyle: "contenteditable",
         });
         const field = this.mirror.getInputField();
@@ -42,12 +42,12 @@ export class Editor {
         return this.mirror.getValue();
     }
 
-    /** `onInput` hears of it. */
+    /** `onInput` is called. */
     set text(text) {
         this.mirror.setValue(text);
     }
 
-    /** Needed once it is in the page and can be seen. */
+    /** Must be called once it is in the page and visible. */
     refresh() {
         this.mirror.refresh();
     }
