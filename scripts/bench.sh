@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # Measures Candela against OpenGL on this machine, in turns, and prints a table; build/bench/results.{md,json}.
 #   scripts/bench.sh                              all scenes, 512 x 512 to 3840 x 2160, seven rounds (six minutes)
-#   scripts/bench.sh --scenes A --sizes 512x512   less; --threads 1: both with that many, not with all
+#   scripts/bench.sh --scenes A --sizes 512x512   fewer; --threads 1: both with one thread, not with all
 #   scripts/bench.sh --sweep                      Candela alone: threads, instruction sets, models, lights, triangles (ten minutes)
 #   scripts/bench.sh --growth                     how time grows with triangles, objects, lights and pixels; build/bench/growth.{md,json} (a minute)
 #   scripts/bench.sh --programs                   against POV-Ray and VTK, whole processes; build/bench/programs.{md,json} (five minutes)
 #   scripts/bench.sh --mesh-file                  against f3d on a PLY file of ten million triangles (two minutes)
 #   scripts/bench.sh --view                       from a save and from a click to the screen, in a browser (two minutes)
-#   scripts/bench.sh --reload                     from a saved mesh to the screen, against f3d, which is told to read it again (a minute)
+#   scripts/bench.sh --reload                     from a saved mesh to the screen, against f3d, which is told to reload it (a minute)
 #   scripts/bench.sh --third-party                plugins built against an installation, as by a third party, against the shipped ones
 #   scripts/bench.sh --third-party --loops --compiler g++    the loops of reflection models, built by another compiler
 #   scripts/bench.sh --animation                  200 frames in one process against 200 processes (half a minute)
-#   scripts/bench.sh --textures                   frames with a texture of 4096 x 4096 against those without (two minutes)
+#   scripts/bench.sh --textures                   frames with a texture of 4096 x 4096 against frames without (two minutes)
 #   scripts/bench.sh --python                     models and pictures in Python against C++ (a minute)
-#   scripts/bench.sh --instructions               records how many instructions the default scene takes, which a test compares
-# On a machine that does nothing else.
+#   scripts/bench.sh --instructions               records how many instructions the default scene takes, for a test to compare
+# Use an otherwise idle machine.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"

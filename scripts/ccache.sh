@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Runs a compiler through ccache. clang-toolchain.cmake makes this CMake's compiler launcher where ccache is installed.
+# Runs a compiler through ccache. clang-toolchain.cmake makes this CMake's compiler launcher if ccache is installed.
 #   ccache.sh COMPILER ARGUMENT...
 # ccache (4.7) does not know that an object depends on the module interfaces its source imports, and would return one that was
-# compiled against older interfaces. So they are passed to it as extra files to hash. Compiled interfaces and optimisation
-# records, which it would not restore, are never cached.
+# compiled against older interfaces. So this script passes them as extra files to hash. Compiled interfaces and optimisation
+# records, which ccache would not restore, are never cached.
 set -eu
 
 command -v ccache >/dev/null || exec "$@"  # it was installed when the build was configured

@@ -1,4 +1,4 @@
-# The compiler Candela is built with: C++20 modules need clang 19 or newer, and its own dependency scanner beside it. With 22 the
+# The compiler Candela is built with: C++20 modules need clang 19 or newer and its own dependency scanner. With 22 the
 # core takes less than half the time (docs/adr/0016).
 foreach(candela_clang_version 22 23 21 20 19)
     find_program(CANDELA_CLANGXX clang++-${candela_clang_version})
@@ -8,7 +8,7 @@ foreach(candela_clang_version 22 23 21 20 19)
     endif()
 endforeach()
 
-# ccache on its own returns stale objects where module interfaces have changed.
+# ccache alone returns stale objects when module interfaces have changed.
 find_program(CANDELA_CCACHE ccache)
 if(CANDELA_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_CURRENT_LIST_DIR}/ccache.sh)

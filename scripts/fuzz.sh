@@ -2,10 +2,10 @@
 # Builds the fuzzing harnesses and runs them, one after another, each from its committed corpus.
 #   scripts/fuzz.sh                       each for 60 seconds
 #   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file, material, gltf, request, answer, kernel
-#   scripts/fuzz.sh --merge [HARNESS…]    puts what was found to reach new code into the corpus, and throws out what no
+#   scripts/fuzz.sh --merge [HARNESS…]    adds inputs that reach new code to the corpus, and removes those that no
 #                                         longer adds anything
-# A corpus is tests/fuzz/corpus/<harness>, inputs with telling names, and <harness>.tar.gz, what fuzzing has found to reach code
-# that these do not. New inputs and findings go to build/fuzz/found/<harness>, never among the sources. The exit code says
+# A corpus is tests/fuzz/corpus/<harness>, inputs with descriptive names, and <harness>.tar.gz, inputs from fuzzing that reach code
+# that these do not. New inputs and findings are written to build/fuzz/found/<harness>, never among the sources. The exit code tells
 # whether there were findings.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -35,7 +35,7 @@ for harness in "$@"; do
     corpus=tests/fuzz/corpus/$harness
     unpacked=build/fuzz/tests/fuzz/corpus/$harness
     found=build/fuzz/found/$harness
-    [ -x "$program" ] || { echo "fuzz: there is no harness '$harness'" >&2; exit 2; }
+    [ -x "$program" ] || { echo "fuzz: unknown harness '$harness'" >&2; exit 2; }
     real=build/fuzz/tests/fuzz/corpus/${harness}_real  # of mesh_file
     seeds=("$corpus" "$unpacked")
     [ ! -d "$real" ] || seeds+=("$real")
@@ -53,10 +53,10 @@ for harness in "$@"; do
         gltf) options+=(-max_len=8192 -dict=tests/fuzz/gltf.dict) ;;
     esac
     if [ "$seconds" = --merge ]; then
-        # Inputs with a name of their own are regression tests: they stay. The others must add to them.
+        # Named inputs are regression tests and stay. The others must add coverage.
         cp -r "$corpus" "$scratch/merged"
         "$program" "${options[@]}" -merge=1 "$scratch/merged" "${seeds[@]:1}" "$found/inputs" 2>&1 | tail -n 1
-        # The same inputs are always the same archive.
+        # The same inputs always make the same archive.
         (cd "$scratch/merged" && find . -regextype egrep -regex '\./[0-9a-f]{40}' -printf '%P\0' | LC_ALL=C sort -z) |
             tar -C "$scratch/merged" --null --files-from=- --format=ustar --mtime=@0 --mode=0644 --owner=0 --group=0 --numeric-owner \
                 -c | gzip -n -9 >"$corpus.tar.gz.new"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Checks the form of the sources: clang-format for all of them, clang-tidy for those that a change may have affected. Makes the
 # release build first.
-#   scripts/lint.sh              what differs from upstream, committed or not, and whatever includes or imports that
-#   scripts/lint.sh --since REV  the same against REV
+#   scripts/lint.sh              files that differ from upstream, committed or not, and those that include or import them
+#   scripts/lint.sh --since REV  like that, against REV
 #   scripts/lint.sh --all        everything (half an hour with two cores)
 #   scripts/lint.sh --format     only clang-format, which takes a second
-# Where nothing differs from upstream, as in a fresh clone, everything is checked, unless the environment variable
+# If nothing differs from upstream, as in a fresh clone, everything is checked, unless the environment variable
 # CANDELA_LINT_SINCE names a commit to compare with.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -18,7 +18,7 @@ commit() { git rev-parse --verify --quiet "$1^{commit}" 2>/dev/null; }
 compared_with() {
     local upstream base
     if [ -n "${CANDELA_LINT_SINCE-}" ]; then
-        commit "$CANDELA_LINT_SINCE" || { echo "lint: CANDELA_LINT_SINCE names no commit: $CANDELA_LINT_SINCE" >&2; return 2; }
+        commit "$CANDELA_LINT_SINCE" || { echo "lint: CANDELA_LINT_SINCE is not a commit: $CANDELA_LINT_SINCE" >&2; return 2; }
         return
     fi
     for upstream in '@{upstream}' origin/HEAD origin/main; do
@@ -47,7 +47,7 @@ since=
 cmake --preset release -DCANDELA_TESTS=ON >/dev/null
 cmake --build --preset release >/dev/null
 if [ -n "$since" ]; then
-    echo "lint: what differs from $(git log -1 --format='%h (%s)' "$since")"
+    echo "lint: changes since $(git log -1 --format='%h (%s)' "$since")"
     python3 -B "$root/scripts/tidy.py" build/release build/tidy --since "$since"
 else
     python3 -B "$root/scripts/tidy.py" build/release build/tidy --all

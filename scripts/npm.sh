@@ -1,7 +1,7 @@
-# To be sourced: packages that npm fetches, pinned.
+# Source this: fetches pinned packages with npm.
 
-# bring_from_npm PACKAGE VERSION TESTS FILE=SHA256...: files of a package to build/PACKAGE. Without npm, or where npm cannot fetch it, says
-# that TESTS will be skipped.
+# bring_from_npm PACKAGE VERSION TESTS FILE=SHA256...: fetches files of a package to build/PACKAGE. If npm is missing or cannot
+# fetch it, reports that TESTS will be skipped.
 bring_from_npm() {
     local package=$1 version=$2 tests=$3 root folder draft each
     shift 3
@@ -17,14 +17,14 @@ bring_from_npm() {
     skip() { printf '%s: %s; %s will be skipped\n' "$package" "$*" "$tests" >&2; }
 
     if are_right "$folder"; then return 0; fi
-    command -v npm >/dev/null || { skip "there is no npm"; return 0; }
+    command -v npm >/dev/null || { skip "npm is missing"; return 0; }
     draft=$(mktemp -d)
     # shellcheck disable=SC2064  # the folder as it is now
     trap "rm -rf '$draft'" EXIT
     (cd "$draft" && npm pack --silent --fetch-retries=1 --fetch-timeout=30000 "$package@$version" >/dev/null) ||
         { skip "npm could not fetch version $version"; return 0; }
     tar -C "$draft" -xzf "$draft/$package-$version.tgz"
-    are_right "$draft/package" || { printf '%s: npm fetched other files than are expected\n' "$package" >&2; return 1; }
+    are_right "$draft/package" || { printf '%s: npm fetched unexpected files\n' "$package" >&2; return 1; }
     mkdir -p "$folder"
     cp "$draft/package/LICENSE" "$folder/"
     for each in "${files[@]%%=*}"; do

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Renders the pictures of the documentation anew: docs/pictures/*.
-#   scripts/pictures.sh [directory]     somewhere else
-# The contact sheet is one scene: in each cell a coarse sphere and a coarse teapot with a shading and a reflection model of
-# their own, all in the same light.
+# Renders the documentation's pictures again: docs/pictures/*.
+#   scripts/pictures.sh [directory]     to another directory
+# The contact sheet is one scene: in each cell a coarse sphere and a coarse teapot with their own shading and reflection model,
+# all in the same light.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 out=${1:-$root/docs/pictures}
@@ -68,7 +68,7 @@ contact_sheet() {
     done
 }
 
-# Every reflection model that is not clear, on the same fine sphere and teapot.
+# Every opaque reflection model, on the same fine sphere and teapot.
 reflection_sheet() {
     sheet_head
     local i=0 x y reflection material
@@ -129,7 +129,7 @@ chromium --headless=new "${sandbox[@]}" --use-angle=swiftshader --enable-unsafe-
 "$root/build/release/bin/candela" compare "$root/docs/examples/still-life.toml" --width 320 --height 200 --columns 3 \
     --terms picture,ambient,diffuse,specular,light.lamp,n_dot_l.lamp,normal,depth,triangle -o "$out/terms.png"
 
-# The page of an exercise, with an answer that makes the mistake of a power that is even.
+# The page of an exercise, with an answer that wrongly uses an even power.
 /usr/bin/python3 -B "$root/tests/page/exercise_picture.py" "$root/build/release/bin/candela" "$out/exercise.png"
 # A film, as eight of its frames.
 frames=$(mktemp -d)
@@ -138,6 +138,6 @@ trap 'rm -rf "$sheet" "$model" "$page" "$frames"' EXIT
     --set animation.orbit.turns=1 -o "$frames/%d.png" 2>/dev/null
 ffmpeg -loglevel error -y -i "$frames/%d.png" -vf tile=4x2 -frames:v 1 "$out/film.png"
 
-# The page while somebody works on the scene.
+# The page while the scene is being edited.
 /usr/bin/python3 -B "$root/tests/page/view_picture.py" "$root/build/release/bin/candela" "$root/docs/examples/still-life.toml" "$out/view.png" "$out/explanation.png" \
     "$out/panes.png"

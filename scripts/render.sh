@@ -8,7 +8,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/scripts/setup.sh" --build
 log=$root/build/render-build.log
 mkdir -p "$root/build"
-# Passes ninja's lines on to the log, and on a terminal says how far it is.
+# Passes ninja's lines to the log, and shows the progress on a terminal.
 follow_build() {
     local line
     while IFS= read -r line; do
@@ -19,7 +19,7 @@ follow_build() {
     done
     if [ -t 2 ]; then printf '\r\033[K' >&2; fi
 }
-# Only what rendering needs; what a developer has configured stays as it is.
+# Builds only what rendering needs; a developer's configuration stays as it is.
 configure=()
 if [ ! -f "$root/build/release/build.ninja" ]; then
     configure=(-DCANDELA_TESTS=OFF)
@@ -28,7 +28,7 @@ fi
 if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target candela_runtime; } 2>&1 |
     follow_build >"$log"; then
     tail -n 30 "$log" >&2
-    echo "render: the build failed; all of it is in $log" >&2
+    echo "render: the build failed; see $log" >&2
     exit 1
 fi
 exec "$root/build/release/bin/candela" render "$@"

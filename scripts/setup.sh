@@ -5,8 +5,8 @@
 #   scripts/setup.sh --build      only what building and rendering need
 #   scripts/setup.sh --programs   everything, and the programs that scripts/bench.sh --programs compares with
 #
-# Works as root or through sudo. Does nothing where nothing is missing. On a release whose own CMake or Catch2 is too
-# old, the release's backports are added from the mirror that apt already uses.
+# Works as root or with sudo. Does nothing if nothing is missing. On a release whose own CMake or Catch2 is too
+# old, adds the release's backports from the mirror that apt already uses.
 set -euo pipefail
 
 readonly k_cmake_at_least=3.28
@@ -26,7 +26,7 @@ case "${1-}" in
   *) say "unknown argument '$1' (allowed: --build, --programs)"; exit 2 ;;
 esac
 
-command -v apt-get >/dev/null || fail "this script knows apt only; CONTRIBUTING.md lists what to install elsewhere"
+command -v apt-get >/dev/null || fail "this script supports only apt; CONTRIBUTING.md lists what to install elsewhere"
 
 as_root=()
 apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive DEBCONF_NOWARNINGS=yes apt-get -qq -o DPkg::Lock::Timeout=300 "$@"; }
@@ -49,7 +49,7 @@ if [ "$everything" = yes ]; then
     zsh fish ffmpeg mkdocs mkdocs-material doxygen assimp-testmodels pybind11-dev python3-dev python3-numpy python3-build python3-venv povray)
 fi
 
-# Boost: Debian 12 has 1.81 beside its default 1.74; later releases need no such choice.
+# Boost: Debian 12 has 1.81 in addition to its default 1.74; later releases offer no choice.
 if installed libboost1.81-dev || [ -n "$(candidate libboost1.81-dev)" ]; then
   boost=(libboost1.81-dev libboost-program-options1.81-dev)
 else
@@ -70,13 +70,13 @@ oldest_clang() {
   if installed clang-14 || [ -n "$(candidate clang-14)" ]; then echo clang-14; fi
 }
 
-# What makes the wheel of the module of Python; not every release has it, or one that is new enough.
+# Makes the wheel of the Python module; not every release has it, or a new enough one.
 wheel_backend() {
   [ "$everything" = yes ] || return 0
   if at_least "$(candidate python3-scikit-build-core)" "$k_scikit_build_core_at_least"; then echo python3-scikit-build-core; fi
 }
 
-# f3d and what gives it a display, and VTK's library, whose package has VTK's version in its name.
+# f3d and its display, and VTK's library, whose package has VTK's version in its name.
 programs() {
   [ "$programs" = yes ] || return 0
   echo f3d xauth xdotool
@@ -108,7 +108,7 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 say "missing: $(printf '%s\n' "${missing[@]}" | sort -u | tr '\n' ' ')"
 apt update
-# A bare machine has empty lists until now, so the choices that look at candidates are made again.
+# A bare machine has had empty lists so far, so choices that depend on candidates are made again.
 if [ -z "$(candidate libboost1.81-dev)" ]; then
   boost=(libboost-dev libboost-program-options-dev)
 else
@@ -143,7 +143,7 @@ fi
 
 find_missing
 for package in "${missing[@]}"; do
-  # What the release has in its backports alone needs other things from there.
+  # Packages that are only in the release's backports need others from there.
   case "$(candidate "$package")" in *~bpo*) from_backports+=("$package") ;; esac
 done
 if [ ${#from_backports[@]} -gt 0 ]; then
@@ -151,7 +151,7 @@ if [ ${#from_backports[@]} -gt 0 ]; then
   find_missing
 fi
 if [ ${#missing[@]} -gt 0 ]; then
-  say "installing ${#missing[@]} packages and what they need (a few minutes on a bare machine)"
+  say "installing ${#missing[@]} packages and their dependencies (a few minutes on a bare machine)"
   apt install -y --no-install-recommends "${missing[@]}" >/dev/null
 fi
 

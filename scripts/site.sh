@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up, builds, and makes the documentation as a site: build/site/html/index.html.
+# Sets up, builds, and makes the documentation's site: build/site/html/index.html.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"

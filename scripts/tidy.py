@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Runs clang-tidy on the sources that a change may have affected. scripts/lint.sh calls it after a full build.
 
-    tidy.py BUILD OUT --all          every source of the core, the SDK, the plugins and the command, tests excepted
+    tidy.py BUILD OUT --all          every source of the core, the SDK, the plugins and the command, except tests
     tidy.py BUILD OUT --since REV    those that differ from commit REV, committed or not, and those that include or import them;
-                                     not the module of Python's, which takes as long as all the rest of such a change
+                                     not the Python module's, which take as long as all the rest of such a change
 
-Uses the newest clang-tidy whose compiler is installed. Compiled module interfaces can be read by one version of clang only, so for
-any version but the build's they are compiled again, without code. OUT receives a Ninja file: what was clean is checked again only
-when it, or something it reads, has changed.
+Uses the newest clang-tidy whose compiler is installed. Compiled module interfaces can be read only by the version of clang that wrote them,
+so for any version but the build's they are compiled again, without code. OUT receives a Ninja file: clean sources are checked again only
+when they, or files that they read, have changed.
 """
 
 import json
@@ -32,8 +32,8 @@ def output_of(*words, **options):
 
 
 def without_precompiled_headers(words, is_module_unit):
-    """The headers themselves instead: a precompiled one can be read by one version of clang only. In a unit of a module, nothing may
-    stand before its first line, and it includes what it uses."""
+    """Uses the headers themselves: a precompiled one can be read only by the version of clang that wrote it. In a module unit, nothing
+    may precede its first line, and it includes what it uses."""
     kept, rest = [], list(words)
     while rest:
         if rest[:2] == ["-Xclang", "-include-pch"]:
@@ -48,7 +48,7 @@ def without_precompiled_headers(words, is_module_unit):
 
 
 class Unit:
-    """What one entry of compile_commands.json compiles."""
+    """The source that an entry of compile_commands.json compiles."""
 
     def __init__(self, entry, includes):
         self.directory = pathlib.Path(entry["directory"])
@@ -63,7 +63,7 @@ class Unit:
         self.names = {option.split("=", 2)[2]: option.split("=", 2)[1] for option in of_modules
                       if option.startswith("-fmodule-file=")}
         self.interface = next((option.split("=", 1)[1] for option in of_modules if option.startswith("-fmodule-output=")), None)
-        # Warnings are the build's business.
+        # Warnings are left to the build.
         without = ("@", "-fsave-optimization-record", "-foptimization-record", "-Werror")
         self.options = [word for word in words[1:] if not word.startswith(without)]
         self.includes = includes.get(self.object, [])
@@ -104,8 +104,8 @@ def concerned(units, changed):
 
 
 def tools(compiler):
-    """clang-tidy, the compiler to make interfaces for it with, and the clang-tidy that reads the build's own; the last two are
-    none where clang-tidy does that itself."""
+    """clang-tidy, the compiler to make interfaces for it with, and the clang-tidy that reads the build's own; the last two are None if
+    clang-tidy does that itself."""
     own = int(re.search(r"clang version (\d+)", output_of(compiler, "--version"))[1])
     for version in VERSIONS:
         if not shutil.which(f"clang-tidy-{version}"):
@@ -114,7 +114,7 @@ def tools(compiler):
             return f"clang-tidy-{version}", None, None
         if shutil.which(f"clang++-{version}"):
             return f"clang-tidy-{version}", f"clang++-{version}", f"clang-tidy-{own}"
-    sys.exit(f"tidy: there is no clang-tidy for the interfaces of {compiler}; scripts/setup.sh installs one")
+    sys.exit(f"tidy: no clang-tidy for the interfaces of {compiler} is installed; scripts/setup.sh installs one")
 
 
 def escaped(path):
@@ -122,7 +122,7 @@ def escaped(path):
 
 
 def check_command(build, out, stamp, source, tidy, other):
-    """Checks a source, and leaves the stamp where it is clean. Where clang-tidy itself crashes, as 22 does on some templates from
+    """Checks a source, and creates the stamp if it is clean. If clang-tidy itself crashes, as 22 does on some templates from
     modules, the other one checks it."""
     log = shlex.quote(f"{stamp}.log")
 
@@ -137,7 +137,7 @@ def check_command(build, out, stamp, source, tidy, other):
 
 
 def write_ninja_file(build, out, units, chosen, tidy, compiler, other):
-    """Rules to make the interfaces that `tidy` needs, and to check the chosen units."""
+    """Rules that make the interfaces that `tidy` needs, and check the chosen units."""
     own = {unit.interface: str(out / unit.interface) if compiler else str(unit.directory / unit.interface)
            for unit in units if unit.interface}
 

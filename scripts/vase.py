@@ -10,7 +10,7 @@ AROUND = 96
 
 
 def smooth(points, steps=8):
-    """Catmull and Rom's spline through the points."""
+    """The Catmull-Rom spline through the points."""
     dense = []
     for i in range(len(points) - 1):
         a, b, c, d = (points[min(max(i + k, 0), len(points) - 1)] for k in (-1, 0, 1, 2))

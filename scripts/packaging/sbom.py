@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes what is compiled or linked into Candela as a bill of materials (SPDX 2.3, JSON).
+"""Writes a bill of materials (SPDX 2.3, JSON) of everything that is compiled or linked into Candela.
 
     sbom.py BUILD-FOLDER VERSION OUTPUT
 
-Headers come from the compiler's own records of what each object was made from, libraries from the programs and plugins
-themselves; Debian's package database says to which package each belongs. A package without a licence in the table below is
-an error: somebody has to look.
+Headers come from the compiler's dependency records of each object, libraries from the programs and plugins themselves;
+Debian's package database maps each to its package. A package without a licence in the table below is an error: it must be
+looked up.
 """
 import datetime
 import json
@@ -15,7 +15,7 @@ import re
 import subprocess
 import sys
 
-# By source package, without a version in its name: what Debian's copyright file says of the parts that are used.
+# By source package, without the version in its name: the licences in Debian's copyright file of the parts that are used.
 LICENCES = {
     "boost": "BSL-1.0",
     "codemirror-js": "MIT",
@@ -46,7 +46,7 @@ LICENCES = {
     "utfcpp": "BSL-1.0",
     "zlib": "Zlib",
 }
-# Bundled into pages, which no compiler records.
+# Bundled into pages, which compilers do not record.
 BUNDLED = ("/usr/share/javascript/codemirror/lib/codemirror.js",)
 SHIPPED = ("core/", "sdk/", "plugins/", "apps/")
 
@@ -56,7 +56,7 @@ def run(*words):
 
 
 def compiled_headers(build):
-    """The system's headers that objects of what is shipped were made from."""
+    """The system's headers from which shipped objects were compiled."""
     headers, shipped = set(), False
     for line in run("ninja", "-C", str(build), "-t", "deps").splitlines():
         if not line.startswith(" "):
@@ -67,7 +67,7 @@ def compiled_headers(build):
 
 
 def linked_libraries(build):
-    """The system's libraries that what is shipped is linked to directly."""
+    """The system's libraries to which shipped binaries are linked directly."""
     libraries = set()
     for path in [*(build / "bin").iterdir(), *(build / "lib").rglob("*.so")]:
         needed = re.findall(r"\(NEEDED\).*\[(.+)\]", run("readelf", "--dynamic", str(path)))
@@ -82,7 +82,7 @@ def packages_of(files):
     names = set()
     files = sorted(files)
     for first in range(0, len(files), 500):
-        # Merged /usr: a package may have listed its files below / instead.
+        # Merged /usr: a package may list its files below / instead.
         words = [w for path in files[first:first + 500] for w in (path, path.removeprefix("/usr"))]
         owners = subprocess.run(["dpkg-query", "--search", *words], capture_output=True, text=True).stdout
         for line in owners.splitlines():
@@ -92,7 +92,7 @@ def packages_of(files):
 
 
 def licence_of(source):
-    """None where nobody has looked yet. Releases of Debian differ in the versions that are in names: boost1.81, gcc-14, python3.11."""
+    """None if nobody has looked it up yet. Versions in names differ between Debian releases: boost1.81, gcc-14, python3.11."""
     return LICENCES.get(re.sub(r"^(boost|gcc|llvm-toolchain|python)-?[0-9.]+$", r"\1", source))
 
 
@@ -107,7 +107,7 @@ def main():
     uses = {"compiled in": packages_of(compiled_headers(build) | {os.path.realpath(path) for path in BUNDLED}), "linked": packages_of(linked_libraries(build))}
     unknown = {source for found in uses.values() for source, _ in found.values() if licence_of(source) is None}
     if unknown:
-        sys.exit(f"sbom: no licence is known for {', '.join(sorted(unknown))}; look into its copyright file and add it here")
+        sys.exit(f"sbom: unknown licence of {', '.join(sorted(unknown))}; look it up in the copyright file and add it here")
 
     packages = [package("candela", version, "Apache-2.0", "Lighting models as plugins")]
     relationships = [("SPDXRef-DOCUMENT", "DESCRIBES", "SPDXRef-candela")]
@@ -118,7 +118,7 @@ def main():
                 packages.append(entry)
             relation = "DYNAMIC_LINK" if how == "linked" else "DEPENDS_ON"
             relationships.append(("SPDXRef-candela", relation, entry["SPDXID"]))
-    # Fetched by npm, where it could be.
+    # Fetched by npm, if possible.
     three = build / "lib/candela/plugins/target-three/build/three.module.min.js"
     if three.exists():
         its_version = re.search(r"bring_from_npm three (\S+)", (pathlib.Path(__file__).parents[1] / "three.sh").read_text())[1]

@@ -1,5 +1,5 @@
-"""Frames in one `candela animate` against as many `candela render`, in turns: the ratios of their times, by the clock and by processor
-time.
+"""Frames in one `candela animate` against as many runs of `candela render`, in turns: the ratios of their times, by the clock and by
+processor time.
 
 animation.py <build folder> <work folder> [--frames N] [--rounds N]
 """

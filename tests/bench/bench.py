@@ -19,7 +19,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
-MOST_DIFFERENCE = 0.2  # levels; an observer 0.01 aside makes 0.4 on A, 1 on C
+MOST_DIFFERENCE = 0.2  # levels; moving the observer by 0.01 makes 0.4 on A, 1 on C
 
 
 def run(words, **more):
@@ -39,7 +39,7 @@ class Bench:
         self.rival = build / "tests/bench/candela_opengl_rival"
         self.empty = build / "tests/bench/candela_empty_program"
         self.out = out
-        # In memory where the system has such a folder: what is measured is the programs, not the disk.
+        # In memory if the system has such a folder, to measure the programs, not the disk.
         self.scratch = tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
         self.pictures = pathlib.Path(self.scratch.name)
         self.threads = ["--threads", threads] if threads else []
@@ -72,7 +72,7 @@ class Bench:
         return milliseconds
 
     def memory(self, words):
-        """The most memory held, in MiB. A process inherits the peak of the one that starts it, so a small shell does that."""
+        """Peak memory in MiB. A process inherits the peak of its parent, so a small shell starts it."""
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)
         pid = run(["sh", "-c", '"$@" >/dev/null 2>&1 & echo $!', "sh", *words], env=self.env)
         _, _, usage = os.wait4(int(pid), 0)
@@ -175,7 +175,7 @@ def asked_for(sizes):
 
 
 def cells(arguments):
-    """Scene, width, height of each row, with a word when it is done."""
+    """The scene, width and height of each row, reported when done."""
     for scene in arguments.scenes.split(","):
         for size in arguments.sizes.split(","):
             yield scene, *(int(x) for x in size.split("x"))

@@ -1,7 +1,7 @@
 """builds.py OLD NEW [--scenes A,AR,B,C] [--size 1920x1080] [--threads N] [--rounds N]: frames of one build against another's.
 
 OLD and NEW are build folders, such as build/release of two checkouts. In turns; the ratio is NEW's time over OLD's of the same round,
-and the median over all rounds is printed with its range. On a machine that does nothing else.
+and the median over all rounds is printed with its range. Use an otherwise idle machine.
 """
 import argparse
 import json

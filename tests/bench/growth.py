@@ -17,7 +17,7 @@ observer = { position = [0.0, 0.6, 3.4], look_at = [0.0, 0.0, 0.0] }
 
 
 def lights(count):
-    """All around the observer, together as bright as one."""
+    """Around the observer, together as bright as one."""
     angles = (2 * math.pi * i / count for i in range(count))
     return "".join(f'[[light]]\ntype = "point"\nposition = [{3 * math.sin(a):.4f}, 2.5, {3 * math.cos(a):.4f}]\n'
                    f"intensity = {14 / count:.6f}\n" for a in angles)
@@ -28,7 +28,7 @@ def sphere(triangles):
 
 
 def cubes(count):
-    """In a block, apart from one another."""
+    """In a block, spaced apart."""
     side = math.ceil(count ** (1 / 3))
     step = 2 / side
 
@@ -44,7 +44,7 @@ class Growth:
         self.rounds = rounds
 
     def frames(self, scene, width, height):
-        """What reads the scene, makes its meshes and draws some frames."""
+        """Reads the scene, makes its meshes and draws some frames."""
         return [self.bench.candela, "bench", scene, "--defaults", "--json", "--width", width, "--height", height, "--frames", 5]
 
     def picture(self, scene, width, height):
@@ -63,7 +63,7 @@ class Growth:
         return {"make": figures["read_ms"] + figures["meshes_ms"], "frame": figures["frame_ms"]}
 
     def measured(self, what, sizes, words_for):
-        """A row for each thing that is timed where `words_for(size)` is run."""
+        """A row for each quantity timed when `words_for(size)` is run."""
         found = {size: [] for size in sizes}
         memory = {}
         for _ in range(self.rounds):

@@ -1,8 +1,8 @@
 """instructions.py COMMAND RECORD [--update]: how many instructions the default scene takes, from start to PNG file.
 
 Counts with callgrind, which simulates a processor with AVX2, so that the figure is the same to a hundredth of a percent wherever
-the same compiler and C library built and run it; the record names both, and another pair is not compared (exit code 77). Fails
-where the figure is more than 3 % above the record. --update writes the record anew, as a gain should be.
+the same compiler and C library built and run it; the record names both, and another pair is not compared (exit code 77). Fails if the
+figure is more than 3 % above the record. --update rewrites the record, also after a gain.
 """
 
 import json
@@ -21,7 +21,7 @@ def first_line(*words):
 
 
 def built_with(command):
-    """What the figure depends on beside the source."""
+    """What the figure depends on other than the source."""
     notes = subprocess.run(["readelf", "-p", ".comment", command], check=True, capture_output=True, text=True).stdout
     compilers = sorted(set(re.findall(r"\]\s+(.*clang version \S+)", notes)))
     return {"compiler": ", ".join(compilers), "c_library": first_line("ldd", "--version"),
@@ -29,7 +29,7 @@ def built_with(command):
 
 
 def instructions(command, *arguments, **environment):
-    """Of `candela render` with these arguments, by one thread."""
+    """Counts instructions of `candela render` with these arguments, with one thread."""
     with tempfile.TemporaryDirectory() as folder:
         counts = pathlib.Path(folder) / "counts"
         subprocess.run(["setarch", "-R", "valgrind", "--tool=callgrind", f"--callgrind-out-file={counts}", command, "render",
@@ -53,11 +53,11 @@ def main():
         print(f"not compared: recorded with {before}, here {now}")
         return 77
     if ratio > ALLOWED:
-        print("The default scene takes more instructions than it did. Where that cannot be helped, say why in the commit that "
-              "records it: scripts/bench.sh --instructions")
+        print("The default scene takes more instructions than recorded. If that is unavoidable, record it with scripts/bench.sh "
+              "--instructions, and explain why in the commit")
         return 1
     if ratio < 1 / ALLOWED:
-        print("Fewer than recorded: scripts/bench.sh --instructions records the gain")
+        print("Fewer than recorded; scripts/bench.sh --instructions records the gain")
     return 0
 
 

@@ -1,5 +1,5 @@
-// candela_kernel_loops THEIRS OURS MODEL...: how long the loop of a reflection model takes in the plugins of
-// one folder and of another, in turns, with each instruction set of this processor.
+// candela_kernel_loops THEIRS OURS MODEL...: times the loop of a reflection model in the plugins of two
+// folders, in turns, with each instruction set of this processor.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ import candela.core;
 
 namespace {
 
-constexpr std::size_t k_points = 256;  // as many as the renderer hands over
+constexpr std::size_t k_points = 256;  // the renderer's batch size
 constexpr int k_rounds = 2000;
 constexpr int k_calls = 20;
 
@@ -27,7 +27,7 @@ struct Vectors {
     candela::Vec3Span span() { return {x.data(), y.data(), z.data()}; }
 };
 
-/// Unit vectors that point upwards, more or less.
+/// Unit vectors that point roughly upwards.
 Vectors directions(std::minstd_rand& random) {
     std::uniform_real_distribution<float> aside(-1, 1), up(0.1f, 1);
     Vectors result;

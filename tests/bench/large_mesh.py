@@ -1,4 +1,4 @@
-"""Writes a closed surface of 2 x N x N triangles, a torus with ripples, in the format that the file's name says: .ply and .stl (binary),
+"""Writes a closed surface of 2 x N x N triangles, a torus with ripples, in the format of the file's extension: .ply and .stl (binary),
 .obj or .glb.
 
     large_mesh.py FILE [N]      N = 2237: 10,008,338 triangles, 190 MB as a PLY file

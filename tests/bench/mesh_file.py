@@ -1,8 +1,8 @@
 """mesh_file.py BUILD OUT [--format ply] [--size 1000x600] [--rounds 7] [--rows N]: Candela against f3d on a file of ten million
 triangles: ply, stl, obj or glb.
 
-Whole processes from file to PNG, in turns; the ratio is Candela's time over f3d's of the same round, and the median over
-all rounds is printed, with processor time beside it. f3d needs a display: xvfb-run brings one where there is none."""
+Whole processes from file to PNG, in turns; the ratio is Candela's time over f3d's of the same round, and the median over all rounds is
+printed, with processor time. f3d needs a display: xvfb-run provides one if there is none."""
 import argparse
 import os
 import shutil
@@ -30,7 +30,7 @@ def main() -> None:
     options = parser.parse_args()
     if not shutil.which("f3d"):
         sys.exit("mesh_file: f3d is missing; scripts/setup.sh --programs installs it")
-    if "DISPLAY" not in os.environ:  # once for all rounds, so that its start does not count
+    if "DISPLAY" not in os.environ:  # once for all rounds, so that its start is not measured
         os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable, "-B", *sys.argv])
     width, height = options.size.split("x")
     out = options.out.resolve()

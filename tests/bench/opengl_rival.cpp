@@ -1,11 +1,11 @@
-// The rival: the same scenes in OpenGL 3.3 core, as one would write them for speed. No Candela in it.
+// The rival: the same scenes in OpenGL 3.3 core, written for speed, without Candela.
 //
 //   opengl_rival SCENE.dump WIDTH HEIGHT [--png FILE | --raw FILE | --frames N]
 //
 // One program for all objects, the number of lights a constant of the shader, uniforms in buffers, vertices
 // interleaved in buffers, sRGB encoded by the framebuffer, the picture read back each frame. --frames prints
-// the milliseconds of each. Nothing is linked but EGL, libOpenGL and libpng, so that starting costs no more
-// than it has to, and Mesa's cache of compiled shaders is warm after the first run.
+// the milliseconds of each. It links only EGL, libOpenGL and libpng, to start as fast as possible, and Mesa's
+// cache of compiled shaders is warm after the first run.
 #define EGL_EGLEXT_PROTOTYPES
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
@@ -89,7 +89,7 @@ void make_context() {
     const EGLContext context = eglCreateContext(display, nullptr, EGL_NO_CONTEXT, version);
     if (context == EGL_NO_CONTEXT ||
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE)
-        throw std::runtime_error("there is no OpenGL 3.3");
+        throw std::runtime_error("OpenGL 3.3 is not available");
 }
 
 GLuint compiled(GLenum stage, const std::string& source) {
@@ -246,11 +246,11 @@ class Rival {
     std::vector<Drawn> drawn_;
 };
 
-/// As fast as libpng can: differences to the row above, and only runs of them looked for, which makes files
+/// libpng's fastest settings: differences from the row above, compressed as runs only, which makes files
 /// about as large as Candela's. Its defaults would take five times as long, for files of two thirds the size.
 void write_png(const char* path, const std::vector<unsigned char>& pixels, int width, int height) {
     std::FILE* const file = std::fopen(path, "wb");
-    if (file == nullptr) throw std::runtime_error("the picture cannot be written");
+    if (file == nullptr) throw std::runtime_error("cannot write the picture");
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     png_init_io(png, file);
@@ -315,7 +315,7 @@ int main(int argc, char** argv) {
         if (what == "--png") write_png(argv[5], pixels, width, height);
         if (what == "--raw") write_raw(argv[5], pixels, width, height);
         std::fflush(stdout);
-        std::_Exit(0);  // as a window's program would be killed; tearing a context down is no one's concern
+        std::_Exit(0);  // like a window's program when killed; tearing down a context is not measured
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "opengl_rival: %s\n", problem.what());
         return 1;

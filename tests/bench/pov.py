@@ -1,4 +1,4 @@
-"""A scene's dump (scene_dump.h) as a scene of POV-Ray's."""
+"""Converts a scene's dump (scene_dump.h) to a POV-Ray scene."""
 
 import array
 import math
@@ -44,7 +44,7 @@ def camera(eye, look_at, up, fov):
 
 
 def light(position, color):
-    # POV-Ray fades by 2 / (1 + (r/d)^2), which is 2 d^2 / r^2 where d is far less than any r.
+    # POV-Ray fades by 2 / (1 + (r/d)^2), which is 2 d^2 / r^2 if d is far less than any r.
     d = 1e-3
     return (f"light_source {{ {vector(position)} rgb {vector([c / (2 * d * d) for c in color])} "
             f"fade_distance {d} fade_power 2 }}\n")

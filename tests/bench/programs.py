@@ -1,8 +1,8 @@
 """programs.py BUILD OUT [--scenes A,AR,B,C] [--sizes 512x512,1920x1080] [--rounds 7] [--threads N]: Candela against
 POV-Ray and VTK.
 
-Whole processes from scene to PNG, in turns; each ratio is Candela's time over the other's of the same round. OUT/vtk_rival is
-what vtk.sh built. Writes OUT/programs.json and OUT/programs.md."""
+Whole processes from scene to PNG, in turns; each ratio is Candela's time over the other's of the same round. vtk.sh builds OUT/vtk_rival.
+Writes OUT/programs.json and OUT/programs.md."""
 
 import os
 import re
@@ -82,7 +82,7 @@ def table(results, machine):
 
 def main():
     arguments = asked_for("512x512,1920x1080")
-    os.chdir(arguments.out)  # POV-Ray as Debian has set it up writes here, in /tmp and nowhere else
+    os.chdir(arguments.out)  # Debian's POV-Ray writes only here and in /tmp
     programs = Programs(arguments.build, arguments.out, arguments.threads)
     machine = {"processor": processor(), "threads": programs.thread_count, **programs.versions()}
     results = [measure(programs, *START_UP, arguments.rounds)]

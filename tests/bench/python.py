@@ -1,6 +1,6 @@
 """python.py BUILD [--rounds 31]: Python against C++, in turns: GGX at a million points, and the still life to an array. Each ratio is
-Python's time on the processor over C++'s of the same round; printed is the median, with the quartiles. By Debian's Python, for which the
-module is built."""
+Python's time on the processor over C++'s of the same round; prints the median, with the quartiles. Run it with Debian's Python, for which
+the module is built."""
 
 import argparse
 import pathlib
@@ -13,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 class Rival:
-    """The same in C++, whenever it is asked."""
+    """The same in C++, on request."""
 
     def __init__(self, build, *words):
         self.process = subprocess.Popen([build / "tests/bench/candela_python_rival", *map(str, words)], stdin=subprocess.PIPE,

@@ -1,6 +1,5 @@
-// candela_python_rival evaluate N | render SCENE: what tests/bench/python.py does in Python, in
-// C++. Prints the processor's seconds of each round, whenever a line
-// is read.
+// candela_python_rival evaluate N | render SCENE: does in C++ what tests/bench/python.py does in Python. For
+// each line read, runs a round and prints its processor seconds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +17,7 @@ import candela.core;
 
 namespace {
 
-/// Calls `work` for each line of standard input, and answers how long the processor took.
+/// Calls `work` for each line of standard input, and prints the processor time that it took.
 template <class Work>
 void on_demand(const Work& work) {
     for (std::string line; std::getline(std::cin, line);) {
@@ -38,7 +37,7 @@ struct Arrays {
 
 std::array<std::vector<float>*, 3> channels(Arrays& arrays) { return {&arrays.x, &arrays.y, &arrays.z}; }
 
-/// GGX at so many points, in batches of the renderer's size, on one thread: the sum of its parts, into new
+/// GGX at `count` points, in batches of the renderer's size, on one thread: the sum of its parts, into new
 /// arrays.
 void evaluate(std::size_t count) {
     candela::Registry registry(candela::plugin_search_path({}));
@@ -56,7 +55,7 @@ void evaluate(std::size_t count) {
     const std::vector<float> ones(k_batch, 1.0f);
     const candela::ConstVec3Span light{ones.data(), ones.data(), ones.data()};
     on_demand([&] {
-        const auto result = std::make_unique_for_overwrite<float[]>(3 * count);  // as NumPy makes it
+        const auto result = std::make_unique_for_overwrite<float[]>(3 * count);  // as in NumPy
         Arrays ambient(k_batch), diffuse(k_batch), specular(k_batch);
         for (std::size_t first = 0; first < count; first += k_batch) {
             const std::size_t size = std::min(k_batch, count - first);

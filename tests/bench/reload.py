@@ -2,9 +2,9 @@
 
     /usr/bin/python3 tests/bench/reload.py BUILD [--rows N] [--rounds N]       N rows: 2 x N x N triangles
 
-f3d of Debian 12 has no --watch: its key for reading the file again is pressed at the moment of the save, so that what a watch would take is
-not counted. Its clock ends with the last change of its window; that of the page when the graphics have finished the first frame of the new
-scene. Both draw by the processor.
+Debian 12's f3d has no --watch: its reload key is pressed at the moment of the save, so that the time to notice a save is not counted. Its
+clock ends with the last change of its window; the page's when the graphics have finished the first frame of the new scene. Both draw on the
+CPU.
 """
 import argparse
 import mmap
@@ -37,7 +37,7 @@ object = [{{type = "mesh", file = "mesh.ply"}}]
 
 
 class Window:
-    """f3d in a display of its own, whose pixels are in a file that can be looked at."""
+    """f3d in its own display, whose pixels can be read from a file."""
 
     def __init__(self, mesh, folder):
         self.folder = folder
@@ -49,7 +49,7 @@ class Window:
             self.environment = dict(os.environ, DISPLAY=":" + said.readline().strip())
         screen = open(pathlib.Path(folder) / "Xvfb_screen0", "rb")
         self.screen = mmap.mmap(screen.fileno(), 0, access=mmap.ACCESS_READ)
-        # The format of xwd: the header's size, and at its 20th number how many colours of 12 bytes follow it.
+        # The xwd format: the header's size, and as its 20th number how many 12-byte colours follow.
         header = struct.unpack(">25I", self.screen[:100])
         self.begin = header[0] + 12 * header[19]
         empty = self.pixels()
@@ -63,14 +63,14 @@ class Window:
         return self.screen[self.begin + row * SIZE[1] // 4:self.begin + row * SIZE[1] * 3 // 4]
 
     def last_change(self, pixels):
-        """When they became what they stay."""
+        """The time of their last change."""
         end, changed = time.time() + LONGEST, None
         while changed is None or time.time() < changed + REST:
             now = self.pixels()
             if now != pixels:
                 pixels, changed = now, time.time()
             if time.time() > end:
-                sys.exit("reload: f3d's window does not change")
+                sys.exit("reload: f3d's window did not change")
             time.sleep(0.001)
         return changed
 
@@ -91,7 +91,7 @@ def main():
     options = options.parse_args()
     for program in ("f3d", "xdotool", "Xvfb"):
         if not shutil.which(program):
-            sys.exit(f"reload: there is no {program}; scripts/setup.sh --programs installs it")
+            sys.exit(f"reload: {program} is missing; scripts/setup.sh --programs installs it")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "scene.toml").write_text(SCENE)

@@ -24,11 +24,11 @@ struct DumpLight {
     float color[3] = {};  // times intensity
 };
 
-/// Phong's reflection model; colours and coefficients are multiplied already.
+/// Phong's reflection model; colours and coefficients are already multiplied.
 struct DumpObject {
     std::uint32_t vertices = 0;
     std::uint32_t triangles = 0;
-    std::uint32_t closed = 1;  // else it is seen, and lit, from both sides
+    std::uint32_t closed = 1;  // otherwise it is seen and lit from both sides
     float diffuse[3] = {};
     float specular[3] = {};
     float shininess = 0;

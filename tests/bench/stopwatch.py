@@ -1,4 +1,4 @@
-"""How long programs take."""
+"""Measures how long programs take."""
 import resource
 import time
 
@@ -9,7 +9,7 @@ def processor_seconds():
 
 
 def seconds(work):
-    """What `work` takes by the clock, and the programs that it waits for by processor time."""
+    """The clock time of `work`, and the processor time of the programs that it waits for."""
     begin, begin_processor = time.perf_counter(), processor_seconds()
     work()
     return time.perf_counter() - begin, processor_seconds() - begin_processor

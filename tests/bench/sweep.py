@@ -1,4 +1,4 @@
-"""sweep.py BUILD OUT [--quick]: what Candela's frames cost as threads, instruction sets, models, lights and triangles grow.
+"""sweep.py BUILD OUT [--quick]: how Candela's frame times depend on threads, instruction sets, models, lights and triangles.
 
 Writes OUT/sweep.json and OUT/sweep.md. --quick: small pictures and few frames, to try it."""
 
@@ -76,7 +76,7 @@ class Sweep:
         return rows
 
     def triangles(self):
-        """A sphere of a thousand triangles to ten millions."""
+        """A sphere of a thousand to ten million triangles."""
         rows = []
         for power in range(3, 8):
             segments = 2 * round(math.sqrt(10**power) / 2)

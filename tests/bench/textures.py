@@ -1,4 +1,4 @@
-"""Frames with a texture on all objects against the same without, 1920 x 1080, in turns: the ratio of their times. The scenes of
+"""Frames with a texture on all objects against the same frames without, 1920 x 1080, in turns: the ratio of their times. The scenes of
 tests/bench/scenes, and two that textures fill.
 
 textures.py <build folder> <work folder> [--frames N] [--rounds N] [--threads N]
@@ -45,8 +45,8 @@ direction = [-1.0, -1.0, -0.5]
 type = "ambient"
 color = [60, 60, 70]
 """
-# A floor seen at a shallow angle, so that all levels are, and a teapot of small triangles before it; or a wall that fills the picture,
-# whose texels are pixels.
+# A floor seen at a shallow angle, so that all levels are used, and a teapot of small triangles in front of it; or a wall that
+# fills the picture, whose texels are pixels.
 SCENES = {
     "floor": """[[object]]
 type = "mesh"

@@ -1,9 +1,9 @@
 """third_party.py BUILD SCRATCH [--instructions | --loops | --rounds 7] [--compiler g++]: plugins of a third party against the shipped ones.
 
 Makes a project for each of point light, Phong's reflection model and Phong's shading as `candela plugin new` does, puts the
-formulas of the shipped plugins into it, builds it against an installation and nothing else, and renders scene AR with the one and
-the other. --instructions: counts them with callgrind, and fails where a third party's plugins take 5 % more (the machine does not
-matter). --loops: the loops of reflection models alone, with each instruction set. Else times frames in turns."""
+formulas of the shipped plugins into it, builds it against an installation and nothing else, and renders scene AR with
+both. --instructions: counts them with callgrind, and fails if a third party's plugins take 5 % more (the machine does not
+matter). --loops: only the loops of reflection models, with each instruction set. Otherwise times frames in turns."""
 
 import argparse
 import os

@@ -2,9 +2,9 @@
 
     /usr/bin/python3 tests/bench/view.py BUILD [--saves N] [--clicks N] [SCENE]       default: docs/examples/still-life.toml
 
-The clock of a save begins when the file is renamed to its place, and ends when the graphics have finished the page's first frame of the new
-scene. That of a click begins with the browser's own event and ends when the bytes of that pixel stand in the page; the first click, three
-seconds after the page is up, is one of them.
+The clock of a save starts when the file is renamed to its final name, and ends when the graphics have finished the page's first frame of
+the new scene. That of a click begins with the browser's own event and ends when the page shows the bytes of that pixel; the first click,
+three seconds after the page is up, is one of them.
 """
 import argparse
 import os
@@ -29,7 +29,7 @@ SHOWN = """
     const [generation, done] = arguments;
     const look = () => {
         if (location.search !== `?live=${generation}`) return setTimeout(look, 1);
-        // One frame is drawn at the next chance, and has been once the one after that begins.
+        // The frame is drawn at the next opportunity, and is complete once the one after it begins.
         requestAnimationFrame(() => requestAnimationFrame(() => {
             const gl = document.getElementById("picture-canvas").getContext("webgl2");
             gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
@@ -58,7 +58,7 @@ ALL_EXPLAINED = """
 
 
 def clicked(browser, count, chance):
-    """The milliseconds of so many clicks, anywhere in the middle half of the picture."""
+    """The milliseconds of `count` clicks in the middle half of the picture."""
     browser.run(CLICKED)
     canvas = browser.one("#picture-canvas")
     for i in range(count):
@@ -91,7 +91,7 @@ def main():
         try:
             browser.open(server.stdout.readline().strip())
             browser.driver.execute_async_script(SHOWN, 1)
-            time.sleep(3)  # until the picture is at rest
+            time.sleep(3)  # until the picture no longer changes
             clicks = clicked(browser, options.clicks, random.Random(17))
             milliseconds = []
             for i in range(options.saves):
@@ -100,7 +100,7 @@ def main():
                 begin = time.time()
                 os.replace(draft, scene)
                 milliseconds.append(browser.driver.execute_async_script(SHOWN, i + 2) - 1000 * begin)
-                time.sleep(3)  # likewise
+                time.sleep(3)  # as above
         finally:
             browser.close()
             server.send_signal(signal.SIGINT)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # vtk.sh OUT: OUT/vtk_rival from vtk_rival.cpp.
 #
-# libvtk9-dev cannot be installed beside the Boost that Candela is built with: it needs libgdal-dev, that libkml-dev, and that
+# libvtk9-dev conflicts with the Boost that Candela is built with: it needs libgdal-dev, which needs libkml-dev, which needs
 # another Boost's headers. So its headers are unpacked in OUT, and the library comes from its own package.
 set -euo pipefail
 out=${1:?vtk.sh OUT}

@@ -1,9 +1,9 @@
-// The same scenes drawn by VTK, as its manual has it: a mapper and an actor an object. No Candela in it.
+// The same scenes drawn by VTK as its manual describes: a mapper and an actor per object, without Candela.
 //
 //   vtk_rival SCENE.dump WIDTH HEIGHT PNG
 //   vtk_rival --version
 //
-// Debian's VTK opens windows through X only; this one is given a context without a window, like that of
+// Debian's VTK opens windows only through X; this one gets a context without a window, like that of
 // opengl_rival.cpp.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -39,14 +39,14 @@
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2);
 
-/// Stands in for GLEW's, without which VTK would give up: there is no X here to ask for GLX's functions.
+/// Replaces GLEW's function, without which VTK would give up: there is no X here to ask for GLX's functions.
 extern "C" unsigned glxewInit() { return 0; }
 
 namespace {
 
 using bench::Scene;
 
-/// VTK asks a window for sRGB; where there is none, its shader does it.
+/// VTK asks a window for sRGB; without one, its shader encodes it.
 constexpr const char* k_encode = R"(//VTK::Light::Impl
     vec3 linear = clamp(gl_FragData[0].rgb, 0.0, 1.0);
     gl_FragData[0].rgb = mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055,
@@ -65,7 +65,7 @@ void make_context() {
     const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
     if (context == EGL_NO_CONTEXT ||
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE)
-        throw std::runtime_error("there is no OpenGL 3.2");
+        throw std::runtime_error("OpenGL 3.2 is not available");
 }
 
 vtkNew<vtkFloatArray> triples(const std::vector<float>& values) {
@@ -113,7 +113,7 @@ void add(vtkRenderer& renderer, const bench::DumpLight& l) {
     vtkNew<vtkLight> light;
     light->SetLightTypeToSceneLight();
     light->SetPositional(true);
-    light->SetConeAngle(180);  // to all sides
+    light->SetConeAngle(180);  // in all directions
     light->SetPosition(l.position[0], l.position[1], l.position[2]);
     light->SetColor(l.color[0], l.color[1], l.color[2]);
     light->SetAttenuationValues(0, 0, 1);
@@ -153,7 +153,7 @@ void draw(const Scene& scene, int width, int height, const char* png) {
     writer->SetInputConnection(picture->GetOutputPort());
     writer->SetFileName(png);
     writer->Write();
-    if (writer->GetErrorCode() != 0) throw std::runtime_error("the picture cannot be written");
+    if (writer->GetErrorCode() != 0) throw std::runtime_error("cannot write the picture");
 }
 
 }  // namespace
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
         const Scene scene = bench::read_scene(argv[1]);
         draw(scene, std::atoi(argv[2]), std::atoi(argv[3]), argv[4]);
         std::fflush(stdout);
-        std::_Exit(0);  // as opengl_rival.cpp
+        std::_Exit(0);  // like opengl_rival.cpp
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "vtk_rival: %s\n", problem.what());
         return 1;

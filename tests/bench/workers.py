@@ -2,8 +2,8 @@
 
 workers.py <build folder> <work folder> [--frames N] [--rounds N]
 
-By the clock it is (time of one) / (2 x time of two), and means something only on a machine at rest; by processor time it is what one takes
-over what two take together, and less than 1 where they get into each other's way.
+By the clock it is (time of one) / (2 x time of two), and meaningful only on an idle machine; by processor time it is the time of one
+over the total time of two, and less than 1 if they slow each other down.
 """
 import argparse
 import pathlib

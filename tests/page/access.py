@@ -37,7 +37,7 @@ class Access(PageTest):
                          len(self.browser.all("[id]")))
 
     def test_names_begin_with_what_is_seen(self):
-        """Who speaks to a page says what stands on its buttons: WCAG 2.5.3."""
+        """Voice control uses the visible labels of buttons: WCAG 2.5.3."""
         generated = Generated("spoken", scenes.PERSPECTIVE, "all")
         self.browser.open(generated.address)
         self.browser.unfold_all()

@@ -18,19 +18,19 @@ PHONE = (390, 844)
 
 
 def emulate(browser, **features):
-    """As media queries see it: the appearance that is preferred, forced colours."""
+    """Sets the results of media queries: the preferred appearance, forced colours."""
     values = [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": values})
 
 
 class Inspected:
-    """What looks at a page's state."""
+    """Inspects a page's state."""
 
     @classmethod
     def setUpClass(cls):
         axe = pathlib.Path(os.environ["CANDELA_TEST_AXE"])
         if not axe.exists():
-            raise unittest.SkipTest("there is no axe-core: scripts/axe-core.sh brings it")
+            raise unittest.SkipTest("axe-core is missing; scripts/axe-core.sh fetches it")
         cls.axe = axe.read_text()
         super().setUpClass()
 
@@ -56,7 +56,7 @@ class Inspected:
                         (error) => done([0, [String(error)]]));""", LEVELS)
                 checked, violations = found
                 self.assertEqual(violations, [], "\n".join(violations))
-                self.assertGreater(checked, 5)  # rules: it has looked at something
+                self.assertGreater(checked, 5)  # rules: it has checked something
 
 
 class Accessible(Inspected, Editing, PageTest):
@@ -117,7 +117,7 @@ class AccessibleThree(Inspected, PageTest):
 
 
 class AccessibleView(Inspected, Editing, Viewing):
-    """Only what is new; a test of Viewing itself is not one of these."""
+    """Only new tests; those of Viewing itself are not among these."""
 
     def test_what_candela_view_shows(self):
         self.browser.resize(*WINDOW)
@@ -128,7 +128,7 @@ class AccessibleView(Inspected, Editing, Viewing):
         self.inspect("unfolded")
         for mode in ("wipe", "difference"):
             self.compare(mode)
-            self.inspect(f"Candela's own picture: {mode}")
+            self.inspect(f"reference render: {mode}")
         self.browser.enter("#explanation-x", "54")
         self.browser.enter("#explanation-y", "60")
         self.browser.one("#explanation-y").send_keys(Keys.ENTER)
@@ -154,7 +154,7 @@ class AccessibleView(Inspected, Editing, Viewing):
 
 
 class AccessibleExercise(Inspected, Exercising):
-    """Only what is new; a test of Exercising itself is not one of these."""
+    """Only new tests; those of Exercising itself are not among these."""
 
     def test_an_exercise(self):
         self.open()
@@ -166,7 +166,7 @@ class AccessibleExercise(Inspected, Exercising):
         self.inspect("an answer that does not compile")
 
 
-# They are inherited, and would be run a second time.
+# They are inherited, and would run a second time.
 for _class, _base in ((AccessibleView, Viewing), (AccessibleExercise, Exercising)):
     for _name in [name for name in dir(_base) if name.startswith("test_")]:
         setattr(_class, _name, None)

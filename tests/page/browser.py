@@ -26,7 +26,7 @@ class Chromium(webdriver.Chrome):
         for option in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", *options):
             chrome.add_argument(option)
         chrome.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        # It leaves a socket there when the driver ends it.
+        # It leaves a socket there when the driver kills it.
         self.scratch = tempfile.TemporaryDirectory(prefix="candela-chromium-", ignore_cleanup_errors=True)
         service = Service("/usr/bin/chromedriver", env={**os.environ, "TMPDIR": self.scratch.name})
         super().__init__(service=service, options=chrome)
@@ -40,13 +40,13 @@ class Chromium(webdriver.Chrome):
         self.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
 
     def run_before_pages(self, source):
-        """Before the scripts of every page that is loaded from now on; what it returns ends that."""
+        """Runs before the scripts of every page that is loaded from now on; returns a function that ends that."""
         script = self.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": source})
         return lambda: self.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
 
 
 class Browser:
-    """Chromium, started with these options, or Firefox: `name`, or what CANDELA_TEST_BROWSER is."""
+    """Chromium, started with these options, or Firefox: `name`, or the value of CANDELA_TEST_BROWSER."""
 
     def __init__(self, *options, name=None):
         self.name = name or os.environ.get("CANDELA_TEST_BROWSER", "chromium")
@@ -61,7 +61,7 @@ class Browser:
         self.driver.resize(width, height, **phone)
 
     def load(self, address):
-        """A page of its own, not another fragment of the one that is open."""
+        """A page of its own, not another fragment of the open one."""
         self.driver.get("about:blank")
         self.errors()
         self.driver.get(address)
@@ -73,12 +73,12 @@ class Browser:
         assert problem is None, f"{address}: {problem}"
 
     def problem(self):
-        """What candela.ready says: nothing where all is well."""
+        """The error of candela.ready; none if all is well."""
         return self.driver.execute_async_script(
             "const done = arguments[0]; candela.ready.then(() => done(null), (error) => done(error.message));")
 
     def errors(self):
-        """What the console has said since the last time."""
+        """The console's messages since the last call."""
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
     def run(self, script, *arguments):
@@ -105,24 +105,24 @@ class Browser:
         return Picture.of_rgba(width, height, base64.b64decode(encoded))
 
     def wait_for(self, condition, *arguments):
-        """Until a JavaScript expression is true. (Not one that the page's own policy would have to let it compile.)"""
+        """Waits until a JavaScript expression is true. (The page's own policy does not allow compiling one in the page.)"""
         self.driver.execute_async_script(f"""
             const [values, done] = arguments;
             const look = () => (({condition}) ? done() : setTimeout(look, 20));
             look();""", list(arguments))
 
     def rest(self, seconds=2):
-        """For what the page does by and by: the picture on the screen, the clipboard, a new fragment."""
+        """Waits for asynchronous effects: the picture on the screen, the clipboard, a new fragment."""
         self.driver.execute_async_script("setTimeout(arguments[1], 1000 * arguments[0])", seconds)
 
     def unfold_all(self):
-        """Contents are made when a part is opened, by an event that comes later."""
+        """Opens all parts; their contents are made by an event that comes later."""
         self.driver.execute_async_script("""
             for (const part of document.querySelectorAll("details")) part.open = true;
             setTimeout(arguments[0], 50);""")
 
     def enter(self, selector, value):
-        """As a person would: the value, then the events that tell of it."""
+        """Enters a value as a person would: the value, then its events."""
         self.run("""
             const [selector, value] = arguments;
             const input = document.querySelector(selector);
@@ -141,7 +141,7 @@ def scene_of(page):
 
 
 def with_scene(page, other, change):
-    """A copy of a page whose JSON has been changed."""
+    """A copy of a page with changed JSON."""
     text = pathlib.Path(page).read_text()
     scene = scene_of(page)
     change(scene)

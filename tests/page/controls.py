@@ -1,10 +1,10 @@
-"""Whether controls do what options of the command line do."""
+"""Checks that controls do what options of the command line do."""
 import scenes
 from generated import SMALL_WINDOW, Generated, PageTest, options_for
 
 
 def another(number, least, most):
-    """A number of the same kind that is allowed, and far enough away to be seen."""
+    """Another allowed number of the same kind, far enough away to be visible."""
     for candidate in (number * 0.5, number * 1.6, number + 0.4, least):
         if least <= candidate <= most and abs(candidate - number) > 1e-3:
             return candidate
@@ -12,7 +12,7 @@ def another(number, least, most):
 
 
 class Controls(PageTest):
-    """Each control is driven as a person would, then all is reset."""
+    """Uses each control as a person would, then resets everything."""
 
     window = SMALL_WINDOW
 
@@ -67,7 +67,7 @@ class Controls(PageTest):
                 continue
             for new in self.new_values(path, kind, value, least, most, options):
                 undo()
-                list(self.inputs(path))  # these may be made anew, too
+                list(self.inputs(path))  # these may also be rebuilt
                 self.try_input(generated, own, path, selector, new, models)
 
     def reset(self):
@@ -141,7 +141,7 @@ class Controls(PageTest):
             select.dispatchEvent(new Event("change"));""", name)
         chosen = lambda: self.browser.run(f"const select = (() => {{ {balls} }})(); return select.selectedOptions[0].textContent")
         self.assertEqual(chosen(), "custom")
-        # OpenGL's gold, as Kilgard's teapots.c has it.
+        # OpenGL's gold, as in Kilgard's teapots.c.
         choose("gold")
         gold = ("--set", "object.1.color=[255,255,255]", "--set", "object.1.material.ka=[0.24725,0.1995,0.0745]",
                 "--set", "object.1.material.kd=[0.75164,0.60648,0.22648]",
@@ -149,7 +149,7 @@ class Controls(PageTest):
         self.assert_alike(self.picture(generated), generated.render(*gold), "gold", before=own)
         self.assertEqual(self.value_shown("object.1.material.blinn-phong.shininess"), 51.2)
         self.assertEqual(chosen(), "gold")
-        # One value differs: it is no gold any more.
+        # One value differs: it is no longer gold.
         self.browser.enter('[data-path="object.1.material.blinn-phong.shininess"] input', "3")
         self.assertEqual(chosen(), "custom")
         # A metal's reflectance (Real-Time Rendering, table 9.2), under GGX.

@@ -1,4 +1,4 @@
-"""The page of an exercise: how far a formula is off, where, and by which term."""
+"""The page of an exercise: how far a formula is off, where, and in which term."""
 import json
 import pathlib
 import unittest
@@ -49,7 +49,7 @@ class Exercising(unittest.TestCase):
         self.assertEqual(self.verdict(), "It differs from the model: diffuse.")
         self.assertEqual(self.shares()["diffuse"][1], "50 %")
         self.assertEqual(self.shares()["specular"][0], "0 %")
-        # Where it differs is where the light falls: from the upper left, so not at the lower right edge.
+        # It differs where the light falls: from the upper left, so not at the lower right edge.
         def heat(x, y):
             return self.browser.run("const c = document.getElementById('where'); return [...c.getContext('2d').getImageData(arguments[0], arguments[1], 1, 1).data].slice(0, 3)", x, y)
         self.assertGreater(sum(heat(28, 26)), 100)
@@ -88,7 +88,7 @@ class Exercising(unittest.TestCase):
                 self.assertNotEqual(control.accessible_name.strip(), "", control.get_attribute("outerHTML"))
 
     def test_other_models_are_given_by_their_own_kernels(self):
-        """The graphics processor against the renderer, with the shipped text as the answer."""
+        """Compares the graphics processor with the renderer, using the shipped text as the answer."""
         for model in ("ggx", "ward", "oren-nayar", "toon"):
             with self.subTest(model):
                 self.open(model)

@@ -1,5 +1,5 @@
-"""Firefox as Selenium drives it. Debian has no geckodriver, but Firefox itself speaks WebDriver BiDi (a W3C draft): this translates
-the commands of WebDriver that tests use, so that they are written once for all browsers."""
+"""Firefox as Selenium drives it. Debian has no geckodriver, but Firefox itself speaks WebDriver BiDi (a W3C draft): this translates the
+WebDriver commands that tests use, so that they are written once for all browsers."""
 import base64
 import json
 import os
@@ -17,7 +17,7 @@ from selenium.webdriver.remote.webdriver import WebDriver
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the key of an element in WebDriver's JSON
 START = 60  # seconds, on a busy machine
 
-# Firefox asks for nothing of its own accord, and draws WebGL by the processor where there is no graphics card.
+# Firefox makes no requests of its own accord, and draws WebGL on the CPU if there is no graphics card.
 PREFERENCES = {
     "app.normandy.enabled": False,
     "app.update.disabledForTesting": True,
@@ -38,7 +38,7 @@ PREFERENCES = {
     "webgl.force-enabled": True,
 }
 
-# Elements go there and back as nodes, all else as JSON.
+# Elements are passed as nodes, everything else as JSON.
 CALL = """(json, ...nodes) => {
     const words = JSON.parse(json, (key, value) => (value && typeof value === "object" && "%s" in value ? nodes[value.node] : value));
     const call = function () { %s };
@@ -56,7 +56,7 @@ class Refused(Exception):
 
 
 class Bidi:
-    """A connection: commands one after another, and the events that come between."""
+    """A connection: commands one after another, and the events in between."""
 
     def __init__(self, address):
         self.socket = websocket.create_connection(address, timeout=START, suppress_origin=True)
@@ -82,7 +82,7 @@ class Bidi:
 
 
 def started_display():
-    """A display that nobody sees: even without windows, Firefox has WebGL only through one."""
+    """A virtual display: even without windows, Firefox has WebGL only with a display."""
     reading, writing = os.pipe()
     process = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-nolisten", "tcp", "-screen", "0", "1280x1024x24"], pass_fds=[writing],
                                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -94,7 +94,7 @@ def started_display():
 
 
 class Executor:
-    """What WebDriver's commands are in BiDi."""
+    """Translates WebDriver's commands to BiDi."""
 
     def __init__(self, has_webgl):
         self.display, display = started_display()
@@ -151,7 +151,7 @@ class Executor:
                     action["origin"] = {"type": "element", "element": {"sharedId": action["origin"][ELEMENT]}}
         self.bidi.call("input.performActions", context=self.context, actions=actions)
 
-    # The commands, with the parameters that WebDriver gives them.
+    # The commands, with WebDriver's parameters.
 
     def new_session(self, **_):
         session = self.bidi.call("session.new", capabilities={})
@@ -269,7 +269,7 @@ COMMANDS = {
 
 class Firefox(WebDriver):
     def __init__(self, has_webgl=True):
-        # (Without options, newer Selenium starts no session; what they would say, the executor says.)
+        # (Without options, newer Selenium does not start a session; the executor supplies their content.)
         super().__init__(command_executor=Executor(has_webgl), options=Options())
         self.bidi = self.command_executor.bidi
 
@@ -278,6 +278,6 @@ class Firefox(WebDriver):
         self.bidi.call("browsingContext.setViewport", context=self.current_window_handle, viewport=viewport, devicePixelRatio=1)
 
     def run_before_pages(self, source):
-        """Before the scripts of every page that is loaded from now on; what it returns ends that."""
+        """Runs before the scripts of every page that is loaded from now on; returns a function that ends that."""
         script = self.bidi.call("script.addPreloadScript", functionDeclaration="() => { %s }" % source)["script"]
         return lambda: self.bidi.call("script.removePreloadScript", script=script)

@@ -1,4 +1,4 @@
-"""Formulas that are edited in a page: drawn, refused, held against the shipped ones, kept, built, and rendered with."""
+"""Formulas edited in a page: drawn, refused, compared with the shipped ones, kept, built, and rendered with."""
 import json
 import os
 import shutil
@@ -18,14 +18,14 @@ BLINN = (("vec3 r = 2.0f * n_dot_l * s.normal - to_light;", "vec3 h = normalize(
 
 
 class Editing:
-    """What tests of pages do with their editor."""
+    """Operations on a page's editor."""
 
     def open_editor(self, model="reflection/phong"):
         self.browser.enter("#formula-model", model)
         self.browser.click("formula-open")
 
     def write(self, text):
-        """Replaces the kernel's text, and waits until the page has done something about it."""
+        """Replaces the kernel's text, and waits until the page has reacted."""
         self.browser.run(f"{EDITOR}.setValue(arguments[0])", text)
         self.browser.rest(0.8)
 
@@ -75,7 +75,7 @@ class Formulas(Editing, PageTest):
         self.assertEqual(self.messages(), "")
         self.assert_shows("--reflection", "blinn-phong", *self.phong_values())
         self.assertRegex(self.browser.text("#formula-status"), r"[1-9]\d* of \d+ pixels differ")
-        # The shipped one again, for comparison and for good.
+        # The shipped one again, first for comparison, then permanently.
         self.browser.enter("#formula-showing", "shipped")
         self.assert_shows("--reflection", "phong")
         self.browser.enter("#formula-showing", "difference")
@@ -87,7 +87,7 @@ class Formulas(Editing, PageTest):
         self.assert_shows("--reflection", "phong")
 
     def phong_values(self):
-        """What the scene's objects have as Phong's values, for a model that has parameters of the same names."""
+        """The objects' values for Phong, given to a model that has parameters of the same names."""
         options = []
         for i, each in enumerate(self.generated.scene["objects"]):
             for name, value in each["materials"]["phong"].items():
@@ -165,10 +165,10 @@ class Formulas(Editing, PageTest):
 
 
 class Keeping(Editing, Viewing):
-    """Only what is new; a test of Viewing itself is not one of these."""
+    """Only new tests; those of Viewing itself are not among these."""
 
     def view(self):
-        # "Keep it" makes the folder where candela view was started.
+        # "Keep it" creates the folder where candela view was started.
         before = os.getcwd()
         os.chdir(self.folder)
         try:
@@ -240,6 +240,6 @@ class Keeping(Editing, Viewing):
         self.assertLessEqual(max(Picture.of_ppm(own).differences(Picture.of_ppm(shipped))), 1)
 
 
-# They are inherited, and would be run a second time.
+# They are inherited, and would run a second time.
 for _name in [name for name in dir(Viewing) if name.startswith("test_")]:
     setattr(Keeping, _name, None)

@@ -1,4 +1,4 @@
-"""Pages that are generated from scenes, and what their tests have in common."""
+"""Pages generated from scenes, and helpers for their tests."""
 import json
 import os
 import pathlib
@@ -13,10 +13,10 @@ COMMAND = os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"]
 SCRATCH = pathlib.Path(os.environ.get("CANDELA_TEST_SCRATCH") or tempfile.mkdtemp(prefix="candela-page-")).absolute()
 ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), CANDELA_PLUGIN_PATH="")
 
-# For tests that ask for pictures and do not look at the screen, where most of the time would go into drawing them a second time.
+# For tests that request pictures and ignore the screen, where drawing them a second time would take most of the time.
 SMALL_WINDOW = (320, 240)
 
-MOST_DIFFERENT = 0.02  # of the pixels, those beside edges, may differ by more than two steps of 255
+MOST_DIFFERENT = 0.02  # of the pixels, those next to edges, may differ by more than two steps of 255
 TWO_STEPS = 2
 
 
@@ -54,7 +54,7 @@ class Generated:
 
 
 def options_for(path, value):
-    """The command line that says what a control does."""
+    """The command line that corresponds to a control."""
     kind, *rest = path.split(".")
     if kind in ("shading", "reflection"):
         return [f"--{kind}", value]
@@ -80,7 +80,7 @@ class PageTest(unittest.TestCase):
         return self.browser.picture(*generated.size)
 
     def assert_alike(self, page, reference, what, before=None):
-        """`before`: the page's picture before a change; what has become different must be right for the most part."""
+        """`before`: the page's picture before a change; most of the changed pixels must be correct."""
         differences = page.differences(reference)
         wrong = sum(d > TWO_STEPS for d in differences)
         self.assertLessEqual(wrong, MOST_DIFFERENT * len(differences), f"{what}: {wrong} of {len(differences)} pixels differ")

@@ -1,4 +1,4 @@
-"""Lights in the picture: where they are, whether something is before them, and that they can be taken hold of."""
+"""Lights in the picture: their positions, whether something hides them, and that they can be grabbed."""
 import json
 import math
 import shlex
@@ -9,7 +9,7 @@ from selenium.webdriver.common.keys import Keys
 import scenes
 from generated import Generated, PageTest
 
-# Two point lights, a spot and a direction, all in the picture; the ball is before one of them.
+# Two point lights, a spot and a direction, all in the picture; the ball hides one of them.
 ROOM = """
 version = 1
 [observer]
@@ -80,7 +80,7 @@ class Lights(PageTest):
             expected = [scale * x / (4 - z), -scale * y / (4 - z)]
             for a, b in zip(self.center(self.marker(name)), expected):
                 self.assertLess(abs(a - b), 1.5, name)
-        # The sun is above the ball and the sky is nowhere.
+        # The sun is above the ball, and the sky has no position.
         x, y = self.center(self.marker("sun", "direction"))
         self.assertLess(abs(x), 1.5)
         self.assertLess(y, 0)
@@ -109,7 +109,7 @@ class Lights(PageTest):
             self.assertAlmostEqual(a, b, delta=1.5 / scale)
         self.assertEqual(moved[2], 1)
         self.assert_alike(self.picture(self.generated), self.generated.render("--set", f"light.0.position={json.dumps(moved)}"), "dragged", before=before)
-        # It is a change like any other: options, the link, and back.
+        # It is a change like any other: options, link, and undo.
         options = self.browser.driver.execute_async_script("""
             const done = arguments[0];
             navigator.clipboard.writeText = (text) => { done(text); return Promise.resolve(); };
@@ -159,7 +159,7 @@ class Lights(PageTest):
         self.assertEqual(shown(".marker"), 0)
         self.assertEqual(shown(".markers line.room"), 8)  # the other four edges are behind the observer
         self.assertEqual(shown(".markers line[class^=axis]"), 3)
-        # Nothing of it is in the picture, nor in the options.
+        # None of it appears in the picture or in the options.
         self.assertEqual(self.picture(self.generated).pixels, own)
         self.browser.click("copy-options")
         self.assertEqual(self.browser.text("#copy-options"), "No changes to copy")

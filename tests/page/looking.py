@@ -56,7 +56,7 @@ class Looking(PageTest):
         self.assert_back()
 
     def touch(self, *fingers):
-        """Each goes straight from a place to another, seen from the picture's middle."""
+        """Each moves straight from one place to another, relative to the picture's centre."""
         at = self.browser.run("const r = arguments[0].getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]", self.canvas)
         there = lambda place: {"x": round(at[0] + place[0]), "y": round(at[1] + place[1])}
         self.browser.driver.execute(Command.W3C_ACTIONS, {"actions": [
@@ -75,7 +75,7 @@ class Looking(PageTest):
         self.assertLess(abs(nearer[2]), abs(own[2]))
 
     def turn(self):
-        """By a key; until a draft has been drawn and timed."""
+        """Presses a key, and waits until a draft has been drawn and timed."""
         self.browser.driver.execute_async_script("""
             const done = arguments[0], { readings } = clock;
             const wait = () => (clock.readings >= readings + 2 ? done() : setTimeout(wait, 5));
@@ -89,8 +89,8 @@ class Looking(PageTest):
             wait();""", width)
 
     def test_slow_frames_are_coarser(self):
-        """With a clock of our own, by which a draft takes a second: it has fewer pixels while the picture is turned, and all when
-        it rests; and by which it takes no time, all the while."""
+        """With a fake clock by which a draft takes a second, it has fewer pixels while the picture is turned, and all once it rests; with
+        one by which it takes no time, it always has all."""
         self.addCleanup(self.browser.driver.run_before_pages("""
             window.clock = { time: 0, step: 1000, readings: 0 };
             performance.now = () => { clock.readings += 1; return (clock.time += clock.step); };"""))

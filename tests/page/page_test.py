@@ -1,6 +1,6 @@
-"""The page that `candela generate --target webgl` writes, in a browser, beside what `candela render` makes of the same scene.
+"""The page that `candela generate --target webgl` writes, in a browser, compared with `candela render` of the same scene.
 
-Run by ctest, which says where things are; by hand: CANDELA=build/release/bin/candela /usr/bin/python3 tests/page/page_test.py
+Run by ctest, which sets the paths; by hand: CANDELA=build/release/bin/candela /usr/bin/python3 tests/page/page_test.py
 """
 import unittest
 

@@ -1,4 +1,4 @@
-"""Pictures of the same view beside one another."""
+"""Pictures of the same view next to one another."""
 import base64
 
 from selenium.webdriver.common.action_chains import ActionChains
@@ -8,7 +8,7 @@ import scenes
 from generated import MOST_DIFFERENT, TWO_STEPS, Generated, PageTest
 from pictures import Picture
 
-TINY = (840, 330)  # the panes' pictures are drawn by the processor
+TINY = (840, 330)  # the panes' pictures are drawn on the CPU
 
 
 class Panes(PageTest):
@@ -29,7 +29,7 @@ class Panes(PageTest):
             });""")
 
     def pane(self, index):
-        """What is on the screen, once it has come to rest."""
+        """The picture on the screen, once it no longer changes."""
         encoded = self.browser.driver.execute_async_script("""
             const [index, done] = arguments, canvas = document.querySelectorAll("canvas.pane")[index];
             let last = "";
@@ -66,10 +66,10 @@ class Panes(PageTest):
         flat = self.assert_pane_shows(1, "--reflection", "blinn-phong", "--shading", "flat", "--set", "object.1.material.shininess=4",
                                       "--set", "object.1.color=[32,192,64]", *view)
         self.assertNotEqual(toon.pixels, flat.pixels)
-        # The first has stayed what it was, but for the view.
+        # The first has stayed the same, except for the view.
         self.browser.click("reset-view")
         self.assertEqual(self.picture(self.generated).pixels, own)
-        # They stand beside one another, and none covers another.
+        # They are next to one another, and none covers another.
         boxes = self.boxes()
         self.assertEqual(len({(w, h) for _, _, w, h in boxes}), 1)
         for i, (x, y, w, h) in enumerate(boxes):
@@ -86,7 +86,7 @@ class Panes(PageTest):
         self.browser.enter('[data-path="object.1.color"] input', "#2040c0")
         self.browser.enter('[data-path="light.2.on"] input', False)
         self.assert_pane_shows(0, "--reflection", "lambert", "--set", "object.1.color=[32,64,192]", "--set", "light.2.intensity=0")
-        # Turned by hand in the pane, both turn.
+        # Dragging in the pane turns both.
         before = self.picture(self.generated).pixels
         ActionChains(self.browser.driver).drag_and_drop_by_offset(self.browser.one("canvas.pane"), 60, 10).perform()
         self.assertNotEqual(self.picture(self.generated).pixels, before)
@@ -116,7 +116,7 @@ class Panes(PageTest):
         self.browser.enter('[data-path="pane.1.reflection"] select', "ggx")
         self.browser.unfold_all()
         self.browser.enter('[data-path="pane.1.object.1.material.ggx.roughness"] input', "0.6")
-        # A pane that is as the scene says, where the first is not.
+        # A pane with the scene's own model, while the first has another.
         self.browser.enter('[data-path="reflection"] select', "toon")
         self.browser.enter("#panes-layout", "three")
         self.browser.enter('[data-path="pane.2.reflection"] select', "")

@@ -1,4 +1,4 @@
-"""Pictures as rows of RGB bytes, and how much two of them differ."""
+"""Pictures as rows of RGB bytes, and the differences between two."""
 import pathlib
 import struct
 import zlib
@@ -21,14 +21,14 @@ class Picture:
     def of_ppm(cls, path):
         data = pathlib.Path(path).read_bytes()
         kind, width, height, most = data.split(maxsplit=4)[:4]
-        assert (kind, most) == (b"P6", b"255"), f"{path} is no 8-bit PPM"
+        assert (kind, most) == (b"P6", b"255"), f"{path} is not an 8-bit PPM"
         count = 3 * int(width) * int(height)
         return cls(int(width), int(height), data[-count:])
 
     @classmethod
     def of_png(cls, data):
         """8 bits, RGB or RGBA, not interlaced."""
-        assert data[:8] == b"\x89PNG\r\n\x1a\n", "no PNG"
+        assert data[:8] == b"\x89PNG\r\n\x1a\n", "not a PNG"
         at, packed = 8, b""
         while at < len(data):
             size, kind = struct.unpack(">I4s", data[at:at + 8])

@@ -1,4 +1,4 @@
-"""Whether a page shows what Candela renders."""
+"""Checks that a page shows what Candela renders."""
 import base64
 
 import scenes
@@ -34,7 +34,7 @@ class Picturing(PageTest):
                 self.browser.picture(width, height)
 
     def test_sample_positions(self):
-        """Beside edges, where samples count, they must be where Candela's are."""
+        """Next to edges, where samples matter, they must be at Candela's positions."""
         for name, text in (("perspective", scenes.PERSPECTIVE), ("orthographic", scenes.ORTHOGRAPHIC)):
             for samples in (4, 8, 16):
                 many = "--samples", samples
@@ -72,7 +72,7 @@ class Picturing(PageTest):
         self.assertEqual(self.browser.errors(), [])
 
     def test_defaults_of_other_models(self):
-        """What a scene leaves out is another model's default, not that of the scene's own."""
+        """Values that a scene omits are the new model's defaults, not those of the scene's model."""
         text = scenes.PERSPECTIVE.replace("kd = 0.55\nks = 0.4\n", "")
         generated = Generated("defaults", text)
         self.browser.open(generated.address)

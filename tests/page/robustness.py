@@ -1,4 +1,4 @@
-"""Names, data, shaders and devices that mean no good."""
+"""Hostile names and data, broken shaders and devices."""
 import scenes
 from browser import WINDOW, WITHOUT_WEBGL, Browser, with_scene
 from generated import SCRATCH, Generated, PageTest
@@ -21,7 +21,7 @@ class Robustness(PageTest):
         self.assertEqual(self.browser.driver.title, generated.file.stem)
 
     def test_hostile_values(self):
-        """Whatever stands in the data is text."""
+        """All data are text."""
         def spoil(scene):
             script = "<img src=x onerror=window.hacked=1>"
             scene["title"] = script
@@ -48,7 +48,7 @@ class Robustness(PageTest):
         self.assertTrue(self.browser.one("#problem-text").is_displayed())
 
     def test_broken_shader_that_is_chosen(self):
-        """The page goes on working, and says what is wrong for as long as it is."""
+        """The page keeps working, and shows an error for as long as it persists."""
         def spoil(scene):
             scene["reflection_models"]["toon"]["glsl"] += "\nfloat oops = nonsense;"
         generated = Generated("chosen", scenes.PERSPECTIVE)
@@ -69,7 +69,7 @@ class Robustness(PageTest):
         self.assert_alike(self.picture(generated), generated.render("--reflection", "phong"), "afterwards")
 
     def test_a_thousand_lights(self):
-        """As many as the graphics' memory has room for, not its uniform variables."""
+        """As many as graphics memory can hold, not uniform variables."""
         lights = "".join(f'[[light]]\ntype = "point"\nposition = [{i / 400:.4f}, 2.0, 2.0]\nintensity = 0.004\n' for i in range(1000))
         text = scenes.PERSPECTIVE.replace("[[object]]", lights + "[[object]]", 1).replace("samples = 4", "samples = 1")
         generated = Generated("lights", text, "phong")

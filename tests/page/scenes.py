@@ -1,4 +1,4 @@
-"""Two scenes in which every control of every light and of the objects' own models shows."""
+"""Two scenes in which every control of every light and of the objects' own models has a visible effect."""
 
 PERSPECTIVE = """
 version = 1

@@ -6,7 +6,7 @@ import scenes
 from generated import COMMAND, SMALL_WINDOW, Generated, PageTest
 
 LIBRARY = pathlib.Path(COMMAND).resolve().parent.parent / "lib/candela/plugins/target-three"
-needs_three = unittest.skipUnless(LIBRARY.exists(), "there is no three.js: scripts/three.sh brings it")
+needs_three = unittest.skipUnless(LIBRARY.exists(), "three.js is missing; scripts/three.sh fetches it")
 
 
 @needs_three

@@ -1,8 +1,8 @@
-"""Formulas as the page sets them."""
+"""Formulas as the page typesets them."""
 import scenes
 from generated import Generated, PageTest
 
-# What a person would write, by element: fractions as {a/b}, powers and indices in braces.
+# The expected formulas, by element: fractions as {a/b}, powers and indices in braces.
 EXPECTED = {
     "phong": ["R=2N(N·L)−L", "I_{a}=k_{a}C_{o}I_{ambient}", "I_{d}=k_{d}C_{o}I_{L}max(N·L,0)",
               "I_{s}=k_{s}I_{L}max(R·V,0)^{shininess} where N·L>0, else 0"],
@@ -43,7 +43,7 @@ class Typesetting(PageTest):
         for model, expected in EXPECTED.items():
             with self.subTest(model):
                 self.assertEqual(self.lines(model), expected)
-        # Whatever is a formula is set: no shipped model's equation is left as text.
+        # Every formula is typeset: no shipped model's equation is left as text.
         for model in generated.scene["reflection_models"]:
             lines = self.lines(model)
             self.assertTrue(lines)

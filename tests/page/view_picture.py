@@ -1,5 +1,5 @@
-"""Pictures of `candela view`, for the documentation: the renderer's own picture beside the page's, and an error in the file; a pixel
-that is explained; panes with different models, and the scene from outside.
+"""Pictures of `candela view`, for the documentation: the renderer's own picture over the page's, and an error in the file; an explained
+pixel; panes with different models, and the scene from outside.
 
     /usr/bin/python3 tests/page/view_picture.py CANDELA SCENE PICTURE.png EXPLANATION.png PANES.png
 """
@@ -27,7 +27,7 @@ with tempfile.TemporaryDirectory() as folder:
         browser.one("#explanation-form button").click()
         while not browser.all("#explanation-result .bytes"):
             time.sleep(0.5)
-        # The lamp, of the lights.
+        # Chooses the lamp among the lights.
         browser.run("""
             const lights = [...document.querySelectorAll("#explanation-result select")].at(-1);
             lights.value = "1";

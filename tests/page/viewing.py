@@ -37,7 +37,7 @@ def tiles_ppm(red, step):
 
 
 def save(file, text):
-    """As editors do: written beside, then renamed."""
+    """Saves like editors do: writes a temporary file, then renames it."""
     draft = file.with_suffix(".draft")
     draft.write_text(text)
     os.replace(draft, file)
@@ -66,7 +66,7 @@ class Viewing(unittest.TestCase):
         self.addCleanup(self.end, server)
         self.server = server
         self.address = server.stdout.readline().strip()
-        # What the page of the test before has open ends with it.
+        # Connections of the previous test's page end with it.
         self.browser.load(self.address)
 
     def end(self, server):
@@ -84,7 +84,7 @@ class Viewing(unittest.TestCase):
         self.assertIsNone(self.browser.problem())
 
     def assert_shows(self, *options):
-        """That the page's picture is what the renderer makes of the file."""
+        """Checks that the page's picture matches the renderer's."""
         reference = self.folder / "reference.ppm"
         candela("render", self.file, "-o", reference, *options)
         reference = Picture.of_ppm(reference)
@@ -109,7 +109,7 @@ class Viewing(unittest.TestCase):
         self.changed(self.scene_color(), "color = [10, 200, 30]")
         self.wait_until_shown(2)
         self.assert_shows()
-        # In place, as some editors write, and a comment that changes nothing.
+        # In place, as some editors write, and a comment without effect.
         self.file.write_text("# Another colour.\n" + self.file.read_text().replace("[10, 200, 30]", "[10, 20, 230]"))
         self.wait_until_shown(3)
         self.assert_shows()
@@ -193,7 +193,7 @@ class Viewing(unittest.TestCase):
         self.assert_shows()
 
     def compare(self, mode):
-        """What the page says about Candela's own picture."""
+        """The page's text about the reference render."""
         self.browser.enter("#reference-mode", mode)
         self.wait_for("!document.getElementById('reference-canvas').hidden")
         return self.browser.text("#reference-text")
@@ -229,7 +229,7 @@ class Viewing(unittest.TestCase):
         shown = bytes(value for i, value in enumerate(shown) if i % 4 < 3)
         self.assertEqual(shown, bytes(reference.pixels))
         self.assertIn("inset(", self.browser.run("return document.getElementById('reference-canvas').style.clipPath"))
-        # Messages take room from the picture; the two stay where they were to one another.
+        # Messages take room from the picture; the two stay aligned.
         self.changed("[[light]]", "[[lihgt]]")
         self.problems()
         self.wait_for("""(() => {
@@ -256,7 +256,7 @@ class Viewing(unittest.TestCase):
                     const canvas = document.getElementById("reference-canvas");
                     return [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data];""")
                 self.assertEqual(bytes(value for i, value in enumerate(shown) if i % 4 < 3), bytes(expected.pixels))
-        # Where pictures differ is a question about the whole ones.
+        # Differences are computed only for whole pictures.
         self.assertIn("pixels differ", self.compare("difference"))
         self.assertFalse(self.browser.one("#reference-term").is_displayed())
 
@@ -289,14 +289,14 @@ class Viewing(unittest.TestCase):
         x, y = (int(self.browser.run(f"return document.getElementById('explanation-{axis}').value")) for axis in "xy")
         self.assertLessEqual(abs(x - aim[0]) + abs(y - aim[1]), 4)
         self.assertEqual(bytes_shown, byte(x, y))
-        # Its point and vectors stand in the picture where the pixel is.
+        # Its point and vectors are drawn in the picture where the pixel is.
         names = self.browser.run("return [...document.querySelectorAll('#arrows text')].map((e) => e.textContent)")
         self.assertEqual(names[:2], ["N", "V"])
         off = self.browser.run("""
             const origin = document.querySelector(".arrow-origin").getBoundingClientRect(), canvas = document.getElementById("picture-canvas").getBoundingClientRect();
             return [origin.x + origin.width / 2 - canvas.x - canvas.width / 2, origin.y + origin.height / 2 - canvas.y - canvas.height / 2];""")
         self.assertLess(max(abs(a - b) for a, b in zip(off, offset)), 6)
-        # By the keyboard, another one; Escape ends it, and so does a change.
+        # Another one by keyboard; Escape ends it, and so does a change.
         self.browser.enter("#explanation-x", "3")
         self.browser.enter("#explanation-y", "2")
         self.browser.one("#explanation-y").send_keys(Keys.ENTER)
@@ -317,7 +317,7 @@ class Viewing(unittest.TestCase):
         self.browser.enter('[data-path="pane.1.reflection"] select', "toon")
         self.browser.unfold_all()
         self.browser.enter('[data-path="object.0.color"] input', "#20c040")
-        # Both have their sizes once they are drawn, and nothing moves any more.
+        # Once both are drawn, they have their sizes and no longer move.
         self.wait_for("""(() => {
             const [a, b] = ["#picture-canvas", "canvas.pane"].map((name) => document.querySelector(name).getBoundingClientRect());
             return a.width === b.width && a.height === b.height && a.width < innerWidth / 2;
@@ -344,7 +344,7 @@ class Viewing(unittest.TestCase):
                 const origin = document.querySelector(".arrow-origin").getBoundingClientRect(), canvas = arguments[0].getBoundingClientRect();
                 return [origin.x + origin.width / 2 - canvas.x - canvas.width / 2, origin.y + origin.height / 2 - canvas.y - canvas.height / 2];""", canvas)
             self.assertLess(max(abs(a - b) for a, b in zip(off, offset)), 6)
-        # By the keyboard, too.
+        # Also by keyboard.
         self.browser.enter("#explanation-pane", "1")
         for axis, at in zip("xy", aim):
             self.browser.enter(f"#explanation-{axis}", str(at))
@@ -399,7 +399,7 @@ class Viewing(unittest.TestCase):
         self.assertAlmostEqual(numbers()[1], lambert, delta=2e-3 * lambert)
         for right, down in curve(1):
             self.assertAlmostEqual(math.hypot(right, down) / 100, lambert / max(lambert, peak), delta=2e-3)
-        # On four decades, a hundredth is half as far out.
+        # With four decades, a hundredth is half as far out.
         self.browser.one(".lobe-choices input").click()
         for right, down in curve(0):
             share = phong(math.atan2(right, -down)) / max(lambert, peak)
@@ -410,7 +410,7 @@ class Viewing(unittest.TestCase):
         beside_it = 3 * (seen.width * (seen.height // 2) + 10)
         self.assertEqual(list(seen.pixels[beside_it:beside_it + 3]), [30, 40, 60])
 
-        # The surface stands on the point, above the ball, and goes with the explanation.
+        # The surface is at the point, above the ball, and disappears with the explanation.
         covered = lambda: self.browser.run("""
             const canvas = document.getElementById("lobe-canvas"), { width, height } = canvas;
             const alphas = canvas.getContext("2d").getImageData(0, 0, width, height).data.filter((_, i) => i % 4 === 3);
@@ -488,7 +488,7 @@ class Viewing(unittest.TestCase):
         old, new = before.splitlines(), after.splitlines()
         self.assertLessEqual(len([line for line in new if line not in old]), 2)
         self.assertLessEqual(len([line for line in old if line not in new]), 2)
-        # The page has nothing more to save, and shows the file.
+        # The page has nothing left to save, and shows the file.
         self.assertEqual(self.browser.run("return document.getElementById('notice').hidden"), True)
         self.assert_shows()
         self.browser.one("#save-scene").click()
@@ -549,7 +549,7 @@ class Viewing(unittest.TestCase):
     def test_a_formula_that_draws_otherwise_is_seen_in_the_difference(self):
         self.view()
         self.wait_until_shown(1)
-        # As a shader of a broken driver would: the page's lights are dimmed behind its back.
+        # Simulates a broken driver that dims the page's lights.
         self.browser.run("""
             const own = WebGL2RenderingContext.prototype.texSubImage2D;
             WebGL2RenderingContext.prototype.texSubImage2D = function (...words) {
@@ -575,7 +575,7 @@ class Viewing(unittest.TestCase):
         def assert_is_rendered(*options):
             candela("render", self.file, "-o", reference, *options)
             expected = Picture.of_ppm(reference)
-            # On the screen sooner or later, and exactly.
+            # It appears on the screen eventually, and exactly.
             self.browser.driver.execute_async_script("""
                 const [expected, done] = arguments, canvas = document.getElementById("picture-canvas");
                 const look = () => {
@@ -594,7 +594,7 @@ class Viewing(unittest.TestCase):
         position = self.browser.run("""
             return [...document.querySelectorAll('[data-path="observer.position"] input[type=number]')].map((i) => Number(i.value));""")
         assert_is_rendered("--set", "object.0.color=[32,192,64]", *options_for("observer.position", position))
-        # Lights can be moved there as well, a pixel is explained, and a saved scene comes by itself.
+        # Lights can be moved there as well, a pixel is explained, and a saved scene appears by itself.
         self.assertTrue(self.browser.all(".marker"))
         self.browser.enter("#explanation-x", "3")
         self.browser.enter("#explanation-y", "2")

@@ -67,6 +67,6 @@ export class Lobes {
         const logarithmic = element("input", { type: "checkbox", checked: this.isLogarithmic });
         logarithmic.addEventListener("change", () => { this.isLogarithmic = logarithmic.checked; redraw(); });
         return [element("h3", {}, "Reflected light by direction"), shown, element("div", { class: "lobe-choices" },
-            element("label", { for: id }, "Beside"), choice, element("label", {}, logarithmic, " logarithmic, four decades"))];
+            element("label", { for: id }, "Compare with"), choice, element("label", {}, logarithmic, " logarithmic, four decades"))];
     }
 }
