@@ -57,6 +57,16 @@ std::string webp(std::uint32_t width, std::uint32_t height) {
     return bytes + image;
 }
 
+/// An RLE-compressed BMP file of 8 bits a pixel, without the pixels.
+std::string bmp(std::int32_t width, std::int32_t height) {
+    std::string bytes = "BM";
+    for (const std::uint32_t value :
+         {54u, 0u, 54u, 40u, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+          1u | 8u << 16, 1u, 0u, 0u, 0u, 0u, 0u})
+        put(bytes, value, 4);
+    return bytes;
+}
+
 /// Rendered with the file as a texture, within five seconds of processor time and a gigabyte and a half.
 CommandResult rendered_with(const std::string& name, const std::string& bytes) {
     const fs::path folder = scratch_directory();
@@ -89,6 +99,8 @@ TEST_CASE("a file of a few bytes that declares millions of pixels is refused bef
         {"wide.tga", std::string("\0\0\x0a\0\0\0\0\0\0\0\0\0\xff\xff\xff\xff\x18\0\xff\1\2\3abc", 25)},
         {"high.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 30000\n\2\2"},
         {"large.webp", webp(16383, 16383)},
+        {"upright.bmp", bmp(20000, 65536)},
+        {"inverted.bmp", bmp(20000, -65536)},
     };
     for (const auto& [name, bytes] : files) {
         const CommandResult result = rendered_with(name, bytes);

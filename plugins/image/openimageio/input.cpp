@@ -106,6 +106,21 @@ std::uintmax_t webp_pixels(std::string_view head) {
     return width * height;
 }
 
+/// The size of a BMP file, whose compressed pixels OpenImageIO decodes when it opens it. Zero if the header
+/// is that of OS/2, which has no compression.
+std::uintmax_t bmp_pixels(std::string_view head) {
+    constexpr std::size_t k_width = 18, k_height = 22;
+    if (head.size() < k_head) return 0;
+    const auto magnitude_at = [&](std::size_t i) {
+        std::uint32_t bits = 0;
+        for (std::size_t k = 4; k-- > 0;) bits = bits << 8 | static_cast<unsigned char>(head[i + k]);
+        const auto value = static_cast<std::int32_t>(bits);  // rows from the top have a negative height
+        return static_cast<std::uintmax_t>(value < 0 ? -std::int64_t{value} : std::int64_t{value});
+    };
+    constexpr char k_size_of_os2 = 12;
+    return head[14] == k_size_of_os2 ? 0 : magnitude_at(k_width) * magnitude_at(k_height);
+}
+
 /// Deflate expands one byte to at most 1032, each holding up to eight one-bit pixels; most formats expand
 /// less.
 constexpr std::uintmax_t k_most_pixels_per_byte = std::uintmax_t{1032} * 8;
@@ -140,6 +155,7 @@ std::unique_ptr<OIIO::ImageInput> opened(const char* path) {
     const std::uintmax_t size = std::filesystem::file_size(path);
     if (format == "png" && is_cut_off_png(path)) throw std::runtime_error("it is cut off");
     if (format == "webp") require_moderate(4 * webp_pixels(head), size);
+    if (format == "bmp") require_plausible(bmp_pixels(head), size, k_most_pixels_per_byte);
     // The colours stay as in the file, however transparent the pixels.
     OIIO::ImageSpec wanted, found;
     wanted.attribute("oiio:UnassociatedAlpha", 1);
