@@ -55,7 +55,7 @@ function(candela_add_plugin id)
     endif()
     if(NOT id MATCHES "^(light|reflection|shading|shape|image|target)/([a-z][a-z0-9-]*)$")
         message(FATAL_ERROR "candela_add_plugin(${id}): the first argument is <kind>/<name>; kind is light, reflection, "
-            "shading, shape, image or target, name is of lower-case letters, digits and hyphens")
+            "shading, shape, image or target, and name consists of lower-case letters, digits and hyphens")
     endif()
     set(kind ${CMAKE_MATCH_1})
     set(name ${CMAKE_MATCH_2})

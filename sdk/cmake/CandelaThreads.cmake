@@ -32,8 +32,8 @@ function(candela_add_thread_sanitized target)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" "DATA" "SOURCES;LIBRARIES")
     candela_find_thread_sanitizer(is_there)
     if(NOT is_there)
-        message(WARNING "CANDELA_SANITIZE is thread, but ${CMAKE_CXX_COMPILER} makes no programs with -fsanitize=thread: data races are "
-            "not looked for (of clang 22, Debian has what is missing in libclang-rt-22-dev)")
+        message(WARNING "CANDELA_SANITIZE is thread, but ${CMAKE_CXX_COMPILER} cannot build programs with -fsanitize=thread: data races are "
+            "not detected (for clang 22, Debian's package libclang-rt-22-dev is missing)")
         return()
     endif()
     if(NOT TARGET candela_threads)
