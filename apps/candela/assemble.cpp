@@ -131,7 +131,7 @@ void require_all_parts(const fs::path& picture, const PartedPicture& parted) {
         problem += fmt::format("{}made from other inputs than the part rendered last: {}",
                                problem.empty() ? "" : "; ", ranges_of(other));
     throw Error(ErrorCategory::failure,
-                fmt::format("'{}' is incomplete ({} parts): {}", picture.string(), parted.parts, problem));
+                fmt::format("'{}' is incomplete ({} parts); {}", picture.string(), parted.parts, problem));
 }
 
 int assemble(const CommandLine& line) {

@@ -54,7 +54,7 @@ struct Panel {
 std::string angle_panel(const std::vector<LightCurves>& lights) {
     constexpr double k_right_angle = 90;
     const Panel panel{k_left};
-    std::string text = panel.frame("intensity relative to the axis", "degrees from the axis");
+    std::string text = panel.frame("relative intensity", "degrees from the axis");
     for (int degrees = 0; degrees <= 90; degrees += 15)
         text += panel.mark_below(degrees / k_right_angle, fmt::format("{}°", degrees));
     for (int i = 0; i <= 4; ++i) text += panel.mark_beside(i / 4.0, fmt::format("{:g}", i / 4.0));

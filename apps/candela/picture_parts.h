@@ -1,5 +1,5 @@
-// Pictures in parts: bands of whole rows, each a file of pixels in the picture's format, to be put together
-// at the end.
+// Pictures in parts: bands of whole rows, each a file of raw pixels of the picture's type, to be put
+// together at the end.
 #pragma once
 
 #include <filesystem>

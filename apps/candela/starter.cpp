@@ -26,7 +26,7 @@ depth  = 10.0                        # z from -5 to 5
 [observer]
 position   = [0.0, 2.0, 4.9]
 look_at    = [0.0, 0.38, 0.0]        # the centre of the picture
-fov        = 31.0                    # the angle from the bottom to the top: smaller is nearer
+fov        = 31.0                    # the angle from the bottom to the top: a smaller one zooms in
 projection = "perspective"           # or "orthographic", with height = 2.0 (metres) instead of fov
 
 [image]
@@ -43,7 +43,7 @@ model = "phong"
 [reflection]
 model = "blinn-phong"
 
-# Lights: any number. A name is good for messages, and for --set light.lamp.intensity=40
+# Lights: any number. A name helps in messages, and with --set light.lamp.intensity=40
 [[light]]
 name      = "lamp"
 type      = "point"                  # shines in all directions; others: "spot", "directional", "ambient"
@@ -76,7 +76,7 @@ type         = "torus"
 major_radius = 0.5                   # to the middle of the tube
 minor_radius = 0.17                  # of the tube
 position     = [0.85, 0.68, -0.2]
-rotation     = [90.0, -25.0, 0.0]    # about x, then y, then z: it stands, and turns a little
+rotation     = [90.0, -25.0, 0.0]    # about x, then y, then z: upright, and turned a little
 color        = [226, 172, 60]
 [object.material]
 kd = 0.6
@@ -102,14 +102,14 @@ constexpr std::string_view k_film = R"(
 frames = 96                          # numbered from 0
 fps    = 24.0                        # frames per second: four seconds
 
-# The observer goes once around what it looks at, and is back after the last frame.
+# The observer goes once around the point it looks at, and is back after the last frame.
 [animation.orbit]
 turns = 1.0                          # 2.0 is twice, -1.0 the other way round
 
-# Whatever --set can set may change over time: any number of tracks.
+# Every value that --set can set can change over time: any number of tracks.
 [[animation.track]]
 path = "light.lamp.intensity"
-keys = [[0.0, 19.0], [2.0, 6.0], [4.0, 19.0]]  # seconds, and the value then
+keys = [[0.0, 19.0], [2.0, 6.0], [4.0, 19.0]]  # the time in seconds, and the value
 interpolation = "smooth"             # between keys; or "linear", or "step"
 )";
 

@@ -26,10 +26,10 @@ constexpr float edge_levels(double tolerance) {
     return static_cast<float>(tolerance / 2 < k_floor ? k_floor : tolerance / 2);
 }
 
-/// A pixel is an edge if the average of its samples changes by more than `levels` (1/255) when they move by
-/// an eighth of a pixel, or when light arrives from a direction that differs by 0.0002 radians. It is also an
-/// edge if it differs by that much from the mean over its samples, because Candela evaluates light once for
-/// each triangle in a pixel. `reference` is the 8-bit picture of `scene`; the scene is left unchanged.
+/// A pixel is an edge if it changes, averaged over its samples, by more than `levels` (1/255) when they move
+/// by an eighth of a pixel, or when light arrives from a direction that differs by 0.0002 radians. It is also
+/// an edge if it differs by that much from the mean over its samples, because Candela evaluates light once
+/// for each triangle in a pixel. `reference` is the 8-bit picture of `scene`; the scene is left unchanged.
 Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& reference, float levels);
 
 /// Candela's picture before rounding: 0 to 255, encoded as in a file.

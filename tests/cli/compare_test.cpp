@@ -197,7 +197,7 @@ TEST_CASE("an impossible comparison is an error with a reason, and no sheet") {
     CHECK(holds(folder.error({"--vary", "image.width=60,70"}, 2), "differ in size"));
     CHECK(holds(folder.error({"--vary", "image.width"}, 2), "has no '='"));
     CHECK(holds(folder.error({"--vary", "image.samples=1,4", "--vary", "image.samples=8,16"}, 2),
-                "is there twice"));
+                "is repeated"));
     CHECK(holds(folder.error({"--reflection=phong,ggx", "--vary", "reflection.model=lambert,ggx"}, 2),
                 "set the same value"));
     CHECK(holds(folder.error({"-q", "--reflection=lambert,phnog"}, 3), "in the picture 'phnog'"));

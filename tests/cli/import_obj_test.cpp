@@ -423,7 +423,7 @@ TEST_CASE("losses of one kind become one note with a count") {
     write_file(folder / "a.mtl", library);
     const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
     CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "50 textures are not there, the first of them 'no0.png' of material 'm0'"));
+    CHECK(holds(result.err, "50 textures do not exist, the first of them 'no0.png' of material 'm0'"));
     CHECK(holds(result.err, "50 materials are not in any material library, the first of them 'n0'"));
     CHECK(std::ranges::count(result.err, '\n') == 2);
 }

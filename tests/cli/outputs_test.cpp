@@ -159,7 +159,7 @@ TEST_CASE("a task's journal is not a user option, and overwrites only journals")
     CHECK(in(d, {"--task", "journal", "render", "-o", "picture.png"}).exit_code == 0);
 }
 
-TEST_CASE("--no-clobber keeps any existing file, before any work is done") {
+TEST_CASE("any existing file is kept with --no-clobber, before any work is done") {
     const fs::path d = folder_with_scene();
     for (const char* const name : {"mine.png", "mine.svg", "mine.html", "mine.ppm"})
         write_file(d / name, "mine");

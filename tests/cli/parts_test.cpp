@@ -86,7 +86,7 @@ TEST_CASE("assemble says which parts are missing and which were made from other 
     for (const char* const part : {"1/6", "2/6", "4/6"}) render_part(directory, "poster.png", part);
     CommandResult result = candela(directory, {"assemble", "poster.png"});
     CHECK(result.exit_code == 1);
-    CHECK(holds(result.err, "of its 6 parts are missing: 3, 5-6"));
+    CHECK(holds(result.err, "is incomplete (6 parts); missing: 3, 5-6"));
     CHECK_FALSE(fs::exists(directory / "poster.png"));
 
     std::string scene = scene_text();
@@ -201,7 +201,7 @@ TEST_CASE("messages explain mistakes with parts") {
     refused({"assemble", "p.png"}, 1, "does not describe a picture");
     refused({"submit", "scene.toml", "--parts", "4"}, 2, "name it with -o");
     refused({"submit", "scene.toml", "--parts", "4", "-o", "a.png", "--chunk", "3"}, 2,
-            "--chunk is for frames");
+            "--chunk applies to frames");
     refused({"submit", "scene.toml", "-o", "a%d.png"}, 2, "--parts 16 distributes");
 }
 

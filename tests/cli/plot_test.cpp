@@ -227,8 +227,7 @@ TEST_CASE("plot: the curves in a light's diagrams follow its equation") {
     const std::string svg = read_file(file);
     CHECK(holds(svg, "role=\"img\""));
     CHECK(holds(
-        svg,
-        "<title id=\"title\">What lights send: spot:inner_angle=0,outer_angle=60,falloff=linear</title>"));
+        svg, "<title id=\"title\">Emitted light: spot:inner_angle=0,outer_angle=60,falloff=linear</title>"));
     // At 0 degrees the top left corner of its frame; at 60 degrees, two thirds to the right, the bottom.
     const std::size_t curve = svg.find("points=\"");
     REQUIRE(curve != std::string::npos);

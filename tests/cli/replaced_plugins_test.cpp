@@ -57,7 +57,8 @@ void check_refused(const Copy& copy, const std::string& reason) {
     CHECK(found.exit_code == 0);
     CHECK(holds(found.err, "candela: warning: plugin '" + copy.library.string() + "' is refused: "));
     CHECK(holds(found.err, reason));
-    CHECK(holds(found.err, "shape-cube.so' is used instead"));
+    CHECK(holds(found.err, "; using '"));
+    CHECK(holds(found.err, "shape-cube.so' instead"));
     CHECK(fs::remove(copy.folder.parent_path() / "a.png"));
     const CommandResult named = copy.render(true);
     INFO(named.err);

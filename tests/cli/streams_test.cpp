@@ -78,7 +78,7 @@ TEST_CASE("with --no-clobber, an existing picture stays, and that is an error") 
     write_file(d / "a.ppm", "mine");
     const CommandResult again = in(d, {"render", "-", "-o", "a.ppm", "--no-clobber"}, k_scene);
     CHECK(again.exit_code == 1);
-    CHECK(holds(again.err, "'a.ppm' exists"));
+    CHECK(holds(again.err, "'a.ppm' already exists"));
     CHECK(read_file(d / "a.ppm") == "mine");
     CHECK(in(d, {"render", "-", "-o", "a.ppm"}, k_scene).exit_code == 0);
 }

@@ -170,7 +170,7 @@ TEST_CASE("options of other programs are answered with those of the verb") {
     CHECK(run_candela({"render", "-h"}).exit_code == 0);
 }
 
-TEST_CASE("--quiet may be given twice, by a user and by a program") {
+TEST_CASE("quiet may be given twice, by a user and by a program") {
     const fs::path d = scratch_directory();
     const CommandResult result = run_candela({"render", "-o", "a.png", "-q", "--quiet", "-q"},
                                              {.input = "", .environment = {}, .directory = d});
