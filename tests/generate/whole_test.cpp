@@ -192,7 +192,7 @@ TEST_CASE("verify and generate replace nothing that the scene is made from, what
         INFO(result.out << result.err);
         CHECK(result.exit_code == 2);
         CHECK(result.err.find("'" + scene.string() +
-                              "' is one of the files that the scene is made from; give "
+                              "' is one of the files that the scene is made from; choose "
                               "another folder with --") != std::string::npos);
         const bool is_untouched = read_file(scene) == before;
         CHECK(is_untouched);

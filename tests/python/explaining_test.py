@@ -41,7 +41,7 @@ class Terms(unittest.TestCase):
         np.testing.assert_allclose(whole, self.scene.render(floats=True), rtol=1e-5)
 
     def test_an_unknown_term_has_a_suggestion(self):
-        with self.assertRaisesRegex(candela.RequestError, "'difuse' is no term; did you mean 'diffuse'"):
+        with self.assertRaisesRegex(candela.RequestError, "unknown term 'difuse'; did you mean 'diffuse'"):
             self.scene.terms("difuse")
 
 

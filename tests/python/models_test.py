@@ -156,7 +156,7 @@ class Lights(unittest.TestCase):
         sky = candela.light("ambient", intensity=0.5)
         self.assertEqual((sky.sample_count, sky.has_ambient), (0, True))
         np.testing.assert_allclose(sky.ambient(np.zeros((2, 3))), np.full((2, 3), 0.5), rtol=1e-6)
-        with self.assertRaisesRegex(IndexError, "no sample 0; it has 0"):
+        with self.assertRaisesRegex(IndexError, "no sample 0; its sample count is 0"):
             sky.illuminate([0, 0, 0])
         lamp = candela.light("point", position=(0, 0, 0))
         np.testing.assert_array_equal(lamp.ambient([1, 1, 1]), [0, 0, 0])
