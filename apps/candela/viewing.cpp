@@ -143,19 +143,20 @@ view::Outcome kept(const std::vector<std::string>& arguments, const std::vector<
     const std::string name = project_names(value_of("--name")).name;
     std::error_code problem;
     if (fs::exists(fs::symlink_status(name, problem)))
-        return {.is_success = false, .content = fmt::format("Not saved: '{}' already exists.", name)};
+        return {.is_success = false,
+                .content = fmt::format("The formula was not kept: '{}' already exists.", name)};
     candela::write_text_file(file, kernel);
     const candela::ProgramOutput result =
         run_verb({"plugin", "new", "reflection", name}, arguments,
                  {fmt::format("--from={}", value_of("--model")), fmt::format("--kernel={}", file.string())});
     if (result.exit_code != 0) return {.is_success = false, .content = result.err};
     return {.is_success = true,
-            .content = fmt::format(
-                "Saved in '{}'. Build and test it there: cmake -B build && cmake --build build && "
-                "ctest --test-dir build. {}",
-                fs::absolute(name).string(), result.err)};
+            .content =
+                fmt::format("Kept in '{}'. Build and test it there: cmake -B build && cmake --build build && "
+                            "ctest --test-dir build. {}",
+                            fs::absolute(name).string(), result.err)};
 } catch (const std::exception& problem) {
-    return {.is_success = false, .content = fmt::format("Not saved: {}", problem.what())};
+    return {.is_success = false, .content = fmt::format("The formula was not kept: {}", problem.what())};
 }
 
 fs::path page_leading_to(const std::string& address, const fs::path& folder) {

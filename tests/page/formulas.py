@@ -194,7 +194,7 @@ class Keeping(Editing, Viewing):
         self.assertIn("my_blinn_reflect(MyBlinnMaterial m", kernel)
         self.assertNotIn("phong_", kernel)
         self.assertTrue(project.joinpath("CMakeLists.txt").exists())
-        self.assertIn("already there", self.keep("my-blinn"))
+        self.assertIn("already exists", self.keep("my-blinn"))
         for name in ("../outside", "/tmp/outside", "a/b"):
             status = self.browser.driver.execute_async_script(
                 "fetch(`keep?model=reflection%2Fphong&name=${encodeURIComponent(arguments[0])}`, { method: 'POST', body: 'x' }).then((r) => arguments[1](r.status))", name)
