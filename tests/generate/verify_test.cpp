@@ -175,8 +175,7 @@ TEST_CASE("verify: a program that draws nothing is not saved by a picture of an 
     CHECK(result.exit_code == 4);
     CHECK(result.out.find("ended without writing a picture") != std::string::npos);
     CHECK_FALSE(fs::exists(report / "cpp.png"));
-    CHECK(read_file(report / "index.html").find("ended without writing a picture") !=
-          std::string::npos);
+    CHECK(read_file(report / "index.html").find("ended without writing a picture") != std::string::npos);
 }
 
 TEST_CASE("verify: a picture of another size is a mismatch that says so", "[programs]") {
