@@ -21,7 +21,7 @@ def first_line(*words):
 
 
 def built_with(command):
-    """What the figure depends on other than the source."""
+    """Everything that the figure depends on apart from the source."""
     notes = subprocess.run(["readelf", "-p", ".comment", command], check=True, capture_output=True, text=True).stdout
     compilers = sorted(set(re.findall(r"\]\s+(.*clang version \S+)", notes)))
     return {"compiler": ", ".join(compilers), "c_library": first_line("ldd", "--version"),

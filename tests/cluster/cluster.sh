@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# A Slurm cluster of several nodes on this machine, in a folder of its own.
+# A Slurm cluster of several nodes on this machine, in its own folder.
 #   cluster.sh start FOLDER [NODES]   three nodes by default; slurmctld, and one slurmd per node
 #   cluster.sh slurmctld FOLDER       starts a controller that has been killed
 #   cluster.sh node FOLDER NAME       starts a node that has been killed
-#   cluster.sh stop FOLDER            ends all of them, whatever is running
-# The process numbers are in FOLDER/NAME.pid, what they say in FOLDER/NAME.log. Commands of Slurm want SLURM_CONF=FOLDER/slurm.conf.
-# Installs slurm-wlm and munge (Debian, Ubuntu) where they are missing; needs root, as slurmd does.
+#   cluster.sh stop FOLDER            ends all of them, even with jobs running
+# Process numbers are in FOLDER/NAME.pid, output in FOLDER/NAME.log. Slurm's commands need SLURM_CONF=FOLDER/slurm.conf.
+# Installs slurm-wlm and munge (Debian, Ubuntu) if they are missing; needs root, like slurmd.
 set -euo pipefail
 
 usage() { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 fail() { echo "cluster: $*" >&2; exit 1; }
 [ $# -ge 2 ] || usage
-[ "$(id -u)" = 0 ] || fail "slurmd wants to be root"
+[ "$(id -u)" = 0 ] || fail "slurmd needs root"
 mkdir -p "$2"
 folder=$(cd "$2" && pwd)
 export SLURM_CONF=$folder/slurm.conf
@@ -24,7 +24,7 @@ wait_for() {
         "$@" >/dev/null 2>&1 && return
         sleep 0.1
     done
-    fail "this has not come true: $*"
+    fail "timed out waiting for: $*"
 }
 
 run() { # NAME COMMAND...
@@ -39,11 +39,11 @@ install() {
     command -v slurmctld >/dev/null && command -v slurmd >/dev/null || packages+=(slurm-wlm)
     command -v munged >/dev/null || packages+=(munge)
     [ ${#packages[@]} = 0 ] && return
-    # Neither package is to start a daemon of its own.
+    # Neither package may start its own daemon.
     DEBIAN_FRONTEND=noninteractive RUNLEVEL=1 apt-get -qq -o DPkg::Lock::Timeout=300 install "${packages[@]}" >&2
 }
 
-# One port per daemon, from a range that is free.
+# One port per daemon, from a free range.
 first_port() {
     local port
     for port in 17100 18100 19100 20100 21100; do
@@ -125,7 +125,7 @@ case $1 in
     start)
         nodes=${3:-3}
         install
-        is_there slurmctld && fail "there is a cluster in '$folder' already"
+        is_there slurmctld && fail "'$folder' already contains a cluster"
         configure "$nodes"
         start_munge
         start_slurmctld

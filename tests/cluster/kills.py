@@ -1,12 +1,12 @@
-"""A film and a poster by many processes, some of which are killed, against what one process makes of the same scene.
+"""Compares a film and a poster made by many processes, some of which are killed, with the results of one process.
 
     kills.py <build folder> <work folder> [--engine slurm|local] [--frames N] [--poster PIXELS] [--parts N] [--kills N] [--seed N]
              [--only film|poster]
 
 slurm: on a cluster of three nodes that cluster.sh starts on this machine (as root), a node is killed with all that runs on it, the
-controller is killed and started again, and tasks are killed with SIGKILL. local: `candela submit` and its tasks are killed, so many
-times. In the end, the files must have the same bytes, nothing may be left over, and whatever `candela status` called done on the
-way must have been.
+controller is killed and started again, and tasks are killed with SIGKILL. local: `candela submit` and its tasks are killed that
+many times. In the end, the files must have the same bytes, nothing may be left over, and everything that `candela status` reported as
+done on the way must have been done.
 """
 import argparse
 import hashlib
@@ -54,7 +54,7 @@ def digest(path):
 
 
 class Job:
-    """What is submitted, and what one process has made of it."""
+    """A job, and the results of one process."""
 
     def __init__(self, folder, words, expected):
         self.folder, self.words, self.expected = folder, words, expected
@@ -63,7 +63,7 @@ class Job:
         return candela("submit", *self.words, "--engine", arguments.engine, "--quiet", *more, check=check)
 
     def status(self):
-        """What `status` says, after a look whether it is true."""
+        """The output of `status`, checked for truth."""
         global statuses
         jobs = json.loads(candela("status", self.folder, "--json").stdout)
         status = next(job for job in jobs if job["output"] in self.words)
@@ -71,7 +71,7 @@ class Job:
         for task in status["tasks"]:
             for name in self.files_of(task["name"]) if task["state"] == "done" else ():
                 if digest(name) != self.expected[name.name]:
-                    sys.exit(f"{name} is called done and is not")
+                    sys.exit(f"{name} is reported as done but is not")
         return status
 
     def files_of(self, task):
@@ -82,14 +82,14 @@ class Job:
     def check(self):
         for name, expected in self.expected.items():
             if digest(work / self.folder / name) != expected:
-                sys.exit(f"{name} is not what one process has made")
+                sys.exit(f"{name} differs from the result of one process")
         left = [str(path) for path in (work / self.folder).rglob(".candela-*")] + [str(path) for path in work.glob("*.parts")]
         if left:
             sys.exit(f"left over: {left}")
 
 
 def processes(of):
-    """The process numbers of those whose command line holds all of these texts."""
+    """The numbers of processes whose command line contains all of these texts."""
     found = []
     for folder in pathlib.Path("/proc").iterdir():
         if not folder.name.isdigit() or int(folder.name) == os.getpid():
@@ -104,7 +104,7 @@ def processes(of):
 
 
 def processes_on(node):
-    """The tasks that a node of the cluster has begun, and what they have started."""
+    """The tasks that a node of the cluster has started, and their children."""
     found = []
     for pid in processes([]):
         try:
@@ -125,7 +125,7 @@ def kill(pids):
 
 
 def tree(pid):
-    """A process and all that it and its children have started."""
+    """A process and all of its descendants."""
     try:
         children = (pathlib.Path("/proc") / str(pid) / "task" / str(pid) / "children").read_text().split()
     except OSError:
@@ -144,7 +144,7 @@ def with_slurm(job):
             if is_so():
                 return
             time.sleep(0.2)
-        sys.exit(f"this has not come true: {what}\n{job.status()}\n{queue()}")
+        sys.exit(f"timed out waiting for: {what}\n{job.status()}\n{queue()}")
 
     def done():
         return job.status()["done"]
@@ -161,7 +161,7 @@ def with_slurm(job):
         time.sleep(0.5)
     say(f"{killed} tasks are killed with SIGKILL, and status calls some failed; {done()} of {tasks} tasks are done")
 
-    # slurmd, the processes that watch tasks, and the tasks, as if the machine had lost its power.
+    # slurmd, the processes that watch tasks, and the tasks, as in a power failure.
     wait_until("a task is running on node2", lambda: processes_on("node2"))
     victims = {int((nodes / "node2.pid").read_text()), *processes_on("node2")}
     victims.update(pid for pid in processes(["slurmstepd"]) if victims.intersection(tree(pid)))
@@ -172,16 +172,16 @@ def with_slurm(job):
     say(f"slurmctld is killed; {done()} of {tasks} tasks are done")
     time.sleep(2)
     subprocess.run([cluster, "slurmctld", nodes], check=True)
-    say("slurmctld is there again")
+    say("slurmctld is back")
 
     subprocess.run([cluster, "node", nodes, "node2"], check=True)
-    say("node2 is there again")
+    say("node2 is back")
 
     wait_until("the queue is empty", lambda: not queue())
     status = job.status()
     say(f"the queue is empty: {status['done']} done, {status['failed']} failed, {status['waiting']} waiting")
     if status["running"]:
-        sys.exit("status says that something runs")
+        sys.exit("status reports running tasks")
     for task in status["tasks"]:
         if task["state"] == "failed":
             say(f"  {task['name']}: {task['why']}")
@@ -212,7 +212,7 @@ def finish(job, name):
     if states != {"done"}:
         sys.exit(f"{name}: {status}")
     job.check()
-    say(f"{name}: the same bytes as by one process, nothing left over")
+    say(f"{name}: the same bytes as from one process, nothing left over")
 
 
 shutil.rmtree(work, ignore_errors=True)
@@ -221,7 +221,7 @@ candela("new", "scene.toml", "--animation", "--quiet")
 candela("edit", "scene.toml", "--change", f"animation.frames={arguments.frames}", "--quiet")
 size = ("--width", "640", "--height", "400", "--samples", "16")
 jobs = {}
-say("one process makes what is to be expected")
+say("one process makes the expected results")
 if arguments.only != "poster":
     candela("animate", "scene.toml", *size, "-o", "alone/%04d.png", "--quiet")
     jobs["film"] = Job("frames", ["scene.toml", *size, "-o", "frames/%04d.png", "--chunk", "5"],
@@ -237,7 +237,7 @@ try:
     for name, job in jobs.items():
         (with_slurm if arguments.engine == "slurm" else with_kills)(job)
         finish(job, name)
-    say(f"status was asked {statuses} times, and told the truth")
+    say(f"status was queried {statuses} times, and was always right")
 finally:
     if arguments.engine == "slurm":
         subprocess.run([cluster, "stop", nodes], check=False)

@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# With an installed Candela alone: the SDK's templates, built as they stand by other compilers than Candela's, with other
-# generators, standards and extensions, without module scanning. Each plugin passes its tests, and renders what the first
-# case's renders.
+# With only an installed Candela: builds the SDK's templates unchanged with compilers other than Candela's, other generators,
+# standards and extensions, without module scanning. Each plugin must pass its tests, and render the same as the first case's.
 #   compilers.sh BUILD_DIR SCRATCH_DIR CMAKE CASE...
-# CASE is COMPILER,GENERATOR,STANDARD,EXTENSIONS,KIND[+KIND...]. Exit code 77: a compiler is missing; it says which.
+# CASE is COMPILER,GENERATOR,STANDARD,EXTENSIONS,KIND[+KIND...]. Exit code 77: a compiler is missing, which it names.
 set -euo pipefail
 build=$1 scratch=$2 cmake=$3
 here=$(cd "$(dirname "$0")" && pwd)
@@ -13,7 +12,7 @@ quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
 
 for case in "${@:4}"; do
     for tool in "${case%%,*}" make objdump; do
-        command -v "$tool" >/dev/null || { echo "SKIPPED: there is no $tool here"; exit 77; }
+        command -v "$tool" >/dev/null || { echo "SKIPPED: $tool is not installed"; exit 77; }
     done
 done
 rm -rf "$scratch"

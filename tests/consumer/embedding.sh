@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The program of docs/embedding.md, built as the page says with an installed Candela alone: by g++ and by Candela's own compiler,
-# with CMake and with pkg-config. It renders what the command renders.
+# Builds the program of docs/embedding.md as the page describes, with only an installed Candela: with g++ and Candela's own compiler,
+# with CMake and with pkg-config. It must render the same as the command.
 #   embedding.sh PREFIX SCRATCH_DIR CMAKE CXX
 set -euo pipefail
 prefix=$1 scratch=$2 cmake=$3 cxx=$4
@@ -16,7 +16,7 @@ export PKG_CONFIG_PATH=$prefix/lib/pkgconfig LD_LIBRARY_PATH=$prefix/lib
 unset CMAKE_GENERATOR
 block cpp >"$scratch/project/shot.cpp"
 block cmake >"$scratch/project/CMakeLists.txt"
-[ "$(block sh)" = 'g++ -std=c++20 shot.cpp -o shot $(pkg-config --cflags --libs candela)' ] || fail "the page says another command"
+[ "$(block sh)" = 'g++ -std=c++20 shot.cpp -o shot $(pkg-config --cflags --libs candela)' ] || fail "the page gives another command"
 
 printf 'version = 1\n[image]\nwidth = 320\n[observer]\nposition = [1, 2, 4]\nlook_at = [0, 0, 0]\n[[light]]\ntype = "point"\nposition = [2, 2, 3]\n[[object]]\ntype = "torus"\n' \
     >"$scratch/scene.toml"
@@ -24,18 +24,18 @@ printf '[shading]\nmodel = "gouraud"\n[reflection]\nmodel = "lambert"\n' >>"$scr
 quiet "$prefix/bin/candela" render "$scratch/scene.toml" -o "$scratch/expected.ppm"
 
 for compiler in g++ "$cxx"; do
-    command -v "$compiler" >/dev/null || { echo "SKIPPED: there is no $compiler here"; exit 77; }
+    command -v "$compiler" >/dev/null || { echo "SKIPPED: $compiler is not installed"; exit 77; }
     for generator in Ninja 'Unix Makefiles'; do
         build=$scratch/${compiler##*/}-${generator// /-}
         quiet "$cmake" -G "$generator" -S "$scratch/project" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix"
         quiet "$cmake" --build "$build"
         "$build/shot" "$scratch/scene.toml" >"$scratch/shot.ppm" || fail "running what $compiler built with $generator"
-        cmp "$scratch/expected.ppm" "$scratch/shot.ppm" || fail "$compiler with $generator: another picture than the command's"
+        cmp "$scratch/expected.ppm" "$scratch/shot.ppm" || fail "$compiler with $generator: the picture differs from the command's"
     done
     (cd "$scratch/project" && eval "$(block sh | sed "s|^g++|'$compiler'|")") >"$scratch/log" 2>&1 ||
         { cat "$scratch/log" >&2; fail "$compiler with pkg-config"; }
     "$scratch/project/shot" >"$scratch/shot.ppm" || fail "running what $compiler built with pkg-config"
-    # A ball in front of black: not one colour.
+    # A ball in front of black has more than one colour.
     [ "$(tail -c +16 "$scratch/shot.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 50 ] || fail "the scene made in code is empty"
     code=0
     "$scratch/project/shot" "$scratch/missing.toml" >/dev/null 2>"$scratch/log" || code=$?

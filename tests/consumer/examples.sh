@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# With an installed Candela alone: the plugins of docs/examples/plugins are built as its documentation installs them, tested, put to
-# the conformance kit, rendered, and verified on all targets.
-# Then other compilers build them, and what they make renders the same.
+# With only an installed Candela: builds the plugins of docs/examples/plugins as installed with the documentation, tests them, runs the
+# conformance kit on them, renders with them, and verifies them on all targets.
+# Then builds them with other compilers, which must render the same.
 #   examples.sh BUILD_DIR SCRATCH_DIR CMAKE CXX [OTHER_CXX...]
 set -euo pipefail
 build=$1 scratch=$2 cmake=$3 cxx=$4
@@ -19,7 +19,7 @@ cp -rL "$prefix/share/doc/candela-dev/examples/plugins" "$scratch/plugins" || fa
 cd "$scratch/plugins"
 names=(*/CMakeLists.txt)
 names=("${names[@]%/*}")
-[ ${#names[@]} -ge 13 ] || fail "there are ${#names[@]} examples; thirteen are promised"
+[ ${#names[@]} -ge 13 ] || fail "there are ${#names[@]} examples; expected thirteen"
 
 # build_all COMPILER FOLDER
 build_all() {
@@ -30,7 +30,7 @@ build_all() {
     [ "$(grep -c ' Passed ' "$scratch/log")" -eq $((2 * ${#names[@]})) ] || { cat "$scratch/log" >&2; fail "not two tests for each"; }
 }
 
-say "one build of all, one test of its own and the kit for each: ${names[*]}"
+say "all in one build, with its own test and the kit for each: ${names[*]}"
 build_all "$cxx" build
 
 say "one of them as a project of its own, which its README shows"
@@ -48,7 +48,7 @@ for name in "${names[@]}"; do
     (cd "$name" && quiet bash -e "$scratch/render.sh")
 done
 
-say "together they make a picture, which generated programs make as well"
+say "together they make a picture, and generated programs make the same"
 quiet candela render gallery.toml --plugin-dir build/plugins -o gallery.png
 for name in "${names[@]}"; do
     case $name in
@@ -62,14 +62,14 @@ for target in cpp opengl webgl; do
 done
 
 for other in "${@:5}"; do
-    command -v "$other" >/dev/null || { say "SKIPPED: there is no $other here"; continue; }
+    command -v "$other" >/dev/null || { say "SKIPPED: $other is not installed"; continue; }
     say "built by $other, they pass their tests, conform, and render the same"
     build_all "$other" "build-$other"
     quiet candela render gallery.toml --plugin-dir "build-$other/plugins" -o "gallery-$other.png"
     quiet candela diff gallery.png "gallery-$other.png" --tolerance 1
 done
 
-say "a light with a table, made from a file, is in generated programs, which do not read the file"
+say "a light with a table made from a file is part of generated programs, which do not read the file"
 mkdir "$scratch/lamp"
 cp ies/downlight.ies "$scratch/lamp"
 for target in cpp opengl webgl; do
@@ -79,12 +79,12 @@ for target in cpp opengl webgl; do
 done
 quiet candela generate --target cpp --plugin-dir build/plugins --set light.lamp.type=ies --set 'light.lamp.direction=[0,-1,-1]' \
     --set light.lamp.file="$scratch/lamp/downlight.ies" -o "$scratch/program"
-! grep -rq downlight "$scratch/program" || fail "the generated program speaks of the file"
-say "what a shading model reads of its triangle is explained"
+! grep -rq downlight "$scratch/program" || fail "the generated program mentions the file"
+say "the triangle that a shading model reads is explained"
 quiet candela explain --shading pn-normals --plugin-dir build/plugins --pixel 256,300
 grep -q "pn_normals_of_edge" "$scratch/log" || { cat "$scratch/log" >&2; fail "the kernel's steps are not explained"; }
 
-say "a model that sees its triangle may be lit per face, but not per vertex, which belongs to several triangles"
+say "a model that reads its triangle may be lit per face, but not per vertex, since a vertex belongs to several triangles"
 mkdir facets
 for file in pn-normals/*; do
     sed 's/pn-normals/facets/g; s/pn_normals/facets/g; s/facets, fragment,/facets, face,/' "$file" >"facets/$(basename "${file/%pn-normals*/facets${file##*pn-normals}}")"
@@ -94,10 +94,10 @@ quiet "$cmake" --build facets/build
 quiet candela plugin test facets/build/shading-facets.so
 for target in cpp opengl webgl; do
     quiet candela verify --target $target --plugin-dir facets/build --shading facets --width 160 --height 120
-    grep -q match "$scratch/log" || { cat "$scratch/log" >&2; fail "$target was not verified with a model that sees its triangle"; }
+    grep -q match "$scratch/log" || { cat "$scratch/log" >&2; fail "$target was not verified with a model that reads its triangle"; }
 done
-grep -q 'facets, face,' facets/facets.cpp || fail "it is lit otherwise"
+grep -q 'facets, face,' facets/facets.cpp || fail "it is lit differently"
 sed -i 's/facets, face,/facets, vertex,/' facets/facets.cpp
 ! "$cmake" --build facets/build >"$scratch/log" 2>&1 || fail "a model that is lit per vertex takes a Triangle"
-grep -q "a vertex belongs to several" "$scratch/log" || { cat "$scratch/log" >&2; fail "it is not said why"; }
+grep -q "a vertex belongs to several" "$scratch/log" || { cat "$scratch/log" >&2; fail "the reason is not given"; }
 say "all well"

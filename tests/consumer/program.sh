@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds a program that imports the core's modules in a CMake project of its own against an installed Candela, and a plugin for
-# it to use.
+# Builds a program that imports the core's modules in its own CMake project against an installed Candela, and a plugin for it to
+# use.
 #   program.sh BUILD_DIR SCRATCH_DIR CMAKE CXX
 set -euo pipefail
 build=$1 scratch=$2 cmake=$3 cxx=$4

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# What find_package(candela) says where plugins or modules cannot be built: one sentence, before CMake's own words.
+# Checks the sentence that find_package(candela) prints, before CMake's own errors, where plugins or modules cannot be built.
 #   refusals.sh BUILD_DIR SCRATCH_DIR CMAKE CXX
 set -euo pipefail
 build=$1 scratch=$2 cmake=$3 cxx=$4
 fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
 
-command -v g++ >/dev/null && command -v make >/dev/null || { echo "SKIPPED: there is no g++ or no make here"; exit 77; }
+command -v g++ >/dev/null && command -v make >/dev/null || { echo "SKIPPED: g++ or make is not installed"; exit 77; }
 rm -rf "$scratch"
 mkdir -p "$scratch"
 "$cmake" --install "$build" --prefix "$scratch/prefix" >/dev/null
 unset CMAKE_GENERATOR
 
-# refused NAME GENERATOR COMPILER BEFORE AFTER WORDS: a project with BEFORE and AFTER find_package() is told WORDS. Those of one
-# generator and compiler have one build folder, for which CMake examines the compiler once.
+# refused NAME GENERATOR COMPILER BEFORE AFTER WORDS: a project with BEFORE and AFTER around find_package() gets the
+# message WORDS. Projects with the same generator and compiler share a build folder, so that CMake examines the compiler once.
 refused() {
     local project="$scratch/$2, ${3##*/}"
     mkdir -p "$project"
@@ -20,7 +20,7 @@ refused() {
     echo 'int main() {}' >"$project/main.cpp"
     if "$cmake" -G "$2" -S "$project" -B "$project/build" -DCMAKE_CXX_COMPILER="$3" -DCMAKE_PREFIX_PATH="$scratch/prefix" \
         >"$scratch/log" 2>&1; then fail "$1: it was configured"; fi
-    # CMake breaks lines where it likes.
+    # CMake breaks lines anywhere.
     tr -s ' \n' ' ' <"$scratch/log" | grep -qF -- "$6" || { cat "$scratch/log" >&2; fail "$1: not '$6'"; }
     printf '== %s: %s\n' "$1" "$6"
 }

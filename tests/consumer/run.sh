@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds a plugin and a target in CMake projects of their own against an installed Candela, and uses them: list, describe, render,
+# Builds a plugin and a target in their own CMake projects against an installed Candela, and uses them: list, describe, render,
 # remove.
 #   run.sh BUILD_DIR SCRATCH_DIR CMAKE CXX
 set -euo pipefail
@@ -13,13 +13,13 @@ expect() { grep -qF -- "$2" "$1" || { cat "$1" >&2; fail "'$2' is not in the out
 rm -rf "$scratch"
 mkdir -p "$scratch"
 
-say "install, and move what was installed: it must not care where it is"
+say "install, and move the installation, which must be relocatable"
 "$cmake" --install "$build" --prefix "$scratch/first" >/dev/null
 mv "$scratch/first" "$scratch/prefix"
 candela=$scratch/prefix/bin/candela
 before=$(sha256sum "$scratch/prefix/lib/libcandela_core.so")
 
-say "build a plugin that only knows the installation"
+say "build a plugin with only the installation"
 cp -r "$here/cel" "$scratch/cel"
 "$cmake" -G Ninja -S "$scratch/cel" -B "$scratch/cel/build" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 ||
@@ -44,18 +44,18 @@ expect "$scratch/out" "cel: steps of brightness (an integer, 1 to 16)" "candela 
 "$candela" render --reflection cel --set object.cube.material.bands=2 -o "$scratch/cel.ppm" 2>"$scratch/out"
 "$candela" render -o "$scratch/phong.ppm" 2>"$scratch/out"
 cmp -s "$scratch/cel.ppm" "$scratch/phong.ppm" && fail "cel looks like Phong"
-# Two bands, no highlight, 1/r^2 from the lamp still: not a constant picture, not a black one.
+# Two bands without a highlight, but still 1/r^2 from the lamp: the picture is neither constant nor black.
 [ "$(tail -c +16 "$scratch/cel.ppm" | od -An -v -tu1 -w3 | sort -u | wc -l)" -gt 20 ] || fail "the cel picture is empty"
 
-say "a program is generated with its formula, and renders what Candela renders"
+say "a program is generated with its formula, and renders the same as Candela"
 "$candela" generate --target cpp --reflection cel -o "$scratch/program" 2>"$scratch/out"
 grep -q "Cel shading: Lambert's cosine in a few steps" "$scratch/program/scene.cpp" || fail "the kernel is not in the program"
 "$candela" verify --target cpp --program "$scratch/program" --reflection cel --width 160 --height 160 >"$scratch/out" 2>&1 &&
-    fail "a program for another size was taken for the same picture"
+    fail "a program for another size passed as the same picture"
 "$candela" verify --target cpp --reflection cel --width 160 --height 160 >"$scratch/out" 2>&1 || { cat "$scratch/out" >&2; fail "verify"; }
 expect "$scratch/out" "match" "candela verify"
 
-say "a target is built likewise, is listed and described, writes a scene and conforms"
+say "a target is built in the same way, is listed and described, writes a scene and conforms"
 cp -r "$here/csv" "$scratch/csv"
 "$cmake" -G Ninja -S "$scratch/csv" -B "$scratch/csv/build" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 ||
@@ -74,9 +74,9 @@ printf 'v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n' >"$scratch/red.o
 printf 'version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[[light]]\ntype = "ambient"\n[[object]]\ntype = "mesh"\nfile = "red.obj"\n' >"$scratch/red.toml"
 code=0
 "$candela" generate --defaults --target csv --plugin-dir "$csv" "$scratch/red.toml" -o "$scratch/red" 2>"$scratch/out" || code=$?
-[ "$code" -eq 1 ] || fail "exit code $code for vertex colours that the target does not know"
+[ "$code" -eq 1 ] || fail "exit code $code for vertex colours that the target does not support"
 expect "$scratch/out" "has vertex colours, which this target does not support" "candela generate"
-[ ! -e "$scratch/red" ] || fail "something was written of a scene that is refused"
+[ ! -e "$scratch/red" ] || fail "a refused scene left output"
 code=0
 "$candela" verify --target csv --plugin-dir "$csv" 2>"$scratch/out" || code=$?
 [ "$code" -eq 2 ] || fail "exit code $code for a target that draws nothing"
@@ -86,14 +86,14 @@ code=0
 expect "$scratch/out" "unknown target 'csw'; did you mean 'csv'? (possible: cpp, csv, gltf, opengl, povray, three, webgl)" "candela generate"
 "$candela" plugin test "$csv/target-csv.so" >"$scratch/out" || { cat "$scratch/out" >&2; fail "the target does not conform"; }
 
-say "a plugin with a library and files of its own finds both, wherever the three are moved to"
+say "a plugin with its own library and files finds both, wherever the three are moved"
 cp -r "$here/companion" "$scratch/companion"
 "$cmake" -G Ninja -S "$scratch/companion" -B "$scratch/companion/build" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" 2>&1 ||
     { cat "$scratch/configure.log" >&2; fail "configuring the plugin with companions"; }
 "$cmake" --build "$scratch/companion/build" >"$scratch/build.log" 2>&1 || { cat "$scratch/build.log" >&2; fail "building it"; }
 readelf -d "$scratch/companion/build/reflection-companion.so" >"$scratch/out"
-if grep -E 'R(UN)?PATH.*(\[:|::|:\])' "$scratch/out" >&2; then fail "the loader would look into the current folder"; fi
+if grep -E 'R(UN)?PATH.*(\[:|::|:\])' "$scratch/out" >&2; then fail "the loader would search the current folder"; fi
 mkdir "$scratch/copied"
 cp -r "$scratch"/companion/build/{*.so,*.json,reflection-companion} "$scratch/copied"
 "$cmake" --install "$scratch/companion/build" --prefix "$scratch/elsewhere" >"$scratch/out"
@@ -112,7 +112,7 @@ fi
 expect "$scratch/out" "moved/reflection-companion/share.txt" "candela render"
 rm -r "$scratch/moved" "$scratch/installed"
 
-say "by directory flag, and wrong values are explained"
+say "with the directory flag, and wrong values are explained"
 unset CANDELA_PLUGIN_PATH
 "$candela" render --plugin-dir "$scratch/plugins" --reflection cel -o "$scratch/flag.ppm" 2>"$scratch/out"
 code=0
@@ -122,10 +122,10 @@ code=0
 expect "$scratch/out" "1 to 16" "bands = 99"
 [ ! -e "$scratch/no.ppm" ] || fail "a picture was written in spite of the error"
 
-say "removed, its name is unknown"
+say "once removed, its name is unknown"
 code=0
 "$candela" render --reflection cel -o "$scratch/no.ppm" 2>"$scratch/out" || code=$?
 [ "$code" -eq 3 ] || fail "exit code $code for an unknown model"
 expect "$scratch/out" "no reflection plugin is called 'cel'" "candela render"
-[ "$(sha256sum "$scratch/prefix/lib/libcandela_core.so")" = "$before" ] || fail "the core was touched"
+[ "$(sha256sum "$scratch/prefix/lib/libcandela_core.so")" = "$before" ] || fail "the core was modified"
 say "all well"

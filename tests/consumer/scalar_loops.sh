@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Lists the versions of batch loops in a plugin that are scalar, or that call anything: what is called is not vectorised.
+# Lists the versions of batch loops in a plugin that are scalar, or that call functions, which are not vectorised.
 #   scalar_loops.sh PLUGIN.so      exit code 1: there are some, or there is no loop at all
 set -euo pipefail
 objdump -dC --no-show-raw-insn "$1" | awk '
@@ -14,7 +14,7 @@ objdump -dC --no-show-raw-insn "$1" | awk '
         if (name ~ /candela::Multiversion</ && match(name, />::(baseline|avx2|avx512)\(/))
             version = substr(name, RSTART + 3, RLENGTH - 4)
     }
-    # A loop with arrays of its own looks at the end whether its stack is whole.
+    # A loop with its own arrays checks its stack at the end.
     /[ \t]callq?[ \t]/ && !/__stack_chk_fail/ { ++calls }
     version == "baseline" && /(add|sub|mul)ps/ { ++vectors }
     version == "avx2" && /%ymm/ { ++vectors }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# With an installed Candela alone: a new plugin of each kind is made, built, tested, listed, rendered with and removed.
+# With only an installed Candela: makes, builds, tests, lists, renders with and removes a new plugin of each kind.
 #   templates.sh BUILD_DIR SCRATCH_DIR CMAKE CXX      installs the build first
 #   templates.sh --installed PREFIX SCRATCH_DIR CMAKE CXX [KIND...]      all kinds by default
 set -euo pipefail
@@ -35,19 +35,19 @@ for kind in "${kinds[@]}"; do
     quiet "$cmake" --build "$name/build"
     (cd "$name/build" && quiet "$(dirname "$cmake")/ctest" --output-on-failure)
     mv log tested
-    grep -q "$kind/$name conforms .*Passed" tested || { cat tested >&2; fail "$name was not put to the kit"; }
+    grep -q "$kind/$name conforms .*Passed" tested || { cat tested >&2; fail "$name was not tested by the kit"; }
     [ "$(grep -c ": $kind/$name .*Passed" tested)" -eq 2 ] || { cat tested >&2; fail "$name has not two tests"; }
-    [ "$(grep -c Passed tested)" -eq 2 ] || { cat tested >&2; fail "$name has other tests than these two"; }
+    [ "$(grep -c Passed tested)" -eq 2 ] || { cat tested >&2; fail "$name has tests other than these two"; }
 
-    say "$kind: list, describe, render, for this user alone"
+    say "$kind: list, describe, render, for this user only"
     mkdir -p "$XDG_DATA_HOME/candela/plugins"
     cp "$name/build/$kind-$name".{so,json} "$XDG_DATA_HOME/candela/plugins"
     candela list "$kind" | grep -q "  $name " || fail "$name is not listed"
     candela describe "$kind/$name" >/dev/null
     plugins=$(candela plugin doctor)
-    grep -q "in use: $kind/$name 0.1.0" <<<"$plugins" || fail "the doctor does not know $name"
+    grep -q "in use: $kind/$name 0.1.0" <<<"$plugins" || fail "the doctor does not list $name"
     case $kind in
-        # Its own scene: the default cube's size is no parameter of another shape.
+        # Its own scene, because other shapes do not have the default cube's size parameter.
         shape) quiet candela render "$name/scene.toml" -o "$name.png" ;;
         light) quiet candela render --set "light.lamp.type=$name" -o "$name.png" ;;
         image) quiet candela render -o "$name.$name"
@@ -67,7 +67,7 @@ for kind in "${kinds[@]}"; do
     if candela describe "$kind/$name" 2>/dev/null; then fail "$name is still there"; fi
 done
 
-say "what goes wrong is said"
+say "errors are reported"
 for wrong in 'plugin new reflection Bad_Name' 'plugin new lihgt x' 'plugin new' 'plugin nwe'; do
     code=0
     # shellcheck disable=SC2086
@@ -76,8 +76,8 @@ for wrong in 'plugin new reflection Bad_Name' 'plugin new lihgt x' 'plugin new' 
 done
 code=0
 candela plugin new "${kinds[0]}" "try-${kinds[0]}" 2>"$scratch/log" || code=$?
-{ [ "$code" -eq 1 ] && grep -q 'already exists' "$scratch/log"; } || fail "a project was written over"
+{ [ "$code" -eq 1 ] && grep -q 'already exists' "$scratch/log"; } || fail "a project was overwritten"
 code=0
 candela plugin test "$scratch/none.so" 2>"$scratch/log" || code=$?
-[ "$code" -eq 1 ] || fail "exit code $code for a plugin that is not there"
+[ "$code" -eq 1 ] || fail "exit code $code for a missing plugin"
 say "all well"

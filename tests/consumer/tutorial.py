@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Does what docs/plugin-tutorial.md says, with an installed Candela alone.
+"""Follows docs/plugin-tutorial.md with only an installed Candela.
 
     tutorial.py BUILD_DIR SCRATCH_DIR CMAKE DOCUMENT
 
-A block fenced with ```LANGUAGE FILE is written to FILE; ```sh is run, all such blocks in one shell; ```text is what the last
-one has printed: these lines in this order, … standing for anything within a line, or for lines on a line of its own.
-Exit code 77: it cannot be tried here; it says why.
+A block fenced with ```LANGUAGE FILE is written to FILE; ```sh is run, all such blocks in one shell; ```text is the last one's
+expected output: these lines in this order, where … stands for anything within a line, or for any lines on a line of its own.
+Exit code 77: it cannot run here; it prints the reason.
 """
 
 import difflib
@@ -16,7 +16,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-LINES_OF_ITS_OWN = 15  # that the model may have beside the template's
+LINES_OF_ITS_OWN = 15  # that the model may have in addition to the template's
 
 
 def fail(message):
@@ -28,7 +28,7 @@ def blocks(text):
     found = []
     for match in re.finditer(r"^```([a-z]+)(?: (\S+))?\n(.*?)^```$", text, re.M | re.S):
         found.append((match[1], match[2], match[3], text.count("\n", 0, match.start()) + 1))
-    # A fence that is not understood would silently not be tried.
+    # An unrecognised fence would silently be skipped.
     fences = len(re.findall(r"^\s*(?:```|~~~)", text, re.M))
     if fences != 2 * len(found):
         fail(f"{fences} fences make {len(found)} blocks")
@@ -36,7 +36,7 @@ def blocks(text):
 
 
 def matches(expected, printed):
-    """Which line of `expected` is not printed where it should be; None if all are."""
+    """The first line of `expected` that is not printed where it should be; None if all are."""
     rest = printed.splitlines()
     anywhere = False
     for line in expected.splitlines():
@@ -49,11 +49,11 @@ def matches(expected, printed):
             return line
         rest = rest[at + 1 :]
         anywhere = False
-    return None if anywhere or not rest else f"(nothing more, but there is:) {rest[0]}"
+    return None if anywhere or not rest else f"(end of output expected, but found:) {rest[0]}"
 
 
 class Shell:
-    """One shell for all blocks, so that `cd` in one holds in the next."""
+    """One shell for all blocks, so that `cd` persists."""
 
     END = "end-of-block-7f3a"
 
@@ -64,8 +64,8 @@ class Shell:
         )  # fmt: skip
 
     def run(self, commands):
-        """What they print, and the first exit code that is not 0."""
-        # Nothing of a block may read the blocks that follow.
+        """Runs commands; returns their output and the first non-zero exit code."""
+        # No command of a block may read the following blocks.
         script = f"{{ set -e\n{commands}\n}} </dev/null\nprintf '\\n%s\\n' {self.END}; pwd\n"
         self.process.stdin.write(script)
         self.process.stdin.flush()
@@ -79,7 +79,7 @@ class Shell:
 
 
 def own_lines(template, text):
-    """Lines that the template does not have, beside comments and empty ones."""
+    """Lines that the template does not have, except comments and empty ones."""
     def code(of):
         return [line for line in map(str.strip, of.splitlines()) if line and not line.startswith("//")]
 
@@ -90,7 +90,7 @@ def main():
     build, scratch, cmake, document = map(Path, sys.argv[1:])
     for tool in ("bash", "c++", "make"):
         if not shutil.which(tool):
-            print(f"SKIPPED: there is no {tool} here")
+            print(f"SKIPPED: {tool} is not installed")
             sys.exit(77)
     shutil.rmtree(scratch, ignore_errors=True)
     (scratch / "home").mkdir(parents=True)
@@ -117,11 +117,11 @@ def main():
             counts["sh"] += 1
         elif language == "text" and printed is not None:
             if (missing := matches(content, printed)) is not None:
-                fail(f"{place}: not what was printed: {missing}")
+                fail(f"{place}: not printed: {missing}")
             printed = None
             counts["text"] += 1
         else:
-            fail(f"{place}: a block that is neither file, commands nor what they print")
+            fail(f"{place}: a block that is neither a file nor commands nor output")
     if min(counts.values()) < 4:
         fail(f"the tutorial has lost its blocks: {counts}")
 
@@ -133,14 +133,14 @@ def main():
     if not 0 < len(own) <= LINES_OF_ITS_OWN:
         fail(f"{len(own)} lines, {LINES_OF_ITS_OWN} are allowed")
     if f"changes {len(own)} of its lines" not in document.read_text():
-        fail(f"{document.name} speaks of another number of changed lines than {len(own)}")
+        fail(f"{document.name} does not state {len(own)} changed lines")
 
     pictures = {name: (shell.directory / name).read_bytes() for name in ("cel.png", "two.png", "installed.png")}
     if pictures["cel.png"] != pictures["installed.png"] or pictures["cel.png"] == pictures["two.png"]:
-        fail("the pictures are not what the scene says")
+        fail("the pictures do not match the scene")
     left = [str(path) for path in (scratch / "home").rglob("*") if path.is_file()]
     if left or (shell.directory / "none.png").exists():
-        fail(f"this is left behind: {left}")
+        fail(f"left behind: {left}")
     print("== all well")
 
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Makes the wheel of a build, installs it into a virtual environment, and renders, compiles a kernel and checks a model with it alone.
+# Makes the wheel of a build, installs it into a virtual environment, and renders, compiles a kernel and checks a model with
+# only that.
 #   wheel.sh BUILD_DIR SCRATCH_DIR SOURCE_DIR PYTHON
-# Exit code 77: it cannot be tried here; it says why.
+# Exit code 77: it cannot run here; it prints the reason.
 set -euo pipefail
 build=$1 scratch=$2 source=$3 python=$4
 say() { printf '== %s\n' "$*"; }
@@ -16,19 +17,19 @@ cd "$scratch"
 unset PYTHONPATH CANDELA_PLUGIN_PATH
 export XDG_DATA_HOME=$scratch/data
 
-say "a build without the module is refused, with what to do"
+say "a build without the module is refused, with advice"
 code=0
 "$python" -m build --wheel --no-isolation -C cmake.define.CANDELA_BUILD="$scratch" --outdir "$scratch/wheels" \
     "$source/scripts/packaging/wheel" >"$scratch/log" 2>&1 || code=$?
 # CMake breaks lines.
-{ [ "$code" -ne 0 ] && tr -s '\n ' ' ' <"$scratch/log" | grep 'no module of Python. scripts/package.sh builds one' >"$scratch/said"; } ||
+{ [ "$code" -ne 0 ] && tr -s '\n ' ' ' <"$scratch/log" | grep 'does not have the Python module. scripts/package.sh builds it' >"$scratch/said"; } ||
     { cat "$scratch/log" >&2; fail "it was not"; }
 
 say "make the wheel"
 quiet "$python" -m build --wheel --no-isolation -C cmake.define.CANDELA_BUILD="$build" --outdir "$scratch/wheels" \
     "$source/scripts/packaging/wheel"
 wheels=("$scratch"/wheels/candela-*.whl)
-[ -f "${wheels[0]}" ] || fail "there is no wheel"
+[ -f "${wheels[0]}" ] || fail "no wheel was made"
 
 say "install it, with the machine's NumPy"
 quiet "$python" -m venv --system-site-packages "$scratch/venv"
@@ -61,7 +62,7 @@ END
 say "the picture is the command's, and nothing is loaded from elsewhere"
 quiet "$scratch/venv/bin/python" -B "$scratch/picture.py" "$scratch/venv/" "$scratch/python.png"
 quiet "$build/bin/candela" render -o "$scratch/command.png"
-cmp "$scratch/python.png" "$scratch/command.png" || fail "the wheel renders another picture than the command"
+cmp "$scratch/python.png" "$scratch/command.png" || fail "the wheel's picture differs from the command's"
 
 say "a type checker finds the annotations, and the licence is there"
 for file in candela/py.typed candela/_candela.pyi candela-*.dist-info/licenses/LICENSE; do
@@ -70,7 +71,7 @@ done
 
 say "remove it"
 quiet "$scratch/venv/bin/pip" uninstall --yes candela
-# Of paths within it: the checkout may have that name, too.
+# Only paths within it: the checkout may also have that name.
 left=$(cd "$scratch/venv" && find . -path '*candela*')
-[ -z "$left" ] || fail "this is left behind: $left"
+[ -z "$left" ] || fail "left behind: $left"
 say "all well"

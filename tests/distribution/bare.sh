@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Tries the README's two commands on a bare Debian, in a folder made by mmdebstrap or debootstrap, without a terminal.
 #   bare.sh SUITE                     bookworm, trixie, …: ./scripts/render.sh and then ./scripts/test.sh, as root
-#   bare.sh --user SUITE              as a user who is no more than allowed to sudo
-#   bare.sh [--user] SUITE COMMAND    that command of a clean clone instead, as `./scripts/render.sh`
-#   bare.sh --keep FOLDER …           the system is made in FOLDER, if that is not there, and is left there
-# Needs root, and mmdebstrap or debootstrap. What is tried is the last commit. The mirror is the one that apt uses here.
-# Says what each command took, and the picture's SHA-256; the exit code is that of the first command that fails.
+#   bare.sh --user SUITE              as an ordinary user who may use sudo
+#   bare.sh [--user] SUITE COMMAND    that command in a clean clone instead, such as `./scripts/render.sh`
+#   bare.sh --keep FOLDER …           makes the system in FOLDER, unless that exists, and leaves it there
+# Needs root, and mmdebstrap or debootstrap. Tests the last commit, with the mirror that apt uses here.
+# Prints the time of each command, and the picture's SHA-256; the exit code is that of the first command that fails.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 
@@ -27,8 +27,8 @@ done
 suite=$1
 shift
 [ $# -gt 0 ] && commands=("$*") || commands=(./scripts/render.sh ./scripts/test.sh)
-[ "$(id -u)" -eq 0 ] || fail "only root can make and enter a system of its own"
-# A namespace of mounts and processes: whatever happens, nothing stays mounted and nothing goes on running.
+[ "$(id -u)" -eq 0 ] || fail "only root can make and enter a separate system"
+# A namespace of mounts and processes: whatever happens, nothing stays mounted or running.
 if [ "${CANDELA_BARE_INSIDE-}" != yes ]; then
     exec env CANDELA_BARE_INSIDE=yes unshare --mount --pid --fork --kill-child "$0" \
         $([ "$user" = root ] || echo --user) ${keep:+--keep "$keep"} "$suite" "$@"

@@ -1,4 +1,4 @@
-"""The C++ reference of a few declarations says what they say.
+"""Checks the C++ reference of a few declarations.
 
     cpp_reference_test.py ROOT
 """
@@ -110,6 +110,6 @@ class CppReference(unittest.TestCase):
 
 
 if not shutil.which("doxygen"):
-    print("there is no doxygen here")
+    print("doxygen is not installed")
     sys.exit(77)
 unittest.main()

@@ -1,4 +1,4 @@
-"""Fails if a program or library was built without one of the protections that distributions ask for.
+"""Fails if a program or library was built without one of the protections that distributions require.
 
     hardening.py COMPILE-COMMANDS FILE-OR-FOLDER...
 """
@@ -25,13 +25,13 @@ def missing(path):
     if "GNU_RELRO" not in segments or "NOW" not in dynamic:
         yield "full RELRO (-z relro -z now)"
     if re.search(r"GNU_STACK.* RWE ", segments):
-        yield "a stack that is not executable"
+        yield "a non-executable stack"
     if re.search(r"Type:\s+EXEC", header):
         yield "position independence (-pie)"
 
 
 def unprotected(commands):
-    """The sources that are compiled without what leaves no trace in every binary."""
+    """The sources that are compiled without options that leave no trace in every binary."""
     for entry in json.loads(pathlib.Path(commands).read_text()):
         options = ["-fstack-protector-strong", "-fstack-clash-protection"]
         # The linker marks a file with it only if the C library's own objects have it, and Debian 12's do not.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every relative link in the installed documentation leads to a file or a heading that is installed with it.
+"""Checks that every relative link in the installed documentation leads to an installed file or heading.
 
 links.py CMAKE BUILD_DIR SCRATCH_DIR      installs the documents of the development package first
 """
@@ -29,7 +29,7 @@ def anchors(text):
 
 
 def broken(folder):
-    """Yields 'document:line: link' for each link that leads nowhere within `folder`, and counts all."""
+    """Yields 'document:line: link' for each dead link within `folder`, and counts all links."""
     count = 0
     for document in sorted(folder.rglob("*.md")):
         text = document.read_text(encoding="utf-8")

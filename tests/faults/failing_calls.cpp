@@ -1,8 +1,9 @@
-// A library to preload: the nth call of one kind fails, as on a full disk, a broken one, or without memory.
+// A library to preload: makes the nth call of one kind fail, as with a full disk, a broken disk, or without
+// memory.
 //
-// CANDELA_FAIL_CALL names the kind, CANDELA_FAIL_AT says which call fails, counting from 1 (0: none), and
-// CANDELA_FAIL_COUNT names a file that gets the number of calls. Calls count once the program's libraries are
-// loaded.
+// CANDELA_FAIL_CALL names the kind, CANDELA_FAIL_AT is the number of the call that fails, counting from 1 (0:
+// none), and CANDELA_FAIL_COUNT names a file for the number of calls. Calls are counted after the program's
+// libraries are loaded.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -29,7 +30,7 @@ constinit std::atomic<long> calls{0};
     failing_call = std::getenv("CANDELA_FAIL_CALL");
 }
 
-// System calls only: nothing here may be counted, or fail.
+// Uses only system calls: nothing here may be counted or fail.
 [[gnu::destructor]] void end() {
     const char* const file = std::getenv("CANDELA_FAIL_COUNT");
     if (file == nullptr) return;
@@ -116,7 +117,7 @@ int rename(const char* from, const char* to) noexcept {
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
     return fails("linkat", EIO) ? -1 : NEXT(linkat)(from_folder, from, to_folder, to, flags);
 }
-// Whatever it reports, the descriptor is closed.
+// Whatever close() reports, the descriptor is closed.
 int close(int descriptor) {
     const bool problem = fails("close", EIO);
     const int result = NEXT(close)(descriptor);

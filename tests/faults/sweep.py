@@ -2,7 +2,7 @@
 """Fails every call that the command makes, one per run, as SQLite's tests do.
 
 Whatever fails, the command ends with exit code 0 and the whole result, or with exit code 1, a message, the old file,
-and nothing beside it; never by a signal. The library that is preloaded makes the nth call fail (failing_calls.cpp).
+and nothing else; never by a signal. The preloaded library makes the nth call fail (failing_calls.cpp).
 
     sweep.py --candela build/release/bin/candela --library FAILING_CALLS.so          a part, in seconds
     sweep.py --candela … --library … --all                                          all of it, in a quarter of an hour
@@ -63,7 +63,7 @@ OLD = b"what was there before"
 
 
 class Case:
-    """A command line, the file or folder that it makes (none: standard output is the result), and what is there before."""
+    """A command line, the file or folder that it makes (none: standard output is the result), and the files that exist before."""
 
     def __init__(self, name, words, result=None, old=None):
         self.name, self.words, self.result, self.old = name, words, result, old
@@ -106,7 +106,7 @@ class Run:
 
 
 def complaint(case, call, run, whole):
-    """What is wrong with a run in which a call failed; None if nothing is."""
+    """The problem of a run in which a call failed; None if it is correct."""
     if run.code not in (0, 1):
         return f"exit code {run.code}"
     try:
@@ -135,9 +135,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--candela", type=pathlib.Path, required=True)
     parser.add_argument("--library", type=pathlib.Path, required=True)
-    parser.add_argument("--all", action="store_true", help="every call, not a part of them")
+    parser.add_argument("--all", action="store_true", help="every call, not a sample")
     parser.add_argument("--part", type=int, default=12, help="at most this many failures of each call per command")
-    parser.add_argument("--scratch", type=pathlib.Path, help="where to work; default: the folder of temporary files")
+    parser.add_argument("--scratch", type=pathlib.Path, help="working folder; default: the folder for temporary files")
     options = parser.parse_args()
     options.candela, options.library = options.candela.resolve(), options.library.resolve()
 
@@ -159,7 +159,7 @@ def main():
                     failures += 1
                     last = run.err.decode(errors="replace").strip().splitlines()[-1:]
                     print(f"{case.name}: {call} number {number} of {whole.calls} fails: {wrong} {last}")
-    print(f"{runs} runs, {failures} not as they must be")
+    print(f"{runs} runs, {failures} wrong")
     return failures > 0
 
 

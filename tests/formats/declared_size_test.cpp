@@ -1,4 +1,4 @@
-// Pictures of a few bytes that declare millions of pixels, as textures.
+// Textures of a few bytes that declare millions of pixels.
 #include <sys/resource.h>
 
 #include <catch2/catch_test_macros.hpp>
@@ -67,7 +67,7 @@ std::string bmp(std::int32_t width, std::int32_t height) {
     return bytes;
 }
 
-/// Rendered with the file as a texture, within five seconds of processor time and a gigabyte and a half.
+/// Renders with the file as a texture, within five seconds of processor time and a gigabyte and a half.
 CommandResult rendered_with(const std::string& name, const std::string& bytes) {
     const fs::path folder = scratch_directory();
     write_file(folder / name, bytes);
@@ -110,7 +110,7 @@ TEST_CASE("a file of a few bytes that declares millions of pixels is refused bef
     }
 }
 
-TEST_CASE("a pixmap of a few bytes is read as that, whatever its name, and refused at once") {
+TEST_CASE("a pixmap of a few bytes is recognised, whatever its name, and refused at once") {
     const CommandResult result = rendered_with("pixmap.tif", "P6 20000 20000 255\nabcdef");
     INFO(result.err);
     CHECK(result.exit_code == 1);
@@ -129,7 +129,7 @@ TEST_CASE("tiles as large as the picture are decoded once, not once for each row
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("what only claims to be a picture is refused without trying every format there is") {
+TEST_CASE("a file that only claims to be a picture is refused without trying every format") {
     const std::string unknown = "its content is not a picture of a known format";
     for (const auto& [bytes, reason] :
          {std::pair(std::string("GIF89a\1\0\1\0\0\0\0"), unknown), {"hello", unknown}, {"", "it is empty"}}) {

@@ -1,4 +1,4 @@
-// What picture files hold, read back by OpenImageIO.
+// Reads back the content of picture files with OpenImageIO.
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 

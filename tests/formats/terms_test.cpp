@@ -1,5 +1,5 @@
-// candela render --terms: layers read back by OpenImageIO, against what is known of a square seen head on,
-// and against the picture that they are the terms of.
+// candela render --terms: compares layers, read back by OpenImageIO, with known values of a square seen head
+// on, and with the picture whose terms they are.
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using Catch::Approx;
 
 namespace {
 
-/// The channels of a picture in layers, by their names.
+/// The channels of a layered picture, by name.
 struct Layers {
     int width = 0, height = 0;
     std::map<std::string, std::vector<float>> channels;
@@ -62,8 +62,8 @@ Layers render_layers(const fs::path& folder, const std::string& scene, const std
     return read_layers(picture);
 }
 
-/// A cube's front face, one metre wide, half a metre before the origin, four from the observer. Beyond it, at
-/// the picture's edge, is the background. Light falls on the face at 60 degrees.
+/// A cube's front face, one metre wide, half a metre in front of the origin, four metres from the observer.
+/// The background is visible at the picture's edge. Light falls on the face at 60 degrees.
 constexpr const char* k_square = R"(version = 1
 [observer]
 position = [0.0, 0.0, 4.5]
@@ -154,9 +154,9 @@ reflection = "dielectric"
 
 }  // namespace
 
-TEST_CASE("terms of a square seen head on are those worked out by hand") {
+TEST_CASE("terms of a square seen head on match values computed by hand") {
     const Layers layers = render_layers(scratch_directory(), k_square, "all");
-    // The middle of pixel (29, 20), on the face: half the picture's height is tan(10 degrees) of its
+    // The centre of pixel (29, 20), on the face: half the picture's height is tan(10 degrees) of its
     // distance.
     const double half = 4.0 * std::tan(10 * 3.14159265358979323846 / 180);
     const double x = half * (29.5 / 30 - 1), y = half * (1 - 20.5 / 30);
@@ -229,7 +229,7 @@ TEST_CASE("terms add up to the picture, and so do lights, surroundings and backg
     }
 }
 
-TEST_CASE("geometric terms are of the middle of each pixel, whatever the number of samples") {
+TEST_CASE("geometric terms are those at the centre of each pixel, whatever the number of samples") {
     const auto folder = scratch_directory();
     const std::string terms = "depth,position,face_normal,barycentric,uv,facing,object,triangle";
     std::string one = k_many;
@@ -241,7 +241,7 @@ TEST_CASE("geometric terms are of the middle of each pixel, whatever the number 
     }
 }
 
-TEST_CASE("terms of a format without layers are files beside the picture, mapped to be looked at") {
+TEST_CASE("terms of a format without layers are files next to the picture, mapped for viewing") {
     const auto folder = scratch_directory();
     const auto file = write_file(folder / "scene.toml", k_square);
     const CommandResult result = run_candela({"render", file.string(), "-o", (folder / "a.ppm").string(),
@@ -281,7 +281,7 @@ TEST_CASE("terms do not depend on the number of threads") {
     CHECK(pictures[0] == pictures[1]);
 }
 
-TEST_CASE("a term that is none, or cannot be written, is an error that says what is possible, and no file") {
+TEST_CASE("an unknown or unwritable term is an error that lists the possible ones, without a file") {
     const auto folder = scratch_directory();
     const auto file = write_file(folder / "scene.toml", k_square);
     const auto error = [&](const std::string& terms, const std::string& output,

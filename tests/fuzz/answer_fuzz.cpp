@@ -1,4 +1,4 @@
-// Any bytes as an answer to an exercise: what passes as the body of a function cannot leave it.
+// Arbitrary bytes as an answer to an exercise: text accepted as a function's body cannot leave it.
 #include "candela/kernel_language/language.h"
 #include "fuzz/fuzz.h"
 #include "kernel_text.h"

@@ -27,7 +27,7 @@ std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 
 namespace {
 
-/// A directory that goes away with the process, unless that crashes.
+/// A directory that is removed with the process, unless that crashes.
 class Scratch {
   public:
     Scratch() : path_(fs::temp_directory_path() / ("candela-fuzz-" + std::to_string(::getpid()))) {
@@ -50,13 +50,13 @@ fs::path written(const std::string& name, std::string_view content) {
     const fs::path file = scratch.path() / name;
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
     out << content;
-    require(static_cast<bool>(out.flush()), "the input cannot be written to a file");
+    require(static_cast<bool>(out.flush()), "cannot write the input to a file");
     return file;
 }
 
 namespace {
 
-/// Whether a terminal would only show it, and as what it is.
+/// Whether a terminal would only display it, unchanged.
 bool is_harmless(std::string_view text) {
     return candela::printable(text, candela::LineBreaks::kept) == text;
 }
@@ -94,14 +94,16 @@ void check_diagnostics(const candela::Diagnostics& diagnostics, bool returned_so
     const auto all = diagnostics.sorted();
     const bool some_error = std::ranges::any_of(
         all, [](const candela::Diagnostic& d) { return d.severity == candela::Severity::error; });
-    require(some_error == diagnostics.has_errors(), "an exit code without an error, or the reverse");
+    require(some_error == diagnostics.has_errors(),
+            "an exit code without an error, or an error without an exit code");
     for (const candela::Diagnostic& d : all) {
-        require(!d.message.empty(), "a diagnostic says nothing");
+        require(!d.message.empty(), "a diagnostic is empty");
         check_place(diagnostics, d.place);
     }
-    require(is_harmless(diagnostics_text(diagnostics, false)), "a diagnostic holds what a terminal obeys");
+    require(is_harmless(diagnostics_text(diagnostics, false)),
+            "a diagnostic contains terminal control characters");
     static_cast<void>(diagnostics_text(diagnostics, true, all.size()));
-    require(is_json(diagnostics_json(diagnostics)), "the diagnostics' JSON is none");
+    require(is_json(diagnostics_json(diagnostics)), "the diagnostics' JSON is invalid");
 }
 
 void check_finite(const candela::Scene& scene) {

@@ -1,4 +1,4 @@
-// What the fuzzing harnesses share.
+// Shared by the fuzzing harnesses.
 #pragma once
 
 #include <cstddef>
@@ -17,25 +17,25 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace fuzz {
 
-/// Ends the process with `sentence` where something that must hold does not: a finding.
+/// Reports a finding: ends the process with `sentence` unless the condition holds.
 void require(bool holds, std::string_view sentence);
 
 std::string_view text_of(const std::uint8_t* data, std::size_t size);
 
-/// A file of this process below the directory for temporary files, written anew for each input.
+/// This process's file below the directory for temporary files, rewritten for each input.
 std::filesystem::path written(const std::string& name, std::string_view content);
 
-/// Whether a parser that is not ours takes it.
+/// Whether an independent parser accepts it.
 bool is_json(const std::string& text);
 
-/// What holds of all diagnostics, whatever was read: places lie in their files, text is safe on a terminal,
-/// JSON is JSON, and there is an error where nothing was returned.
+/// Invariants of all diagnostics, whatever was read: places lie in their files, text is safe on a terminal,
+/// JSON is valid, and there is an error if nothing was returned.
 void check_diagnostics(const candela::Diagnostics& diagnostics, bool returned_something);
 
-/// Every number of a scene that was found valid can be computed with.
+/// Every number of a valid scene is usable.
 void check_finite(const candela::Scene& scene);
 
-/// Values out of a stretch of bytes; zeros after its end.
+/// Draws values from a range of bytes; zeros after its end.
 class Bytes {
   public:
     Bytes(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
@@ -55,7 +55,7 @@ class Bytes {
     std::uint32_t at_most(std::uint32_t most) { return take<std::uint8_t>() % (most + 1); }
     bool flag() { return (take<std::uint8_t>() & 1) != 0; }
 
-    /// Small round numbers, numbers of any size, and those that are none.
+    /// Small round numbers, numbers of any size, and non-finite ones.
     float number();
 
   private:

@@ -1,5 +1,5 @@
-// Any bytes as a glTF file, text or binary, with all that it says beside its triangles: materials, cameras,
-// lights, nodes.
+// Arbitrary bytes as a glTF file, text or binary, with everything in addition to its triangles: materials,
+// cameras, lights, nodes.
 #include "fuzz/fuzz.h"
 #include "imported.h"
 

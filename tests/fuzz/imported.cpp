@@ -25,7 +25,7 @@ std::optional<importing::Imported> import(const fs::path& model) {
              .name_of_picture = [](const fs::path& picture) { return picture.string(); }},
             test_registry());
     } catch (const std::exception& problem) {
-        require(*problem.what() != '\0', "a refusal says nothing");
+        require(*problem.what() != '\0', "a refusal is empty");
         return std::nullopt;
     }
 }
@@ -35,7 +35,7 @@ std::optional<importing::Imported> import(const fs::path& model) {
 void check_import(const fs::path& model) {
     const auto imported = import(model);
     if (!imported) return;
-    for (const std::string& note : imported->notes) require(!note.empty(), "a note says nothing");
+    for (const std::string& note : imported->notes) require(!note.empty(), "a note is empty");
     candela::SceneRequest request;
     request.files = {written("scene.toml", imported->scene)};
     candela::Diagnostics diagnostics;
@@ -46,7 +46,7 @@ void check_import(const fs::path& model) {
         const bool is_compiled = candela::compile(*scene, test_registry(), diagnostics).has_value();
         check_diagnostics(diagnostics, is_compiled);
     }
-    // (A picture that cannot be read is a failure; only the file's own words are looked at.)
+    // (An unreadable picture is a failure; only the file's own text is checked.)
     if (diagnostics.worst() != candela::ErrorCategory::invalid_scene) return;
     for (const candela::Diagnostic& diagnostic : diagnostics.sorted())
         std::fprintf(stderr, "%s\n", diagnostic.message.c_str());

@@ -1,5 +1,5 @@
-// Kernels that are nearly right, made by a grammar, with pieces of C++ spliced in: nothing that the language
-// does not have gets through, and what does reads as itself.
+// Nearly valid kernels, made by a grammar, with pieces of C++ spliced in: nothing outside the language is
+// accepted, and accepted text reads back as itself.
 #include <array>
 #include <string>
 #include <string_view>
@@ -16,67 +16,15 @@ namespace {
 constexpr std::array<std::string_view, 7> k_types = {"float", "int",  "bool",   "vec2",
                                                      "vec3",  "mat3", "Surface"};
 
-constexpr std::array<std::string_view, 60> k_splices = {"*",
-                                                        "&",
-                                                        "&&",
-                                                        "**",
-                                                        "(vec3 *)",
-                                                        "(float)",
-                                                        "vec3 *p = ",
-                                                        "Surface &t = s;",
-                                                        "[[x]]",
-                                                        "[",
-                                                        "]",
-                                                        "[0]",
-                                                        "::",
-                                                        "->",
-                                                        "#define x",
-                                                        "#",
-                                                        "%:",
-                                                        "<:",
-                                                        "<%",
-                                                        "?"
-                                                        "?/\n",
-                                                        "\\\n",
-                                                        "//",
-                                                        "/*",
-                                                        "*/",
-                                                        "\"",
-                                                        "'",
-                                                        "{",
-                                                        "}",
-                                                        "(",
-                                                        ")",
-                                                        ",",
-                                                        ";",
-                                                        "=",
-                                                        "==",
-                                                        "++",
-                                                        "--",
-                                                        "-",
-                                                        "!",
-                                                        "?",
-                                                        ":",
-                                                        "goto x;",
-                                                        "x:",
-                                                        "sizeof",
-                                                        "asm(\"\")",
-                                                        "template<",
-                                                        "operator",
-                                                        "new",
-                                                        "auto",
-                                                        "const",
-                                                        "return",
-                                                        "for (;;)",
-                                                        "while (1)",
-                                                        "if (true)",
-                                                        "else",
-                                                        "struct",
-                                                        "KERNEL",
-                                                        "float",
-                                                        "0x10",
-                                                        "1e99",
-                                                        "\xc3\xa4"};
+constexpr std::array<std::string_view, 60> k_splices = {
+    "*",       "&",      "&&",       "**",        "(vec3 *)",  "(float)",  "vec3 *p = ", "Surface &t = s;",
+    "[[x]]",   "[",      "]",        "[0]",       "::",        "->",       "#define x",  "#",
+    "%:",      "<:",     "<%",       "??/\n",     "\\\n",      "//",       "/*",         "*/",
+    "\"",      "'",      "{",        "}",         "(",         ")",        ",",          ";",
+    "=",       "==",     "++",       "--",        "-",         "!",        "?",          ":",
+    "goto x;", "x:",     "sizeof",   "asm(\"\")", "template<", "operator", "new",        "auto",
+    "const",   "return", "for (;;)", "while (1)", "if (true)", "else",     "struct",     "KERNEL",
+    "float",   "0x10",   "1e99",     "\xc3\xa4"};
 
 class Generator {
   public:
@@ -113,7 +61,7 @@ class Generator {
         return all[bytes_.at_most(count - 1)];
     }
 
-    /// Now and then with something else before it, or without it.
+    /// Sometimes with something else before it, or without it.
     void put(std::string_view text) {
         const std::uint32_t chance = bytes_.empty() ? 255 : bytes_.at_most(255);
         if (chance < 3) out_ += one_of(k_splices);

@@ -18,7 +18,7 @@ bool is_in_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
 }
 
-/// Words and signs, by rules of its own: the language's lexer is what is being tested.
+/// Splits text into words and signs by its own rules, because the language's lexer is under test.
 std::vector<std::string> pieces_of(const std::string& text) {
     std::vector<std::string> pieces;
     for (std::size_t i = 0; i < text.size();) {
@@ -40,7 +40,7 @@ constexpr std::array<std::string_view, 24> k_foreign = {
     "auto",     "typedef",  "using",  "static",   "union",  "class",  "enum",     "void",
     "volatile", "unsigned", "while",  "do",       "switch", "typeof", "throw",    "reinterpret_cast"};
 
-/// What cannot stand before a product, and so would make a pointer of it.
+/// Tokens that cannot precede a product, and so would turn it into a pointer.
 std::set<std::string> types_in(const std::vector<std::string>& pieces) {
     std::set<std::string> types{"float",      "int",      "bool",   "vec2",    "vec3",         "vec4",
                                 "mat3",       "Table",    "const",  "Surface", "Reflected",    "Refracted",
@@ -53,9 +53,9 @@ std::set<std::string> types_in(const std::vector<std::string>& pieces) {
 
 void check_signs(const std::string& text) {
     require(std::ranges::all_of(text, [](char c) { return (c >= ' ' && c <= '~') || c == '\n'; }),
-            "what is compiled is ASCII");
+            "compiled text is ASCII");
     require(text.find_first_of("#\"'\\@$`~^") == std::string::npos,
-            "no directive, text, splice or operator of bits");
+            "no directive, string, splice or bitwise operator");
     for (const char* const foreign :
          {"::", "->", "//", "/*", "%:", "<:", ":>", "<%", "%>", "??", "[[", "<<", ">>", "..."})
         require(text.find(foreign) == std::string::npos, "nothing that is not in the language");
@@ -89,7 +89,7 @@ void check_signs(const std::string& text) {
     require(depth == 0, "all braces are closed");
 }
 
-/// Without the lines that C++ alone is given.
+/// Without the lines that are only for C++.
 std::string without_directives(const std::string& text) {
     std::string result;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -111,22 +111,22 @@ void check_accepted(const kl::Kernel& kernel) {
     check_signs(without_directives(kl::emitted(kernel, kl::Emission::guarded_cpp)));
     try {
         require(kl::emitted(kl::read_kernel({"again", once}), kl::Emission::kernel) == once,
-                "what is written reads as itself");
+                "written text reads back as itself");
     } catch (const kl::Problem& problem) {
-        // Conversions that are written out take more words, and deeper brackets.
+        // Explicit conversions take more words and deeper brackets.
         const std::string_view what = problem.what();
         const bool is_limit = what.find("nested more than") != std::string_view::npos ||
                               what.find("are allowed") != std::string_view::npos ||
                               what.find("has more than") != std::string_view::npos ||
                               what.find("depend on one another") != std::string_view::npos;
-        require(is_limit, "what is written is in the language");
+        require(is_limit, "written text is in the language");
     }
 }
 
 void check_problem(const kl::Problem& problem, std::string_view text) {
     const auto lines = 1 + static_cast<std::size_t>(std::ranges::count(text, '\n'));
     require(problem.line() >= 1 && problem.line() <= lines, "a problem is on a line of the text");
-    require(problem.column() >= 1 && *problem.what() != '\0', "a problem is said");
+    require(problem.column() >= 1 && *problem.what() != '\0', "a problem has a message");
 }
 
 }  // namespace fuzz

@@ -1,4 +1,4 @@
-// What must hold of a kernel that was accepted, as far as its text shows it.
+// Invariants of an accepted kernel, as far as its text shows them.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace fuzz {
 
-/// Writes it, reads that again, and looks at every sign of it.
+/// Writes it, reads that again, and checks every token.
 void check_accepted(const candela::kernel_language::Kernel& kernel);
 
-/// A problem is on a line of its text, and said.
+/// Checks that a problem is on a line of its text, and has a message.
 void check_problem(const candela::kernel_language::Problem& problem, std::string_view text);
 
 }  // namespace fuzz

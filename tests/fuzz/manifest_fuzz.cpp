@@ -1,4 +1,4 @@
-// Any bytes as a plugin's manifest.
+// Arbitrary bytes as a plugin's manifest.
 #include <cmath>
 #include <stdexcept>
 
@@ -6,7 +6,7 @@
 
 namespace {
 
-/// What listings and scenes do with a manifest before the plugin's library is loaded.
+/// Uses a manifest like listings and scenes do before the plugin's library is loaded.
 void use(const candela::Manifest& manifest) {
     for (const candela::Parameter& parameter : manifest.parameters) {
         static_cast<void>(candela::constraint_text(parameter));
@@ -25,7 +25,7 @@ void use(const candela::Manifest& manifest) {
                 fuzz::require(std::isfinite(number), "a default is not finite");
             if (values.schema()[i].type != candela::ParamType::choice) continue;
             fuzz::require(static_cast<std::size_t>(delivered[i].integer) < values.schema()[i].choices.size(),
-                          "a default is no choice");
+                          "a default is not a choice");
         }
     } catch (const std::invalid_argument&) {  // a required parameter
     }
@@ -37,10 +37,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const candela::Manifest manifest = candela::manifest_from_json(fuzz::text_of(data, size));
         fuzz::require(candela::manifest_from_json(candela::to_json(manifest)) == manifest,
-                      "a manifest is another one after it was written and read");
+                      "a manifest changes when it is written and read");
         use(manifest);
     } catch (const candela::Error& problem) {
-        fuzz::require(!std::string_view(problem.what()).empty(), "a refusal says nothing");
+        fuzz::require(!std::string_view(problem.what()).empty(), "a refusal is empty");
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-// Any bytes as the material library of an OBJ file.
+// Arbitrary bytes as the material library of an OBJ file.
 #include "fuzz/fuzz.h"
 #include "imported.h"
 

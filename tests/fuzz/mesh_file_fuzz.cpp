@@ -1,4 +1,4 @@
-// Any bytes as a mesh file; the first byte says of which format.
+// Arbitrary bytes as a mesh file; the first byte selects the format.
 #include <array>
 #include <exception>
 
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                               {}, {}, *instance<candela::ShadingModel>("gouraud"));
         fuzz::require(mesh.triangle_count() > 0, "a mesh without triangles");
     } catch (const std::exception& problem) {
-        fuzz::require(*problem.what() != '\0', "a refusal says nothing");
+        fuzz::require(*problem.what() != '\0', "a refusal is empty");
     }
     return 0;
 }

@@ -1,5 +1,5 @@
-// Any bytes as what a shape plugin does to its host: layouts, indices and numbers of any kind. What
-// build_mesh() accepts must be a mesh, and render.
+// Arbitrary bytes as a shape plugin's behaviour: layouts, indices and numbers of any kind. If build_mesh()
+// accepts the result, it must be a valid mesh, and render.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using fuzz::Bytes;
 
 namespace {
 
-/// A shape that does what the bytes say.
+/// A shape that behaves as the bytes say.
 class WildShape final : public candela::Shape {
   public:
     explicit WildShape(Bytes& bytes) : bytes_(bytes) {}
@@ -48,8 +48,8 @@ class WildShape final : public candela::Shape {
 
   private:
     [[noreturn]] void misbehave() const {
-        if (bytes_.flag()) throw std::runtime_error("the shape has no mind to");
-        throw 7;  // no std::exception, which a plugin must throw
+        if (bytes_.flag()) throw std::runtime_error("the shape refuses");
+        throw 7;  // not a std::exception, as a plugin must throw
     }
 
     candela::MeshLayout any_layout() const {
@@ -63,7 +63,7 @@ class WildShape final : public candela::Shape {
         return layout;
     }
 
-    /// Mostly small; else more than there can be.
+    /// Mostly small; otherwise more than possible.
     std::size_t size() const {
         const std::uint32_t count = bytes_.at_most(255);
         constexpr std::array<std::size_t, 4> k_too_many = {0xffff'ffffu, std::size_t{1} << 63,
@@ -71,7 +71,7 @@ class WildShape final : public candela::Shape {
         return count < 252 ? count % 40 : k_too_many[count - 252];
     }
 
-    /// Mostly one that there is.
+    /// Mostly an existing one.
     std::uint32_t index(std::size_t count) const {
         const std::uint32_t i = bytes_.at_most(255);
         if (i == 255) return bytes_.take<std::uint32_t>();
@@ -91,7 +91,7 @@ void check(const candela::Mesh& mesh) {
     using fuzz::require;
     require(mesh.triangle_count() > 0, "a mesh without triangles");
     for (const std::uint32_t corner : mesh.indices)
-        require(corner < mesh.vertex_count(), "a corner is no vertex");
+        require(corner < mesh.vertex_count(), "a corner is not a vertex");
     require(mesh.vertices.size() == mesh.vertex_count(), "vertices without normals");
     require(mesh.face_normal.size() == mesh.triangle_count(), "triangles without normals");
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -107,13 +107,13 @@ void check(const candela::Mesh& mesh) {
     }
 }
 
-/// A finite vector; `otherwise` where the bytes say none.
+/// A finite vector; `otherwise` if the bytes do not contain one.
 Vec3 finite(Bytes& bytes, Vec3 otherwise) {
     const Vec3 v{bytes.number(), bytes.number(), bytes.number()};
     return is_finite(v) ? v : otherwise;
 }
 
-/// One that a scene may have: see what [observer] must be.
+/// An observer that a scene may have: see the constraints of [observer].
 candela::Observer observer_from(Bytes& bytes) {
     candela::Observer observer{.position = {0, 0, 8}, .look_at = {}};
     observer.projection = static_cast<candela::Projection>(bytes.at_most(1));
@@ -134,7 +134,7 @@ candela::Transform placement_from(Bytes& bytes) {
     return transform;
 }
 
-/// Whether it is in the way of others is asked of every mesh.
+/// Every mesh is tested for overlap with others.
 void ask_geometry(const candela::Mesh& mesh) {
     const auto body_of = [](const candela::Mesh& m) {
         return candela::Body(m.position.span(), m.vertex_count(), m.indices, m.closed);
@@ -193,7 +193,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         object.mesh = candela::build_mesh(
             WildShape(bytes), request, asks_well ? candela::Transform{} : transform, *object.surface.shading);
     } catch (const std::exception& problem) {
-        fuzz::require(*problem.what() != '\0', "a refusal says nothing");
+        fuzz::require(*problem.what() != '\0', "a refusal is empty");
         return 0;
     } catch (int) {
         return 0;

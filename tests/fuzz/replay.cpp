@@ -1,4 +1,4 @@
-// Runs a harness on files, and on all files of directories: for builds without libFuzzer.
+// Runs a harness on files, and on all files in directories, for builds without libFuzzer.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Any bytes as a request to candela view: method, target, host and origin, a line each.
+// Arbitrary bytes as a request to candela view: method, target, host and origin, one per line.
 #include <array>
 
 #include "fuzz/fuzz.h"
@@ -17,18 +17,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         .method = fields[0], .target = fields[1], .host = fields[2], .origin = fields[3]};
     const view::Route route = view::route_of(request, k_token, k_port);
     const bool is_answered = route.status == 200;
-    fuzz::require(is_answered == (route.resource != view::Resource::none), "what is answered is a resource");
-    fuzz::require(route.status >= 200 && route.status < 500, "a status that HTTP has");
+    fuzz::require(is_answered == (route.resource != view::Resource::none), "only resources are answered");
+    fuzz::require(route.status >= 200 && route.status < 500, "the status is one of HTTP's");
     if (!is_answered) return 0;
     const view::PageQuery query = view::page_query(route.query);
     std::string again(query.state);
     for (const std::string_view part : query.parts) again.append("&part=").append(part);
     fuzz::require(again == route.query, "a state and its parts are the whole query");
     const bool is_save = view::changes_something(route.resource);
-    fuzz::require(request.method == (is_save ? "POST" : "GET"), "only POST changes something");
-    fuzz::require(!is_save || !request.origin.empty(), "who changes something says where it comes from");
+    fuzz::require(request.method == (is_save ? "POST" : "GET"), "only POST changes state");
+    fuzz::require(!is_save || !request.origin.empty(), "a request that changes state has an origin");
     fuzz::require(request.target.substr(1).starts_with(k_token) && request.target[k_token.size() + 1] == '/',
-                  "only who knows the token is answered");
+                  "only requests with the token are answered");
     fuzz::require(request.host == "127.0.0.1:8080" || request.host == "localhost:8080",
                   "only requests for this host are answered");
     fuzz::require(request.origin.empty() || request.origin == "http://127.0.0.1:8080" ||

@@ -1,4 +1,4 @@
-// Any bytes as a scene file.
+// Arbitrary bytes as a scene file.
 #include <set>
 
 #include "fuzz/fuzz.h"
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::check_diagnostics(diagnostics, false);
         return 0;
     }
-    // The first frame says what it is; so do some in between, and the last.
+    // Checks the first frame, some in between, and the last.
     for (const int frame : std::set{0, frames->count() / 2, frames->count() - 1}) {
         candela::Diagnostics found = diagnostics;
         const candela::SceneDraft draft = frames->draft(frame, found);

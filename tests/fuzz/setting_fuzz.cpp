@@ -1,4 +1,4 @@
-// Any bytes as --set PATH=VALUE of the default scene, a line each.
+// Arbitrary bytes as --set PATH=VALUE of the default scene, one per line.
 #include "fuzz/fuzz.h"
 #include "support/plugins.h"
 

@@ -1,4 +1,4 @@
-// Generated programs are built with the compiler that is there.
+// Generated programs are built with an available compiler.
 #include "candela/target/building.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// A machine on which nothing but some programs is installed, and everything works.
+/// A machine on which only some programs are installed, and everything works.
 class Machine final : public candela::ProgramRunner {
   public:
     explicit Machine(std::set<std::string> installed) : installed_(std::move(installed)) {}
@@ -30,7 +30,7 @@ class Machine final : public candela::ProgramRunner {
     std::set<std::string> installed_;
 };
 
-/// The compiler that CMake is told to use on such a machine; empty if the choice is CMake's.
+/// The compiler that CMake is told to use on such a machine; empty if CMake chooses.
 std::string compiler_on(std::set<std::string> installed) {
     unsetenv("CXX");
     Machine machine(std::move(installed));
@@ -45,7 +45,7 @@ std::string compiler_on(std::set<std::string> installed) {
 }  // namespace
 
 TEST_CASE(
-    "a generated program is built with CMake's choice of compiler, or with the newest that has a version in "
+    "a generated program is built with CMake's choice of compiler, or with the newest one with a version in "
     "its name") {
     CHECK(compiler_on({"c++", "clang++-19"}).empty());
     CHECK(compiler_on({"g++", "g++-12"}).empty());

@@ -1,4 +1,4 @@
-// candela generate: what it writes, and what it says where it cannot.
+// candela generate: its output and its errors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 const std::string k_still_life = CANDELA_TEST_SOURCE "/docs/examples/still-life.toml";
 
-/// All shapes but meshes from files, coarse, under all kinds of light; one of them reaches behind the
+/// All shapes but meshes from files, coarse, under all kinds of light; one of them extends behind the
 /// observer.
 const std::string k_coarse = R"(version = 1
 observer = {position = [0, 1, 4], look_at = [0, 0, 0]}
@@ -60,7 +60,8 @@ void require_compiles(const std::vector<std::string>& compiler, const fs::path& 
 }  // namespace
 
 TEST_CASE(
-    "generate: the default scene's C++ program has fewer than 650 lines, and its kernels word for word") {
+    "generate: the default scene's C++ program has fewer than 650 lines, and contains its kernels word for "
+    "word") {
     const fs::path directory = scratch_directory();
     generate({"--target", "cpp", "-o", directory.string()});
     const std::string source = read_file(directory / "scene.cpp");
@@ -73,7 +74,7 @@ TEST_CASE(
     CHECK(source.find('@') == std::string::npos);
 }
 
-TEST_CASE("generate: -o - prints the file that a target writes, byte for byte, and nothing beside it") {
+TEST_CASE("generate: -o - prints the file that a target writes, byte for byte, and nothing else") {
     const fs::path directory = scratch_directory();
     generate({"--target", "webgl", "-o", directory.string()});
     const CommandResult page = run_candela({"generate", "--target", "webgl", "-o", "-"});
@@ -92,7 +93,7 @@ TEST_CASE("generate: -o - prints the file that a target writes, byte for byte, a
 }
 
 TEST_CASE(
-    "generate: the C++ programs compile with g++ and clang++ without a warning, and give the same picture",
+    "generate: the C++ programs compile with g++ and clang++ without a warning, and draw the same picture",
     "[programs]") {
     const fs::path directory = scratch_directory();
     for (const std::string& scene : {std::string(), k_still_life}) {
@@ -109,7 +110,7 @@ TEST_CASE(
             0);
         const std::string a = read_file(directory / "gcc.ppm"), b = read_file(directory / "clang.ppm");
         REQUIRE(a.size() == b.size());
-        // One compiler may join a product and a sum where the other does not.
+        // One compiler may fuse a product and a sum where the other does not.
         std::size_t differing = 0;
         for (std::size_t i = 0; i < a.size(); ++i) differing += a[i] != b[i] ? 1 : 0;
         CHECK(differing < a.size() / 500);
@@ -176,7 +177,7 @@ TEST_CASE("generate: --models adds models, and the C++ program switches to them"
     CHECK(other_shading);
 }
 
-TEST_CASE("generate: programs have help, and refuse what they do not know") {
+TEST_CASE("generate: programs have help, and refuse unknown arguments") {
     const fs::path directory = scratch_directory();
     generate({"--target", "cpp", "-o", directory.string(), "--models", "half-lambert,shading/flat", "--width",
               "32", "--height", "32"});
@@ -215,7 +216,7 @@ TEST_CASE("generate: programs have help, and refuse what they do not know") {
     CHECK(run("scene", {"a.ppm", "flat", "half-lambert"}).exit_code == 0);
 }
 
-TEST_CASE("generate: programs say what the CA and RE are that their comments cite") {
+TEST_CASE("generate: programs name the CA and RE that their comments cite") {
     const fs::path directory = scratch_directory();
     for (const std::string& target : {std::string("cpp"), std::string("opengl")}) {
         generate({"--target", target, "-o", (directory / target).string()});
@@ -227,7 +228,7 @@ TEST_CASE("generate: programs say what the CA and RE are that their comments cit
     }
 }
 
-TEST_CASE("generate: a newer compiler's warnings do not end the build of a program") {
+TEST_CASE("generate: a newer compiler's warnings do not fail the build of a program") {
     for (const char* const target : {"cpp", "opengl"}) {
         const fs::path directory = scratch_directory() / target;
         generate({"--target", target, "-o", directory.string()});
@@ -237,7 +238,7 @@ TEST_CASE("generate: a newer compiler's warnings do not end the build of a progr
     }
 }
 
-TEST_CASE("generate: errors name what is wrong, and what to do") {
+TEST_CASE("generate: errors name the problem and the remedy") {
     const fs::path directory = scratch_directory();
     const auto expect = [&](const std::vector<std::string>& arguments, int code, const std::string& message) {
         std::vector<std::string> words{"generate"};
@@ -268,7 +269,7 @@ TEST_CASE("generate: errors name what is wrong, and what to do") {
 
 namespace {
 
-/// Lines with something on them, comments apart.
+/// The number of lines that are neither blank nor comments.
 int written_lines(const std::string& text) {
     int count = 0;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -283,8 +284,7 @@ int written_lines(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE(
-    "generate: docs/generated-programs.md counts the lines of the default scene's programs as they are") {
+TEST_CASE("generate: docs/generated-programs.md states the line counts of the default scene's programs") {
     const fs::path directory = scratch_directory();
     generate({"--target", "cpp", "-o", (directory / "cpp").string()});
     generate({"--target", "opengl", "-o", (directory / "opengl").string()});

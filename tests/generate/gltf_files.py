@@ -1,5 +1,5 @@
-"""gltf_files.py CANDELA SCRATCH VALIDATOR: GLB files of many scenes, by Khronos' glTF-Validator, which scripts/gltf-validator.sh brings;
-exit code 77 without it."""
+"""gltf_files.py CANDELA SCRATCH VALIDATOR: checks GLB files of many scenes with Khronos' glTF-Validator, which scripts/gltf-validator.sh
+fetches; exit code 77 without it."""
 
 import pathlib
 import shutil
@@ -14,7 +14,7 @@ SKIPPED = 77
 def main():
     candela, scratch, validator = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     if not (validator / "index.js").exists() or not shutil.which("node"):
-        print("there is no glTF-Validator: scripts/gltf-validator.sh brings it")
+        print("glTF-Validator is missing; scripts/gltf-validator.sh fetches it")
         return SKIPPED
     catalogue = scenes.Catalogue(candela)
     scratch.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,5 @@
-// gltf_validator.js VALIDATOR FILE...: what Khronos' glTF-Validator says of files; exit code 1 where it has an error or a warning.
+// gltf_validator.js VALIDATOR FILE...: prints the report of Khronos' glTF-Validator on files; exit code 1 for an error or a
+// warning.
 "use strict";
 const fs = require("fs");
 const [folder, ...files] = process.argv.slice(2);

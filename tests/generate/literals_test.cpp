@@ -1,4 +1,4 @@
-// Texts that stand in generated programs and pages.
+// Texts in generated programs and pages.
 #include "candela/target/literals.h"
 
 #include <catch2/catch_test_macros.hpp>
@@ -32,7 +32,7 @@ TEST_CASE("base64: the test vectors of RFC 4648, section 10") {
     }
 }
 
-TEST_CASE("base64: every byte comes back, whatever stands before it") {
+TEST_CASE("base64: every byte survives a round trip, whatever precedes it") {
     std::string bytes;
     for (int i = 0; i < 256; ++i) bytes += static_cast<char>(i);
     for (std::size_t shift = 0; shift < 3; ++shift, bytes.insert(bytes.begin(), '\xff'))
@@ -42,14 +42,13 @@ TEST_CASE("base64: every byte comes back, whatever stands before it") {
     CHECK(text == "data:TWE=");
 }
 
-TEST_CASE("a template's places are filled in one pass, and one that nothing fills is an error") {
+TEST_CASE("a template's placeholders are filled in one pass, and an unfilled one is an error") {
     CHECK(filled("a @X@ b\n@Y@\nc", {{"X", "@Y@"}, {"Y", ""}}) == "a @Y@ b\nc");
     CHECK(filled("me@example.org @X", {}) == "me@example.org @X");
     CHECK_THROWS_AS(filled("@X@", {{"Y", "1"}}), std::logic_error);
 }
 
-TEST_CASE(
-    "names are tame in comments: ASCII, one line, without quotes, and short, whatever bytes they have") {
+TEST_CASE("names in comments are safe: ASCII, one line, without quotes, and short, whatever their bytes") {
     CHECK(tame("'Größe'") == "Groesse");
     CHECK(tame("Ёлка, Φῶς") == "_lka, F_s");
     CHECK(tame("a\nb*/\\") == "a_b___");
@@ -58,7 +57,7 @@ TEST_CASE(
     CHECK(tame(std::string(1000, 'x')).size() == 100);
 }
 
-TEST_CASE("a page's text is UTF-8 without markup, whatever bytes it was made from") {
+TEST_CASE("a page's text is UTF-8 without markup, whatever bytes it is made from") {
     CHECK(html_text("<a href=\"x\">'&'") == "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;");
     CHECK(html_text("Größe \xe2\x82\xac \xf0\x9f\x92\xa1") == "Größe \xe2\x82\xac \xf0\x9f\x92\xa1");
     CHECK(html_text("\xff<\xe2\x82") == "\xef\xbf\xbd&lt;\xef\xbf\xbd");

@@ -1,4 +1,4 @@
-// candela verify catches what can go wrong in a program, small as it may be.
+// candela verify catches faults of a program, however small.
 #include <fmt/format.h>
 
 #include <array>
@@ -38,13 +38,13 @@ struct Edit {
     std::string_view from, to;
 };
 
-/// One fault, in each of the three programs. All places where the text stands are changed.
+/// One fault, in each of the three programs. All occurrences of the text are changed.
 struct Mutation {
     const char* name;
     Edit cpp, opengl, webgl;
 };
 
-// The kernels, and most of the shaders, are one text.
+// The kernels and most of the shaders are shared text.
 constexpr Edit k_swapped = {"vec4(encoded(i.r), encoded(i.g)", "vec4(encoded(i.g), encoded(i.r)"};
 constexpr Edit k_below = {"ivec2(gl_FragCoord.xy), 0).rgb", "ivec2(gl_FragCoord.xy) + ivec2(0, 1), 0).rgb"};
 constexpr Edit k_linear = {"return !is_srgb ? c :", "return true ? c :"};
@@ -53,12 +53,12 @@ constexpr Edit k_flipped = {"normalize(p.vertex_normal)", "-normalize(p.vertex_n
 constexpr Edit k_no_ambient = {"return m.ka * s.color", "return 0.0f * s.color"};
 constexpr Edit k_metallic = {"m.ks * (n_dot_l", "m.ks * s.color * (n_dot_l"};
 constexpr Edit k_clamped = {"> 0.0f ? highlight", "> 0.0f ? -max(-highlight, -0.9f)"};
-// What `int main() {}` does, and what it does not.
+// A program that does as little as `int main() {}`.
 constexpr Edit k_gone = {"int main(int argc, char** argv) {",
                          "int main(int argc, char** argv) {\n    if (argc > 0) return 0;"};
 
 constexpr std::array k_mutations = {
-    Mutation{.name = "the picture is a sixteenth of a pixel beside its place",
+    Mutation{.name = "the picture is displaced by a sixteenth of a pixel",
              .cpp = {"{vec2(0.5f, 0.5f)}", "{vec2(0.5625f, 0.5f)}"},
              .opengl = {"{{{0.5f, 0.5f}}}", "{{{0.5625f, 0.5f}}}"},
              .webgl = {"\"sample_positions\":[[0.5,0.5]]", "\"sample_positions\":[[0.5625,0.5]]"}},
@@ -101,7 +101,7 @@ constexpr std::array k_mutations = {
              .opengl = k_no_ambient,
              .webgl = k_no_ambient},
     Mutation{
-        .name = "the picture is a row beside its place",
+        .name = "the picture is displaced by a row",
         .cpp = {"{x + static_cast<double>(offset.x), y +", "{x + static_cast<double>(offset.x), y + 1 +"},
         .opengl = k_below,
         .webgl = k_below},
@@ -120,8 +120,7 @@ constexpr std::array k_mutations = {
 };
 static_assert(k_mutations.size() == 15);
 
-/// A floor that recedes, a ball, and a wall that is larger than its picture, with a picture of soft waves and
-/// grain.
+/// A receding floor, a ball, and a wall larger than its picture, with a picture of soft waves and grain.
 constexpr const char* k_textured_scene = R"(version = 1
 observer = {position = [0, 1.2, 4], look_at = [0, 0, 0], fov = 45}
 image = {width = 240, height = 180}
@@ -142,7 +141,7 @@ constexpr const char* k_floor =
     "v -9 -1 3\nv 9 -1 3\nv 9 -1 -30\nv -9 -1 -30\nvt -2.2 -0.7\nvt 2.7 -0.7\nvt 2.7 6.1\nvt -2.2 6.1\n"
     "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
-/// 8 bits a channel, of that many pixels a side.
+/// 8 bits per channel, with `size` pixels per side.
 std::string waves_ppm(int size) {
     std::string file = fmt::format("P6\n{0} {0}\n255\n", size);
     std::uint32_t grain = 1;
@@ -159,9 +158,9 @@ std::string waves_ppm(int size) {
     return file;
 }
 
-// How textures are looked up is one text in all three programs.
+// Texture lookup is the same text in all three programs.
 constexpr std::array k_texture_mutations = {
-    std::pair{"texels are half a texel beside their place", Edit{"float(width) - 0.5f", "float(width)"}},
+    std::pair{"texels are displaced by half a texel", Edit{"float(width) - 0.5f", "float(width)"}},
     std::pair{"a level too coarse", Edit{"min(level, last)", "min(level + 1.0f, last)"}},
     std::pair{"a level too fine", Edit{"min(level, last)", "max(min(level, last) - 1.0f, 0.0f)"}},
     std::pair{"the shorter side of a footprint decides",
@@ -174,7 +173,7 @@ constexpr std::array k_texture_mutations = {
                                                "color_texture_wrapped(uv.y, t.repeats)"}},
 };
 
-/// All places; none is an error of this test's, as the fault would not be there.
+/// Replaces all occurrences. None is an error of this test, because the fault would be missing.
 std::string edited(std::string text, const Edit& edit) {
     INFO("no longer in the program: " << edit.from);
     REQUIRE(text.find(edit.from) != std::string::npos);
@@ -183,7 +182,8 @@ std::string edited(std::string text, const Edit& edit) {
     return text;
 }
 
-/// Headers of others, the most of what a compiler reads, are compiled once for all programs in this folder.
+/// External headers, which are most of what a compiler reads, are compiled once for all programs in this
+/// folder.
 void precompile_headers(const fs::path& program, const std::string& source, const std::string& optimization) {
     std::string headers;
     std::istringstream lines(source);
@@ -206,7 +206,7 @@ void expect_caught(const std::string& target, const std::string& scene, const st
     const fs::path program = fs::path(scene).parent_path() / "program";
     REQUIRE(run_candela({"generate", scene, "--target", target, "-o", program.string()}).exit_code == 0);
     const std::string sound = read_file(program / file);
-    // What OpenGL draws does not depend on how fast the program is that tells it to.
+    // OpenGL's picture does not depend on the optimisation of the program.
     if (target != "webgl") precompile_headers(program, sound, target == "cpp" ? "-O1" : "-O0");
     const auto verified = [&] {
         return run_candela({"verify", scene, "--target", target, "--program", program.string()});

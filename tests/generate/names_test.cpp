@@ -1,4 +1,4 @@
-// Names are somebody's words, and must never become part of a program.
+// Names are arbitrary text, and must never become part of a program.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ const std::vector<std::string> k_hostile = {
     "\r\n",
 };
 
-/// Words from a nasty alphabet.
+/// Words from a hostile alphabet.
 std::string chance_name(std::mt19937& chance) {
     static const std::vector<std::string> k_pieces = {
         "\"", "'", "\\", "\n", "*/", "/*",       "//", "</script>", "<", ">", "&",    "@",    "{", "}",
@@ -52,7 +52,7 @@ std::string chance_name(std::mt19937& chance) {
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(-1, ' ', true); }
 
-/// TOML knows \u escapes as JSON does, but for surrogates, of which there are none here.
+/// TOML has \u escapes like JSON, except for surrogates, which do not occur here.
 std::string scene_with(const std::vector<std::string>& names) {
     std::string text =
         "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 48\nheight = "
@@ -99,7 +99,7 @@ std::vector<std::string> tame_names(std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("names: C++ programs of scenes with hostile names compile and draw what those with tame names draw",
+TEST_CASE("names: C++ programs of scenes with hostile names compile and draw the same as with harmless names",
           "[whole]") {
     const fs::path directory = scratch_directory();
     const std::vector<std::string> names = all_names();
@@ -132,7 +132,7 @@ TEST_CASE("names: the OpenGL program of a scene with hostile names is C++ withou
     CHECK(compiled.exit_code == 0);
 }
 
-TEST_CASE("names: a page holds hostile names as data, whole, and nothing of them as markup") {
+TEST_CASE("names: a page contains hostile names as complete data, and no part of them as markup") {
     const fs::path directory = scratch_directory();
     const std::vector<std::string> names = all_names();
     const auto page_of = [&](const std::vector<std::string>& with, const std::string& file) {
@@ -150,7 +150,7 @@ TEST_CASE("names: a page holds hostile names as data, whole, and nothing of them
     const auto scene = nlohmann::json::parse(hostile.substr(begin, hostile.find("</script>", begin) - begin));
     REQUIRE(scene.at("objects").size() == names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
-        // Messages and programs show control characters as something that can be shown.
+        // Messages and programs show control characters as visible characters.
         const bool is_shown_as_it_is = std::ranges::all_of(
             names[i], [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7f; });
         const std::string label = scene.at("objects").at(i).at("label");
@@ -160,7 +160,7 @@ TEST_CASE("names: a page holds hostile names as data, whole, and nothing of them
     }
 }
 
-TEST_CASE("names: in programs, lamp is lamp, and letters of other alphabets are transliterated") {
+TEST_CASE("names: in programs, ASCII names stay, and letters of other alphabets are transliterated") {
     const fs::path directory = scratch_directory();
     const fs::path scene = write_file(directory / "scene.toml", R"(version = 1
 observer = {position = [0, 0, 4], look_at = [0, 0, 0]}

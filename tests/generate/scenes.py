@@ -1,5 +1,5 @@
 """Scenes that together bring every pair of a shape, a shading model, a reflection model, a light, a projection, a colour
-management and a number of samples onto a picture. Made from what is installed, so that a new model is in one of them."""
+management and a number of samples onto a picture. Made from the installed plugins, so that a new model is in one of them."""
 
 import copy
 import itertools
@@ -8,10 +8,10 @@ import random
 import subprocess
 
 SCENES = 14
-OBJECTS = 8  # in two rows; many in few scenes, since most of the time goes into compilers and browsers that start
+OBJECTS = 8  # in two rows; many objects in few scenes, since starting compilers and browsers takes most of the time
 COLUMNS = 4
 
-# An icosahedron: closed, with sharp edges, without normals of its own, and of another colour at each vertex.
+# An icosahedron: closed, with sharp edges, without normals, and with a different colour at each vertex.
 OBJ = """v -1 1.618 0 1 1 1
 v 1 1.618 0 1 .4 .3
 v -1 -1.618 0 .4 1 .3
@@ -28,8 +28,8 @@ f 1 12 6\nf 1 6 2\nf 1 2 8\nf 1 8 11\nf 1 11 12\nf 2 6 10\nf 6 12 5\nf 12 11 3\n
 f 4 10 5\nf 4 5 3\nf 4 3 7\nf 4 7 9\nf 4 9 10\nf 5 10 6\nf 3 5 12\nf 7 3 11\nf 9 7 8\nf 10 9 2
 """
 
-# What the parameters of some plugins are set to, for pictures that show much; of others, what their manifests allow
-# (setting()), so that a new plugin needs no line here.
+# Parameters of some plugins, chosen for expressive pictures; those of others follow from their manifests (setting()), so that a new
+# plugin needs no line here.
 SHAPES = {
     "sphere": "radius = 0.62\nsegments = {segments}\n",
     "cube": "size = 0.85\nrotation = [{tilt}, {turn}, 10]\n",
@@ -50,7 +50,7 @@ LIGHTS = {
 
 
 class Catalogue:
-    """What is installed, as `candela list --json` says."""
+    """The installed plugins, from `candela list --json`."""
 
     def __init__(self, candela):
         plugins = json.loads(subprocess.run([candela, "list", "--json"], check=True, capture_output=True).stdout)
@@ -65,24 +65,24 @@ class Catalogue:
         return any(p["type"] == "file" and "default" not in p for p in self.parameters[kind, name])
 
     def settings(self, kind, name, chance):
-        """Its required parameters, and colours of its own, as TOML."""
+        """Its required parameters and its own colours, as TOML."""
         return "".join(f"{p['name']} = {value}\n" for p in self.parameters[kind, name] if (value := setting(p, chance)))
 
     def exact_of(self, target):
-        """The same without the models that a target only approximates, and without anti-aliasing, which is its own."""
+        """The choices without the models that a target only approximates, and without anti-aliasing, which is the target's own."""
         exact = {kind.removeprefix("exact-"): names.split(", ") for kind, names in self.properties["target", target].items()}
         chosen = self.limited_to(exact)
         chosen.samples = [1]
         return chosen
 
     def limited_to(self, models):
-        """The same with these models alone: their names, by their kind."""
+        """The choices with only these models: names by kind."""
         chosen = copy.copy(self)
         chosen.parameters = {(kind, name): p for (kind, name), p in self.parameters.items() if name in models.get(kind, [name])}
         return chosen
 
     def factors(self):
-        # What is clear shows its surroundings, which generated programs do not have.
+        # Transparent models show their surroundings, which generated programs do not have.
         reflections = [name for name in self.names("reflection") if name != "dielectric"]
         return {
             "shape": [name for name in self.names("shape") if name in SHAPES or not self.needs_file("shape", name)],
@@ -96,7 +96,7 @@ class Catalogue:
 
 
 def pairs_of(values):
-    """The pairs that one object under one light brings."""
+    """The pairs that one object under one light covers."""
     return set(itertools.combinations(sorted(values.items()), 2))
 
 
@@ -116,7 +116,7 @@ def pairs_in(scene):
 
 
 def setting(parameter, chance):
-    """A value that a parameter of a light or a shape needs, as TOML; None where its default will do."""
+    """A value that a parameter of a light or a shape needs, as TOML; None if its default will do."""
     if parameter["type"] == "color":
         return [chance.randrange(80, 256) for _ in range(3)]
     if "default" in parameter:
@@ -132,13 +132,13 @@ def setting(parameter, chance):
 
 
 def scenes(catalogue, count=SCENES):
-    """The scenes as choices: greedy, the best of many candidates each time; always the same."""
+    """The scenes as choices: greedy, the best of many candidates each time; deterministic."""
     chance = random.Random(2026)
     factors = catalogue.factors()
     missing = all_pairs(factors)
     result = []
     for number in range(count):
-        # The frames first, so that each of their pairs is there however few objects there are.
+        # The frames first, so that all of their pairs are covered however few objects there are.
         frame = {"projection": factors["projection"][number % 2], "color_management": factors["color_management"][number // 2 % 2],
                  "samples": factors["samples"][number // 4 % len(factors["samples"])]}
         lights = [factors["light"][(number * 2 + k) % len(factors["light"])] for k in range(3)]
@@ -155,7 +155,7 @@ def scenes(catalogue, count=SCENES):
 
 
 def value_text(parameter, chance):
-    """Some value of a material's parameter, as TOML; nothing where the default will do."""
+    """Some value of a material's parameter, as TOML; nothing if the default will do."""
     if parameter["type"] == "choice":
         return json.dumps(chance.choice(parameter["choices"]))
     low, high = parameter.get("minimum"), parameter.get("maximum")
@@ -167,7 +167,7 @@ def value_text(parameter, chance):
 
 
 def scene_text(catalogue, choices, number):
-    """The TOML of a scene; it wants icosahedron.obj (OBJ) beside it."""
+    """The TOML of a scene; it needs icosahedron.obj (OBJ) next to it."""
     chance = random.Random(number)
     frame = choices["frame"]
     size = "fov = 47" if frame["projection"] == "perspective" else "height = 4.4"

@@ -8,7 +8,7 @@ import struct
 SCENES = 4
 SHADINGS = ["phong", "gouraud", "flat"]  # one for each rate at which light is evaluated
 
-# A quarter of a cylinder: its texture coordinates go beyond the picture, and its vertices have colours.
+# A quarter of a cylinder: its texture coordinates exceed the picture, and its vertices have colours.
 COLUMNS, ROWS = 8, 4
 
 
@@ -29,7 +29,7 @@ def cylinder():
     return "\n".join(lines) + "\n"
 
 
-# Two triangles from before the observer to forty metres away, the picture a dozen times along them.
+# Two triangles from in front of the observer to forty metres away, with the picture repeated a dozen times along them.
 FLOOR = """v -14 0 3
 v 14 0 3
 v 14 0 -40
@@ -41,7 +41,7 @@ f 1/1 3/3 4/4
 
 
 def ppm(width, height, largest, seed):
-    """Soft waves with grain: what is seen of it between any two texels and at any level is another colour, by a few steps."""
+    """Soft waves with grain: between any two texels and at any two levels, the colour differs by a few steps."""
     chance = random.Random(seed)
     values = bytearray()
     for y in range(height):
@@ -55,14 +55,14 @@ def ppm(width, height, largest, seed):
 
 
 def wave_of(x):
-    """One smooth wave from 0 to 1, and again: a parabola up and one down."""
+    """A periodic smooth wave from 0 to 1: a parabola up and one down."""
     x %= 1
     half, sign = (x, 1) if x < 0.5 else (x - 0.5, -1)
     return sign * 16 * half * (0.5 - half)
 
 
 def files():
-    """What the scenes name, by name: among the pictures one of odd sizes and one of 16 bits."""
+    """The files that the scenes use, by name; the pictures include one of odd size and one of 16 bits."""
     return {"floor.obj": FLOOR.encode(), "cylinder.obj": cylinder().encode(), "fine.ppm": ppm(256, 256, 255, 1),
             "odd.ppm": ppm(61, 43, 255, 2), "deep.ppm": ppm(48, 64, 65535, 3)}
 

@@ -1,4 +1,4 @@
-// The textures of generated programs: what they keep of a picture, and what becomes of it.
+// The textures of generated programs: how precisely they preserve pictures, and in which files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ constexpr const char* k_square =
     "mtllib square.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 2 0\nvt 2 2\nvt 0 2\nvn 0 0 1\n"
     "usemtl tiles\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
 
-/// 128 x 2 pixels, `bytes` of each channel; each byte stands somewhere.
+/// 128 x 2 pixels, `bytes` per channel; every byte value occurs.
 std::string small_ppm(int bytes) {
     std::string file = fmt::format("P6\n128 2\n{}\n", bytes == 1 ? 255 : 65535);
     for (int i = 0; i < 768 * bytes; ++i) file += static_cast<char>(40 + 11 * i);
@@ -67,7 +67,7 @@ std::string scene_with(const std::string& pictures) {
 
 }  // namespace
 
-TEST_CASE("textures of programs: all colours of 8 bits are kept as they were") {
+TEST_CASE("textures of programs: all 8-bit colours are preserved") {
     std::vector<std::uint16_t> encoded, plain;
     for (int byte = 0; byte < 256; ++byte) {
         encoded.push_back(intensity_of(byte));
@@ -83,7 +83,7 @@ TEST_CASE("textures of programs: all colours of 8 bits are kept as they were") {
     }
 }
 
-TEST_CASE("textures of programs: a picture with one intensity between those of 8 bits is kept in 16") {
+TEST_CASE("textures of programs: a picture with one intensity between those of 8 bits is stored in 16") {
     const TexturePixels pixels = pixels_of(
         {65535, intensity_of(100), static_cast<std::uint16_t>(intensity_of(100) + 1)}, ColorEncoding::srgb);
     CHECK_FALSE(pixels.is_encoded);
@@ -94,7 +94,7 @@ TEST_CASE("textures of programs: a picture with one intensity between those of 8
     CHECK(pixels.bytes[17] == static_cast<std::byte>(last & 255));
 }
 
-TEST_CASE("generate: each picture becomes one file beside the program, to the byte where it has 8 bits") {
+TEST_CASE("generate: each picture becomes one file next to the program, exact to the byte if it has 8 bits") {
     for (const char* const target : {"cpp", "opengl"}) {
         const fs::path folder = scratch_directory(), program = folder / target;
         write_file(folder / "square.obj", k_square);
@@ -113,7 +113,7 @@ TEST_CASE("generate: each picture becomes one file beside the program, to the by
     }
 }
 
-TEST_CASE("generate: a program of a scene without textures has no word of any") {
+TEST_CASE("generate: the program of a scene without textures does not mention textures") {
     for (const char* const target : {"cpp", "opengl"}) {
         const fs::path program = scratch_directory() / target;
         REQUIRE(run_candela({"generate", "--target", target, "-o", program.string()}).exit_code == 0);
@@ -122,7 +122,7 @@ TEST_CASE("generate: a program of a scene without textures has no word of any") 
     }
 }
 
-TEST_CASE("generate: a C++ program says which texture it cannot read, and takes one that was painted over") {
+TEST_CASE("generate: a C++ program names a texture that it cannot read, and accepts a repainted one") {
     const fs::path folder = scratch_directory(), program = folder / "program";
     write_file(folder / "square.obj", k_square);
     write_file(folder / "a.ppm", small_ppm(1));
@@ -158,7 +158,7 @@ TEST_CASE("generate: a C++ program says which texture it cannot read, and takes 
     CHECK(run().exit_code == 1);
 }
 
-TEST_CASE("generate: a model with textures becomes a program, and a page that holds them") {
+TEST_CASE("generate: a model with textures becomes a program, and a page that contains them") {
     const fs::path folder = scratch_directory();
     const fs::path model = write_file(folder / "square.obj", k_square);
     write_file(folder / "square.mtl", "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.ppm\n");
@@ -172,7 +172,7 @@ TEST_CASE("generate: a model with textures becomes a program, and a page that ho
           std::string::npos);
 }
 
-TEST_CASE("generate: pictures for which a page has no room are refused with their size", "[whole]") {
+TEST_CASE("generate: pictures too large for a page are refused with their size", "[whole]") {
     const fs::path folder = scratch_directory();
     write_file(folder / "square.obj", k_square);
     write_file(folder / "a.ppm", "P6\n6000 6000\n255\n" + std::string(std::size_t{3} * 6000 * 6000, '\x50'));

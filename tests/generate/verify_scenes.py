@@ -1,8 +1,8 @@
-"""verify_scenes.py CANDELA SCRATCH NUMBER [TARGET]: `candela verify` of one of the scenes of scenes.py.
-verify_scenes.py CANDELA SCRATCH textures-NUMBER [TARGET]: likewise of texture_scenes.py.
-verify_scenes.py CANDELA SCRATCH NUMBER TARGET exact: of what a target with models of its own expresses, to a level of 1/255.
-verify_scenes.py CANDELA SCRATCH NUMBER three own: of what three.js has itself, without kernels.
-verify_scenes.py CANDELA SCRATCH pairs: whether those of scenes.py cover what they are there for."""
+"""verify_scenes.py CANDELA SCRATCH NUMBER [TARGET]: runs `candela verify` on one of the scenes of scenes.py.
+verify_scenes.py CANDELA SCRATCH textures-NUMBER [TARGET]: the same for texture_scenes.py.
+verify_scenes.py CANDELA SCRATCH NUMBER TARGET exact: only what a target expresses with its own models, to within 1/255.
+verify_scenes.py CANDELA SCRATCH NUMBER three own: only what three.js draws itself, without kernels.
+verify_scenes.py CANDELA SCRATCH pairs: checks that the scenes of scenes.py cover all pairs."""
 
 import json
 import os
@@ -45,7 +45,7 @@ def scene_of(catalogue, what):
 
 
 def has_kernels(page):
-    """Whether an object of a page with three.js has another material than three.js's own."""
+    """Whether an object of a page with three.js has a material other than three.js's own."""
     scene = json.loads(re.search(r'id="scene">(.*?)</script>', page.read_text(), re.S)[1])
     return any(thing["lambert"] is None for thing in scene["objects"])
 
@@ -67,16 +67,16 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     text, files = scene_of(catalogue, what)
     for name, content in files.items():
-        # Vertex colours only where all targets have them.
+        # Vertex colours only if all targets support them.
         (folder / name).write_bytes(re.sub(rb"(?m)^(v( \S+){3}).*", rb"\1", content) if is_exact or is_own else content)
     file = folder / "scene.toml"
-    # Nor has three.js light that fades with the distance and something more.
+    # three.js does not have light that fades by distance plus an offset either.
     file.write_text(text.replace('"offset-linear"', '"inverse-square"') if is_own else text)
     tolerance = ["--tolerance", "1"] if is_exact or is_own else []
     result = subprocess.run([candela, "verify", str(file), "--target", target, "--report", str(folder / "report"), *tolerance],
                             env={**os.environ, "CXXFLAGS": "-Werror"}, capture_output=True, text=True, check=False)
     print(result.stdout, result.stderr, sep="")
-    if "there is no three.js" in result.stderr:
+    if "three.js is missing" in result.stderr:
         return SKIPPED
     if is_own and has_kernels(folder / "report/three/scene.html"):
         print("three.js does not have all of this itself")

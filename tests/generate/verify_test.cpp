@@ -1,4 +1,4 @@
-// candela verify notices what is not as it should be.
+// candela verify notices deviations.
 #include <fmt/format.h>
 
 #include <catch2/catch_test_macros.hpp>
@@ -22,12 +22,12 @@ void replace_in(const fs::path& file, const std::string& from, const std::string
     write_file(file, text.replace(at, from.size(), to));
 }
 
-/// In an environment with other variables besides.
+/// Runs in an environment with additional variables.
 CommandResult verify_where(std::vector<std::pair<std::string, std::string>> environment,
                            const std::vector<std::string>& arguments) {
     std::vector<std::string> words{"verify"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    // A warning of ours would be a user's.
+    // A warning here would reach users.
     environment.emplace_back("CXXFLAGS", "-Werror");
     return run_candela(words, {.input = "", .environment = std::move(environment), .directory = {}});
 }
@@ -52,7 +52,7 @@ CommandResult verify_changed(const std::string& target, const std::string& file,
 }  // namespace
 
 #ifndef CANDELA_TEST_SANITIZED
-TEST_CASE("verify: the default scene matches in C++, in OpenGL and in a browser, with a report to look at") {
+TEST_CASE("verify: the default scene matches in C++, in OpenGL and in a browser, with a report") {
     const fs::path report = scratch_directory() / "report";
     const fs::path home = scratch_directory() / "home";
     fs::create_directories(home);
@@ -72,7 +72,7 @@ TEST_CASE("verify: the default scene matches in C++, in OpenGL and in a browser,
 }
 #endif
 
-TEST_CASE("verify: a program that nobody has changed matches, also where it was generated before") {
+TEST_CASE("verify: an unchanged program matches, even in a folder where it was generated before") {
     const CommandResult result = verify_changed("cpp", "", "", "");
     INFO(result.out << result.err);
     CHECK(result.exit_code == 0);
@@ -86,7 +86,7 @@ TEST_CASE("verify: a sign in one copy of a kernel is caught", "[programs]") {
     CHECK(result.out.find("MISMATCH") != std::string::npos);
 }
 
-TEST_CASE("verify: a light that is five centimetres beside its place is caught", "[whole]") {
+TEST_CASE("verify: a light that is displaced by five centimetres is caught", "[whole]") {
     const CommandResult result = verify_changed("cpp", "scene.cpp", "PointLight{vec3(1.0f), 2.5f, vec3(0.0f)",
                                                 "PointLight{vec3(1.0f), 2.5f, vec3(0.05f, 0.0f, 0.0f)");
     INFO(result.out << result.err);
@@ -113,8 +113,7 @@ TEST_CASE("verify: a wrong formula in a page is caught", "[programs]") {
     CHECK(result.exit_code == 4);
 }
 
-TEST_CASE("verify: a program that does not compile, or does not run, is an error that shows why",
-          "[programs]") {
+TEST_CASE("verify: a program that does not compile or run is an error that shows the reason", "[programs]") {
     const CommandResult compiled = verify_changed("cpp", "scene.cpp", "int main(", "int main(nonsense ");
     CHECK(compiled.exit_code == 1);
     CHECK(compiled.err.find("nonsense") != std::string::npos);
@@ -126,7 +125,7 @@ TEST_CASE("verify: a program that does not compile, or does not run, is an error
 }
 
 #ifdef CANDELA_TEST_MUSEUM
-TEST_CASE("verify: a plugin whose kernel says something else than its code is caught") {
+TEST_CASE("verify: a plugin whose kernel differs from its code is caught") {
     const CommandResult result = verify({"--target", "cpp", "--plugin-dir", CANDELA_TEST_MUSEUM,
                                          "--reflection", "says-otherwise", "--width", "120"});
     INFO(result.out << result.err);
@@ -161,7 +160,7 @@ TEST_CASE("verify: a tolerance of 0 does not make every pixel an edge", "[progra
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("verify: a program that draws nothing is not saved by a picture of an earlier report",
+TEST_CASE("verify: a program that draws nothing does not pass with a picture of an earlier report",
           "[programs]") {
     const fs::path directory = scratch_directory(), report = directory / "report", program = report / "cpp";
     std::vector<std::string> words{"--target", "cpp", "--report", report.string()};
@@ -178,7 +177,7 @@ TEST_CASE("verify: a program that draws nothing is not saved by a picture of an 
     CHECK(read_file(report / "index.html").find("ended without writing a picture") != std::string::npos);
 }
 
-TEST_CASE("verify: a picture of another size is a mismatch that says so", "[programs]") {
+TEST_CASE("verify: a picture of another size is reported as such", "[programs]") {
     const CommandResult result =
         verify_changed("cpp", "scene.cpp", "k_width = 160, k_height = 120", "k_width = 80, k_height = 60");
     INFO(result.out << result.err);
@@ -186,8 +185,7 @@ TEST_CASE("verify: a picture of another size is a mismatch that says so", "[prog
     CHECK(result.out.find("80 x 60") != std::string::npos);
 }
 
-TEST_CASE("verify: where hardly a pixel is away from edges, there is no verdict, and it says what to do",
-          "[programs]") {
+TEST_CASE("verify: if hardly a pixel is away from edges, there is no verdict, but advice", "[programs]") {
     for (const std::string& size : {std::string("12"), std::string("30")}) {
         const CommandResult result = verify({"--target", "cpp", "--width", size, "--height", size});
         INFO(result.out << result.err);
@@ -197,7 +195,8 @@ TEST_CASE("verify: where hardly a pixel is away from edges, there is no verdict,
     }
 }
 
-TEST_CASE("verify: --json has the figures, and how many pixels the verdict rests on", "[programs]") {
+TEST_CASE("verify: --json has the figures, and the number of pixels that the verdict rests on",
+          "[programs]") {
     std::vector<std::string> words{"--target", "cpp", "--json"};
     words.insert(words.end(), k_small.begin(), k_small.end());
     const CommandResult result = verify(words);
@@ -211,14 +210,14 @@ TEST_CASE("verify: --json has the figures, and how many pixels the verdict rests
                       away = json[0].at("shown").at("away_from_edges");
     CHECK(away >= 1000);
     CHECK(shown > away);
-    // The others are background.
+    // The other pixels are background.
     CHECK(shown < json[0].at("comparison").at("interior").at("pixels"));
     for (const char* const figure : {"gain", "right", "down", "zoom", "roll", "region"})
         CHECK(std::abs(json[0].at("bias").at(figure).at("value").get<double>()) < 1e-3);
 }
 
 #ifndef CANDELA_TEST_SANITIZED
-TEST_CASE("verify: what is near is drawn in all programs, however far the rest reaches", "[whole]") {
+TEST_CASE("verify: near objects are drawn in all programs, however far the scene extends", "[whole]") {
     // Spheres of a fifth of a metre and of 40 km: depths from 0.6 to 200,000 metres.
     const fs::path scene = write_file(scratch_directory() / "far.toml", R"(version = 1
 room = {width = 1e6, height = 1e6, depth = 1e6}
@@ -262,7 +261,7 @@ object = [
 ]
 )";
     for (int i = 0; i < 1000; ++i) {
-        // A spiral, in which the golden angle keeps neighbours apart.
+        // A spiral in which the golden angle keeps neighbours apart.
         const double angle = 2.399963 * i, radius = 0.3 + 1.7 * std::sqrt(i / 1000.0);
         text += fmt::format(
             "[[light]]\ntype = \"{}\"\nposition = [{:.4f}, {:.4f}, {:.4f}]\nintensity = 0.003\n"
@@ -291,9 +290,9 @@ object = [
                                                 projection));
 }
 
-TEST_CASE("verify: where the last bits of N.L decide on a step of brightness, programs that are right match",
+TEST_CASE("verify: where the last bits of N.L decide on a step of brightness, correct programs match",
           "[whole]") {
-    // Two of the cube's faces are parallel to the light, so that N.L is 0 but for rounding.
+    // Two of the cube's faces are parallel to the light, so that N.L is 0 except for rounding.
     expect_match("parallel.toml", R"(version = 1
 observer = {position = [0.77, 1.13, 4.5], look_at = [0, 0, 0], projection = "orthographic", height = 1.8}
 image = {width = 120, height = 100, samples = 4, color_management = "none"}
@@ -308,9 +307,9 @@ object = [{type = "cube", size = 0.8, rotation = [0, 45, 0], color = [139, 85, 2
 )");
 }
 
-TEST_CASE("verify: where N.H is 1 but for rounding, a highlight of 0 degrees is none in any program",
+TEST_CASE("verify: where N.H is 1 except for rounding, no program draws a highlight of 0 degrees",
           "[whole]") {
-    // Light and observer are in the same direction, and the middle of the sphere faces both.
+    // Light and observer are in the same direction, and the centre of the sphere's disc faces both.
     expect_match("none.toml", R"(version = 1
 observer = {position = [2.1, 1.3, 2.9], look_at = [0, 0, 0], projection = "orthographic", height = 3}
 image = {width = 160, height = 120, color_management = "none"}
@@ -321,7 +320,7 @@ object = [{type = "sphere", radius = 1, segments = 64, color = [139, 85, 246], m
 )");
 }
 
-TEST_CASE("verify: a spot's cone and a highlight's rim are as exact in shaders as elsewhere", "[whole]") {
+TEST_CASE("verify: a spot's cone and a highlight's rim are as exact in shaders as in C++", "[whole]") {
     expect_match("cone.toml", R"(version = 1
 observer = {position = [-0.21, 1.37, 4.5], look_at = [0, 0, 0], fov = 42}
 image = {width = 240, height = 160, color_management = "none"}

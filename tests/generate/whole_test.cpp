@@ -1,4 +1,4 @@
-// Whatever ends generate, verify and plugin new, they leave whole folders or none, and nothing beside them.
+// However generate, verify and plugin new end, they leave complete folders or none, and nothing else.
 #include <sys/resource.h>
 
 #include <catch2/catch_test_macros.hpp>
@@ -25,14 +25,14 @@ std::map<std::string, std::string> contents_of(const fs::path& folder) {
     return contents;
 }
 
-/// How much else is in the folder that `folder` is in.
+/// The number of other entries in the parent of `folder`.
 int files_beside(const fs::path& folder) {
     int count = -1;
     for (const auto& entry : fs::directory_iterator(folder.parent_path())) count += entry.exists() ? 1 : 0;
     return count;
 }
 
-/// In a child: as on a disk that has no room for what is large.
+/// Runs in a child as on a disk without room for large files.
 CommandSetup with_room_for(rlim_t bytes) {
     CommandSetup setup;
     setup.prepare = [bytes] {
@@ -122,7 +122,7 @@ TEST_CASE("verify: interrupted at any moment, it leaves nothing behind", "[whole
         interrupted += was_interrupted ? 1 : 0;
         CHECK(fs::is_empty(temporary));
         if (was_interrupted) CHECK_FALSE(fs::exists(report));
-        // Nor does a compiler or a browser go on and write there again.
+        // No compiler or browser continues and writes there again.
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         CHECK(fs::is_empty(temporary));
         fs::remove_all(report);
@@ -131,7 +131,7 @@ TEST_CASE("verify: interrupted at any moment, it leaves nothing behind", "[whole
     CHECK(interrupted >= 6);
 }
 
-TEST_CASE("verify: interrupted at any moment, an old report stays whole, and what else is in its folder",
+TEST_CASE("verify: interrupted at any moment, it leaves an old report and its folder's other files intact",
           "[whole]") {
     const fs::path report = scratch_directory() / "report";
     const auto words = [&](const std::string& color) {
@@ -174,7 +174,7 @@ TEST_CASE("verify: interrupted at any moment, an old report stays whole, and wha
     const bool is_new = after.at("reference.png") != before.at("reference.png") &&
                         after.at("cpp.png") != before.at("cpp.png");
     CHECK(is_new);
-    // What was built elsewhere can be built where it is now.
+    // A program built elsewhere can be built in its present folder.
     std::vector<std::string> again = words("[235,90,40]");
     again.insert(again.end(), {"--program", (report / "cpp").string()});
     const CommandResult built = run_program(again);
@@ -182,7 +182,7 @@ TEST_CASE("verify: interrupted at any moment, an old report stays whole, and wha
     CHECK(built.exit_code == 0);
 }
 
-TEST_CASE("verify and generate replace nothing that the scene is made from, whatever its name") {
+TEST_CASE("verify and generate do not replace files that the scene is made from, whatever their names") {
     const fs::path folder = scratch_directory() / "folder";
     fs::create_directories(folder / "cpp");
     const auto refused = [&](const fs::path& scene, const std::vector<std::string>& words) {

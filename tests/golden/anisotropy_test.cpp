@@ -20,8 +20,8 @@ struct Brushed {
     const char* material;
 };
 
-/// The highlight of a sphere turned by `rotation` degrees about the line of sight, which is -z, with the lamp
-/// behind the observer.
+/// The highlight of a sphere turned by `rotation` degrees about the line of sight, -z, with the light behind
+/// the observer.
 Spread spread(const std::filesystem::path& directory, const Brushed& surface, int rotation = 0) {
     const Picture picture = render_floats(
         directory,
@@ -65,7 +65,7 @@ TEST_CASE(
         CHECK(wide.x > 2 * wide.y);
         CHECK(high.y > 2 * high.x);
 
-        // The same by turning the sphere itself.
+        // The same effect by turning the sphere itself.
         const Spread turned = spread(directory, along, 90);
         CHECK(agree(turned.y, wide.x, 0.02));
         CHECK(agree(turned.x, wide.y, 0.02));

@@ -1,4 +1,5 @@
-// Pictures against closed forms: figures that come from geometry and the equations, not from our own code.
+// Compares pictures with closed forms: figures that come from geometry and the equations, not from our own
+// code.
 #include <fmt/format.h>
 
 #include <array>
@@ -14,7 +15,7 @@
 
 namespace {
 
-/// A view along -z from (0, 0, 4); colours as they are, so that intensities need no decoding.
+/// A view along -z from (0, 0, 4), without colour management, so that intensities need no decoding.
 std::string orthographic_view(int size, double metres) {
     return fmt::format(
         "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = \"orthographic\"\nheight = {}\n"
@@ -48,7 +49,7 @@ struct Triangle {
     }
 };
 
-/// Barycentric coordinates where a ray meets the triangle, by the areas of the part triangles; none if it
+/// Barycentric coordinates where a ray meets the triangle, by the areas of the sub-triangles; none if it
 /// misses, or passes within `margin` (of a coordinate) of an edge.
 std::optional<Double3> hit(const Triangle& t, Double3 origin, Double3 direction, double margin) {
     const Double3 n = cross(t.p[1] - t.p[0], t.p[2] - t.p[0]);
@@ -63,7 +64,7 @@ std::optional<Double3> hit(const Triangle& t, Double3 origin, Double3 direction,
 
 Double3 mix(const std::array<Double3, 3>& v, Double3 b) { return b.x * v[0] + b.y * v[1] + b.z * v[2]; }
 
-/// Compares all pixels for which `expected` knows a value; returns how many there were.
+/// Compares all pixels for which `expected` has a value; returns their number.
 int compare(const Picture& picture, double relative, double absolute,
             const std::function<std::optional<Double3>(int, int)>& expected) {
     int compared = 0;
@@ -158,7 +159,7 @@ TEST_CASE("a Gouraud triangle is the barycentric mix of its vertices' colours, i
     }
 }
 
-TEST_CASE("a flat face is constant to the bit: a cube shows as many colours as it has visible triangles") {
+TEST_CASE("a flat face is constant to the bit: a cube shows one colour per visible triangle") {
     const Picture picture = render_floats(
         scratch_directory(), perspective_view(200, 200, 30) + models("flat", "phong") +
                                  "[[light]]\ntype = \"point\"\nposition = [1.2, 1.6, 3]\nintensity = 9\n"
@@ -208,13 +209,13 @@ TEST_CASE("Phong and Blinn-Phong highlights match a per-pixel evaluation in doub
     }
 }
 
-TEST_CASE("seen from behind, an open surface is lit on the side that is seen") {
+TEST_CASE("seen from behind, an open surface is lit on the visible side") {
     const auto directory = scratch_directory();
     write_file(directory / "triangle.obj", k_triangle.obj());
     const std::string scene = models("phong", "lambert") +
                               "[[light]]\ntype = \"directional\"\ndirection = [0, 0, 1]\n" +
                               mesh_object("ka = 0\nkd = 1");
-    // The light travels along +z, so that it falls on the side away from the observer at +z …
+    // The light travels along +z, so it falls on the side away from the observer at +z …
     const Picture front = render_floats(directory, orthographic_view(64, 3) + scene);
     CHECK(front.at(32, 32) == candela::Vec3{0, 0, 0});
     // … and on the side that an observer at -z sees.

@@ -68,7 +68,7 @@ TEST_CASE("all lights x reflection models x shading models x shapes render witho
                     CHECK(picture.finite);
                     CHECK_FALSE(picture.negative);
                     CHECK(picture.shaded > 100);
-                    // Gooch's tones take the place of ambient light; a clear object shows the background.
+                    // Gooch's tones replace ambient light; a transparent object shows the background.
                     const bool is_ambient = light == lights[0] || light == lights[1];
                     CHECK((picture.brightest_on_object > 0.005 || (reflection == "gooch" && is_ambient)));
                     ++rendered;

@@ -1,4 +1,4 @@
-// The same scene is the same picture, however it is worked on.
+// The same scene yields the same picture, however the work is divided.
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <string>
@@ -89,7 +89,7 @@ TEST_CASE("a picture does not depend on the number of threads or the size of the
     }
 }
 
-TEST_CASE("a face that fills rows longer than several batches is the same in tiles of any size") {
+TEST_CASE("a face whose rows span several batches is the same in tiles of any size") {
     const candela::CompiledScene scene = compiled(R"(version = 1
 shading = { model = "phong" }
 reflection = { model = "phong" }
@@ -136,7 +136,7 @@ TEST_CASE("the command writes the same file with one thread and with eight") {
     }
 }
 
-TEST_CASE("every instruction set gives the same picture but for rounding") {
+TEST_CASE("every instruction set renders the same picture except for rounding") {
     const Fixture fixture(1);
     const candela::InstructionSet before = candela::instruction_set();
     REQUIRE(candela::use_instruction_set(candela::InstructionSet::baseline));
@@ -145,8 +145,8 @@ TEST_CASE("every instruction set gives the same picture but for rounding") {
         INFO(candela::name_of(set));
         REQUIRE(candela::use_instruction_set(set));
         const auto picture = fixture.picture(2, 64);
-        // A hair of difference in a projected vertex moves an edge by a sub-pixel, and so may change a pixel
-        // on it.
+        // A tiny difference in a projected vertex moves an edge by a sub-pixel, which may change a pixel on
+        // it.
         std::size_t different = 0;
         for (std::size_t i = 0; i < picture.size(); ++i) {
             if (std::abs(picture[i] - expected[i]) > 1e-4f * std::max(1.0f, expected[i])) ++different;

@@ -53,7 +53,7 @@ std::optional<candela::embedding::Error> error_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("embedding: a picture in memory is what the core renders, in bytes and in floats") {
+TEST_CASE("embedding: a picture in memory is the core's, in bytes and in floats") {
     Scene scene = ball();
     CHECK(scene.warnings().empty());
     const BytePicture bytes = scene.render();
@@ -69,7 +69,7 @@ TEST_CASE("embedding: a picture in memory is what the core renders, in bytes and
     }
 }
 
-TEST_CASE("embedding: what is set shows in the next picture, and a wrong value leaves the scene as it was") {
+TEST_CASE("embedding: a setting shows in the next picture, and a wrong value leaves the scene unchanged") {
     Scene scene = ball();
     const float before = centre_of(scene.render_floats());
     CHECK(before > 0.1f);
@@ -85,7 +85,7 @@ TEST_CASE("embedding: what is set shows in the next picture, and a wrong value l
     CHECK(std::abs(centre_of(scene.render_floats()) - before) < 1e-3f);
 }
 
-TEST_CASE("embedding: an error has every problem with its place") {
+TEST_CASE("embedding: an error lists every problem with its place") {
     std::string text = k_ball;
     text.replace(text.find("intensity = 0.5"), 15, "intensity = -1");
     text.replace(text.find("\"sphere\""), 8, "\"spere\"");
@@ -101,7 +101,7 @@ TEST_CASE("embedding: an error has every problem with its place") {
     CHECK_THROWS_AS(Scene({"/there/is/no/such.toml"}, with_plugins()), candela::embedding::Error);
 }
 
-TEST_CASE("embedding: the default scene needs no file, and progress is told to the end") {
+TEST_CASE("embedding: the default scene needs no file, and progress is reported to the end") {
     std::size_t last = 0, whole = 0;
     candela::embedding::Options options = with_plugins();
     options.threads = 1;

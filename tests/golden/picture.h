@@ -18,7 +18,7 @@ struct Picture {
     }
 };
 
-/// Writes `scene` (TOML without its version) into `directory`, renders it to a PFM file with the command,
+/// Writes `scene` (TOML without its version) into `directory`, renders it to a PFM file with the command, and
 /// reads that.
 Picture render_floats(const std::filesystem::path& directory, const std::string& scene,
                       const std::vector<std::string>& arguments = {});

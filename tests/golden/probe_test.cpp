@@ -1,4 +1,4 @@
-// candela::probe(): the pixel that is explained is the picture's.
+// candela::probe(): an explained pixel is the picture's.
 #include <png.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Png {
     std::vector<std::uint8_t> rgb;
 };
 
-/// Read by libpng.
+/// Reads a PNG with libpng.
 Png read_png(const std::filesystem::path& file) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -48,7 +48,7 @@ bool are_close(candela::Vec3 a, candela::Vec3 b, float scale) {
     return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}) <= 1e-5f * scale;
 }
 
-/// The largest magnitude of any light's share: what rounding is relative to.
+/// The largest magnitude of any light's share, to which rounding errors are relative.
 float scale_of(const candela::PointTrace& point) {
     float scale = 1e-3f;
     for (const candela::LightTrace& light : point.lights) {

@@ -1,4 +1,4 @@
-// Light through real meshes, against the optics of perfect ones.
+// Compares light through real meshes with the optics of perfect shapes.
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <numbers>
@@ -39,7 +39,7 @@ segments = 256
 color = [255, 255, 255]
 )";
 
-/// A picture whose red says how far a direction points to +x, green to +y, blue to +z: each 0 to 1.
+/// A picture whose red, green and blue are a direction's components along +x, +y and +z, mapped to 0 to 1.
 candela::Environment compass() {
     constexpr int k_width = 1024, k_height = 512;
     std::vector<float> intensity;
@@ -57,13 +57,13 @@ candela::Environment compass() {
 
 }  // namespace
 
-TEST_CASE("a glass ball shows the world upside down, as Snell's law and Fresnel's equations say") {
+TEST_CASE("a glass ball shows the world upside down, by Snell's law and Fresnel's equations") {
     candela::CompiledScene scene =
         compiled(std::string(k_ball) + "[object.material]\ninternal_reflections = 0\n").scene;
     scene.environment = compass();
     const std::vector<float> picture = rendered(scene);
-    // Along the middle row the path stays in the plane y = 0: two refractions, each turning by theta_1 -
-    // theta_2.
+    // Along the middle row the path stays in the plane y = 0, with two refractions that each turn it by
+    // theta_1 - theta_2.
     int compared = 0;
     for (int column = 0; column < 110; ++column) {
         const double x = (column + 0.5 - 55) * 0.02;
@@ -78,7 +78,7 @@ TEST_CASE("a glass ball shows the world upside down, as Snell's law and Fresnel'
         const double turned = 2 * (incident - refracted), mirrored = 2 * incident;
         const double through[] = {-std::sin(turned), 0, -std::cos(turned)};
         const double mirror[] = {std::sin(mirrored), 0, std::cos(mirrored)};
-        // Pixel middles are half a pixel, 0.01, off that plane.
+        // Pixel centres are half a pixel, 0.01, off that plane.
         const std::size_t first = 3 * (std::size_t{55} * 110 + static_cast<std::size_t>(column));
         INFO("x = " << x);
         for (std::size_t c = 0; c < 3; ++c) {
@@ -90,7 +90,7 @@ TEST_CASE("a glass ball shows the world upside down, as Snell's law and Fresnel'
     CHECK(compared > 90);
 }
 
-TEST_CASE("clear objects of any shape cannot be seen in surroundings of one intensity") {
+TEST_CASE("transparent objects of any shape are invisible in surroundings of one intensity") {
     for (const char* const shape : {"sphere", "cube", "torus", "teapot"}) {
         for (const char* const shading : {"flat", "gouraud", "phong"}) {
             INFO(shape << ", " << shading);

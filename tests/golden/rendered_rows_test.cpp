@@ -1,4 +1,4 @@
-// A picture by bands of rows is the picture in one go.
+// A picture rendered in bands of rows is the picture rendered at once.
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>
@@ -50,12 +50,12 @@ bool are_equal(std::span<const T> some, std::span<const T> all, std::size_t at) 
 
 }  // namespace
 
-TEST_CASE("a film of some rows is given what the whole picture has there") {
+TEST_CASE("a film of some rows gets the whole picture's content there") {
     for (const int samples : {1, 8}) {
         const Compiled compiled_scene = compiled(scene_of(203, 331, samples));
         const candela::CompiledScene& scene = compiled_scene.scene;
         const candela::Film whole = picture_of(scene, candela::PixelType::real);
-        // Where tiles begin and end, and where they do not.
+        // At tile borders and within tiles.
         for (const candela::RowRange rows :
              {candela::RowRange{0, 64}, {64, 192}, {13, 14}, {50, 331}, {320, 331}}) {
             for (const int tile_size : {0, 16, 128}) {
@@ -72,7 +72,7 @@ TEST_CASE("a film of some rows is given what the whole picture has there") {
     }
 }
 
-TEST_CASE("rows that are asked for in any number are those of the picture, over several bands") {
+TEST_CASE("rows requested in any number are those of the picture, across several bands") {
     // A band has 64 MB: 320 of these rows.
     const Compiled compiled_scene = compiled(scene_of(65536, 700));
     const candela::CompiledScene& scene = compiled_scene.scene;

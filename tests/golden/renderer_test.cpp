@@ -1,4 +1,4 @@
-// What is kept of one picture serves the next, and never shows in it.
+// Data cached from one picture speed up the next, and never change it.
 #include <unistd.h>
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
@@ -89,7 +89,8 @@ class Fixture {
 
 }  // namespace
 
-TEST_CASE("a picture from what was kept is the picture rendered anew, whatever of the light has changed") {
+TEST_CASE(
+    "a picture from cached visibility equals one rendered from scratch, whatever changed about the light") {
     for (const int samples : {1, 4}) {
         Fixture fixture(k_scene);
         fixture.scene.image.samples = samples;
@@ -110,7 +111,7 @@ TEST_CASE("a picture from what was kept is the picture rendered anew, whatever o
             "half-lambert", test_registry().parameters(candela::PluginKind::reflection, "half-lambert"),
             candela::ColorEncoding::srgb);
         fixture.require_same(renderer);
-        // Where light is evaluated is no matter of visibility either.
+        // Visibility does not depend on where light is evaluated either.
         fixture.scene.objects[0].surface.shading = test_registry().create<candela::ShadingModel>(
             "phong", test_registry().parameters(candela::PluginKind::shading, "phong"),
             candela::ColorEncoding::srgb);
@@ -120,7 +121,7 @@ TEST_CASE("a picture from what was kept is the picture rendered anew, whatever o
     }
 }
 
-TEST_CASE("what was kept is not used where the observer, the samples, the size or the objects are others") {
+TEST_CASE("the cache is not used if the observer, the samples, the size or the objects differ") {
     Fixture fixture(k_scene);
     candela::Renderer renderer(candela::Renderer::Keep::visibility);
     fixture.require_same(renderer);
@@ -136,7 +137,7 @@ TEST_CASE("what was kept is not used where the observer, the samples, the size o
     fixture.require_same(renderer);
 }
 
-TEST_CASE("a mesh that was changed in place is seen once visibility is cleared") {
+TEST_CASE("a mesh changed in place is visible once visibility is cleared") {
     Fixture fixture(k_scene);
     candela::Renderer renderer(candela::Renderer::Keep::visibility);
     fixture.require_same(renderer);
@@ -145,7 +146,7 @@ TEST_CASE("a mesh that was changed in place is seen once visibility is cleared")
     fixture.require_same(renderer);
 }
 
-TEST_CASE("a picture that failed is not taken for one that was kept") {
+TEST_CASE("a failed picture does not count as cached") {
     Fixture fixture(k_scene);
     candela::Renderer renderer(candela::Renderer::Keep::visibility);
     candela::Film film(fixture.scene.image.width, fixture.scene.image.height, candela::PixelType::byte,
@@ -155,11 +156,11 @@ TEST_CASE("a picture that failed is not taken for one that was kept") {
     fixture.require_same(renderer);
 }
 
-// A sanitizer keeps memory back on purpose.
+// A sanitizer deliberately holds back memory.
 #if !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer)
 namespace {
 
-/// Bytes of memory that this process holds.
+/// The memory that this process holds, in bytes.
 std::size_t resident() {
     std::ifstream statm("/proc/self/statm");
     std::size_t all = 0, in_memory = 0;
@@ -175,8 +176,8 @@ TEST_CASE("the thousandth picture holds no more memory than the hundredth", "[wh
     const auto render = [&](int pictures) {
         for (int i = 0; i < pictures; ++i) {
             fixture.scene.observer.position.x = 0.3f + 0.01f * static_cast<float>(i % 7);
-            fixture.by(renderer);  // seen anew
-            fixture.by(renderer);  // lit anew
+            fixture.by(renderer);  // visibility computed again
+            fixture.by(renderer);  // lit again
             fixture.anew();
         }
     };

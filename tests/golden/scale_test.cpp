@@ -13,7 +13,7 @@
 
 namespace {
 
-/// A ball, a ring and a teapot on a floor that passes under the observer, `unit` metres large.
+/// A ball, a ring and a teapot on a floor that extends under the observer, `unit` metres large.
 std::string scene(double unit) {
     const auto at = [&](double x, double y, double z) {
         return fmt::format("[{}, {}, {}]", x * unit, y * unit, z * unit);

@@ -1,4 +1,4 @@
-// Textured pictures, worked out by hand: a surface that shows its texture as it is, pixel by pixel.
+// Textured pictures, computed by hand: a surface that shows its texture unchanged, pixel by pixel.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace {
 
-/// A square of two metres in the plane z = 0 that faces the observer, the picture once over it.
+/// A square of two metres in the plane z = 0 that faces the observer, covered once by the picture.
 constexpr const char* k_square =
     "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
     "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n";
@@ -50,7 +50,7 @@ bool is_about(float value, double expected) { return std::abs(static_cast<double
 
 }  // namespace
 
-TEST_CASE("golden: a texture whose texels are pixels is shown as it is") {
+TEST_CASE("golden: a texture whose texels are pixels is shown unchanged") {
     std::vector<int> texels;
     for (int i = 0; i < 64; ++i) texels.push_back(4 * i);
     const Picture picture = textured(grey_ppm(8, 8, texels), 8);
@@ -66,7 +66,8 @@ TEST_CASE("golden: a magnified checkerboard is bilinear between the centres of i
     // Two by two texels on 32 pixels: a texel is 16 wide, and the picture repeats around it.
     const Picture picture = textured(grey_ppm(2, 2, {255, 0, 0, 255}), 32);
     const auto white_across = [](int pixel) {
-        // The share of column 0 at the pixel's centre: 1 at its centre (8), 0 at that of column 1 (24).
+        // The share of column 0 at the pixel's centre: 1 at the centre of column 0 (8), 0 at that of column 1
+        // (24).
         const double at = pixel + 0.5, from_first = std::abs(at - 8) / 16;
         return from_first <= 1 ? 1 - from_first : from_first - 1;
     };
@@ -79,7 +80,7 @@ TEST_CASE("golden: a magnified checkerboard is bilinear between the centres of i
     }
 }
 
-TEST_CASE("golden: a checkerboard finer than the pixels is its mean") {
+TEST_CASE("golden: a checkerboard finer than the pixels is shown as its mean") {
     std::vector<int> texels;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) texels.push_back((x + y) % 2 == 0 ? 255 : 0);
@@ -93,15 +94,15 @@ TEST_CASE("golden: a minified ramp shows the means of the texels in each pixel")
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) texels.push_back(4 * x);
     const Picture picture = textured(grey_ppm(64, 64, texels), 16);
-    // Four texels a pixel: 4 (4x + 1.5) / 255.
+    // Four texels per pixel: 4 (4x + 1.5) / 255.
     for (int x = 0; x < 16; ++x) REQUIRE(is_about(picture.at(x, 7).x, 4 * (4 * x + 1.5) / 255));
 }
 
-TEST_CASE("golden: the colours of a texture are decoded as those of objects are") {
+TEST_CASE("golden: the colours of a texture are decoded like those of objects") {
     // 188 is 0.502886 in linear light (IEC 61966-2-1).
     const Picture picture = textured(grey_ppm(1, 1, {188}), 4, "", "srgb");
     CHECK(is_about(picture.at(2, 2).x, std::pow((188.0 / 255 + 0.055) / 1.055, 2.4)));
-    SECTION("and multiplied with the object's") {
+    SECTION("and multiplied by the object's") {
         const Picture product = textured(grey_ppm(1, 1, {188}), 4, "", "none");
         CHECK(is_about(product.at(2, 2).x, 188.0 / 255));
     }
@@ -134,8 +135,8 @@ TEST_CASE("golden: in perspective the mip level follows the footprint of the pix
     };
     // Row 199 looks down by almost 30 degrees: two metres away, where a pixel is a centimetre.
     CHECK(contrast(199) > 0.7f);
-    // One pixel below the horizon it is 173 metres away, beyond the floor; at five, 35 metres: a pixel covers
-    // seven metres along the view, fourteen squares.
+    // One pixel below the horizon is 173 metres away, beyond the floor; at five pixels, 35 metres: a pixel
+    // covers seven metres along the view, fourteen squares.
     CHECK(contrast(105) < 0.02f);
     CHECK(is_about(picture.at(100, 105).x, 0.5));
 }
@@ -167,11 +168,11 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "golden: flat faces have the texture's colour at their middle, and Gouraud shading that at vertices") {
+    "golden: flat faces have the texture's colour at their centroid, and Gouraud shading that at vertices") {
     std::vector<int> texels;
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 3; ++x) texels.push_back(100 * x + 20 * y);
-    // The centroid of the lower right triangle is (2/3, 1/3): between texels 1 and 2, of which it is at 1.5.
+    // The centroid of the lower right triangle is (2/3, 1/3): halfway between texels 1 and 2.
     const Picture flat =
         textured(grey_ppm(3, 3, texels), 8, "shading = \"flat\"\ncolor_texture_wrap = \"clamp\"");
     CHECK(is_about(flat.at(6, 6).x, (100 * 1.5 + 20 * 1.5) / 255));

@@ -1,6 +1,6 @@
-"""Mutants of what frames and parts of pictures are asked for with, and of the records beside them: none may end a verb with a
-signal, keep it busy for more than ten seconds, make it print what is not UTF-8 or controls a terminal, leave an unfinished file
-behind, or be taken for what it is not.
+"""Mutants of command lines and records of frames and parts of pictures: none may end a verb with a signal, keep it busy for more
+than ten seconds, make it print invalid UTF-8 or terminal control characters, leave an unfinished file behind, or be mistaken for
+something else.
 
     films.py CANDELA [--count N] [--seed S] [--kind KIND] [--keep FOLDER] [--jobs J]
 
@@ -66,7 +66,7 @@ SEEDS = [word.encode() for words in COMMANDS for word in words[1:]]
 
 
 def argument_of(word: str, chance) -> str:
-    """A mutant that names no file elsewhere; of no film either, which would measure ffmpeg."""
+    """A mutant that does not name files elsewhere, nor a film, which would test ffmpeg."""
     mutant = hostile.mutated(word.encode("utf-8", "surrogateescape"), SEEDS, chance, WORDS).replace(b"\0", b"")[:300]
     while b"../" in mutant or mutant.startswith(b"/"):
         mutant = mutant.replace(b"../", b"").lstrip(b"/")
@@ -110,11 +110,11 @@ def jobs(candela: str, directory: Path, chance) -> str:
         _, wrong = hostile.run([candela, "status", "f", *options], directory, codes=(0, 1, 2))
         if wrong:
             return f"{changed.name}: {wrong}"
-    return "" if files_below(directory) == before else f"{changed.name}: status has written something"
+    return "" if files_below(directory) == before else f"{changed.name}: status has written a file"
 
 
 def frames(candela: str, directory: Path, chance) -> str:
-    """Whatever a record says, the frames are those of the scene."""
+    """Whatever a record contains, the frames are those of the scene."""
     pictures = {path: path.read_bytes() for path in directory.glob("f/*.png")}
     changed = change_one(directory, "f/.candela/*.png", chance)
     if chance.randrange(2):
@@ -127,15 +127,15 @@ def frames(candela: str, directory: Path, chance) -> str:
 
 
 def parts(candela: str, directory: Path, chance) -> str:
-    """A description or a record that is wrong makes no picture that is wrong."""
+    """A wrong description or record does not make a wrong picture."""
     changed = change_one(directory, chance.choice(("p.tif.parts/*.json", "p.tif.parts/.candela/*", "p.tif.parts/*.pixels")), chance)
     done, wrong = hostile.run([candela, "assemble", "p.tif", "--keep-parts"], directory, codes=(0, 1, 2))
     if wrong:
         return f"{changed.name}: {wrong}"
     picture = directory / "p.tif"
     if done.returncode != 0:
-        return f"{changed.name}: there is a picture, and exit code {done.returncode}" if picture.exists() else ""
-    return "" if picture.read_bytes() == RIGHT.read_bytes() else f"{changed.name}: the picture is another"
+        return f"{changed.name}: there is a picture despite exit code {done.returncode}" if picture.exists() else ""
+    return "" if picture.read_bytes() == RIGHT.read_bytes() else f"{changed.name}: the picture is wrong"
 
 
 RIGHT = TEMPLATE / "right.tif"

@@ -1,6 +1,6 @@
-"""What the runs over hostile files share: mutants, what holds for every run of the command, and the loop over them.
+"""Shared by the runs over hostile files: mutants, the checks of every run of the command, and the loop over them.
 
-A mutant is chosen by the name of its kind, a seed and its number only: number I is the same for every count and on
+A mutant depends only on the name of its kind, a seed and its number: number I is the same for every count and on
 every machine.
 """
 import argparse
@@ -37,7 +37,7 @@ def spans_of_digits(data: bytes):
 
 
 def mutated(data: bytes, others: list, chance: random.Random, words: list) -> bytes:
-    """`data` with up to six changes; `others` are files to copy from, `words` what means something in such a file."""
+    """`data` with up to six changes; `others` are files to copy from, `words` are meaningful words of such a file."""
     for _ in range(chance.choice((1, 1, 1, 2, 3, 6))):
         kind = chance.randrange(10)
         at = chance.randrange(len(data) + 1)
@@ -69,12 +69,12 @@ def mutated(data: bytes, others: list, chance: random.Random, words: list) -> by
     return data
 
 
-# Format characters that can be seen: signs of numbers and years in Arabic, Syriac and Kaithi.
+# Visible format characters: signs of numbers and years in Arabic, Syriac and Kaithi.
 VISIBLE = {chr(c) for c in [*range(0x600, 0x606), 0x6DD, 0x70F, 0x890, 0x891, 0x8E2, 0x110BD, 0x110CD]}
 
 
 def unprintable(output: bytes) -> str:
-    """What no terminal should be sent: bytes that are not UTF-8, and characters that control it or the text's direction."""
+    """Finds output unfit for a terminal: invalid UTF-8, and characters that control the terminal or the text's direction."""
     try:
         text = output.decode()
     except UnicodeDecodeError as problem:
@@ -86,8 +86,8 @@ def unprintable(output: bytes) -> str:
 
 
 def run(command: list, directory: Path, codes: tuple, environment: dict = None, most_memory: int = 0):
-    """The finished process, and what is wrong with every run that ends like this (an empty string: nothing).
-    `most_memory`: bytes that may be in memory at once, unless address spaces are unlimited; 0: any number."""
+    """The finished process, and its problem, if it ended in a way that is always wrong (otherwise an empty string).
+    `most_memory`: the allowed peak memory in bytes, unless address spaces are unlimited; 0: unlimited."""
     measured = [sys.executable, "-BIS", __file__, directory / "usage", *command] if most_memory else command
     try:
         done = subprocess.run(["prlimit", f"--cpu={LIMIT}", f"--as={address_space}", *measured], cwd=directory,
@@ -102,18 +102,18 @@ def run(command: list, directory: Path, codes: tuple, environment: dict = None, 
     if wrong := unprintable(done.stdout + done.stderr):
         return done, wrong
     if done.returncode != 0 and not done.stderr and not done.stdout:
-        return done, "it fails and says nothing"
+        return done, "it fails without a message"
     return done, ""
 
 
 def sweep(document: str, count: int, kinds: list, trial) -> int:
-    """The program of a run: `trial(candela, directory, kind, chance, index)` says what is wrong with one mutant, or
-    nothing, and leaves what it was made of in `directory`."""
+    """The program of a run: `trial(candela, directory, kind, chance, index)` returns the problem of one mutant, or nothing, and leaves
+    its files in `directory`."""
     global address_space
     parser = argparse.ArgumentParser(description=document, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("candela", type=lambda path: str(Path(path).resolve()))
     parser.add_argument("--count", type=int, default=count, help=f"mutants of each kind; default: {count}")
-    parser.add_argument("--seconds", type=float, help="instead: as many of each kind in turn as there is time for")
+    parser.add_argument("--seconds", type=float, help="instead of --count: as many of each kind in turn as fit into this time")
     parser.add_argument("--first", type=int, default=0, help="the number of the first mutant")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kind", action="append", choices=kinds, help="may be repeated; default: all")
@@ -131,7 +131,7 @@ def sweep(document: str, count: int, kinds: list, trial) -> int:
             problem = trial(options.candela, directory, kind, random.Random(f"{kind} {options.seed} {index}"), index)
             if problem and options.keep:
                 options.keep.mkdir(parents=True, exist_ok=True)
-                # Pipes and files without end are kept as such.
+                # Pipes and endless files are kept as such.
                 subprocess.run(["cp", "-a", "--sparse=always", directory, options.keep], check=False)
             shutil.rmtree(directory)
             return index, problem
@@ -160,7 +160,7 @@ def sweep(document: str, count: int, kinds: list, trial) -> int:
 
 
 def measure(usage: str, command: list) -> int:
-    """Runs a command, and writes to a file how many bytes it had in memory at most."""
+    """Runs a command, and writes its peak memory in bytes to a file."""
     code = subprocess.run(command, check=False).returncode
     Path(usage).write_text(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss << 10))
     return code if code >= 0 else 128 - code

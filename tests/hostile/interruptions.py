@@ -1,6 +1,5 @@
-"""Interrupted commands: SIGINT, SIGTERM or SIGHUP at a random moment leaves what was there before or the whole new
-result, nothing beside it, no temporary file and no process, within ten seconds. Of jobs and animations, that is so
-for each picture.
+"""Interrupted commands: SIGINT, SIGTERM or SIGHUP at a random moment leaves the old files or the complete new result, nothing
+else, no temporary file and no process, within ten seconds. For jobs and animations, this holds for each picture.
 
     interruptions.py CANDELA [--count N] [--kind render-over|check|verify-over|...] [--seed S] [--keep FOLDER] [--jobs J]
 
@@ -22,7 +21,7 @@ import hostile
 UNFINISHED = ".candela-"  # and a number
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 LIMIT = 10  # seconds from the signal to the end
-SETTLED = 2  # seconds after the end until all is gone: a killed program may have a system call left to finish
+SETTLED = 2  # seconds after the end until everything is gone: a killed program may have to finish a system call
 
 SCENE = """version = 1
 [observer]
@@ -53,12 +52,12 @@ SMALL = {"size": 120, "segments": 16}
 @dataclass
 class Kind:
     words: list  # after `candela`, in a folder with scene.toml, a.ppm, b.ppm and out/, where all results go
-    replaces: bool = False  # something of an earlier run is there
+    replaces: bool = False  # there is output of an earlier run
     scene: dict = None
-    piped: bool = False  # the scene comes from a pipe, and the picture goes to one
+    piped: bool = False  # the scene comes from a pipe, and the picture goes to a pipe
     codes: tuple = (0,)
     reproducible: bool = True  # two runs write the same bytes
-    piecewise: bool = False  # each picture is old or new by itself, and what is in .candela/ is of this run
+    piecewise: bool = False  # each picture by itself is old or new, and .candela/ is of this run
     more: str = ""  # of the scene
 
 
@@ -102,7 +101,7 @@ def contents_of(folder: Path) -> dict:
 
 
 def processes_in(temporary: str) -> list:
-    """Whoever has inherited this folder for temporary files."""
+    """The processes that have inherited this folder for temporary files."""
     found = []
     for entry in Path("/proc").iterdir():
         try:
@@ -114,7 +113,7 @@ def processes_in(temporary: str) -> list:
 
 
 class Bench:
-    """A folder to run a kind of command in, with what it needs."""
+    """A folder to run a kind of command in, with its input files."""
 
     def __init__(self, candela: str, kind: Kind, folder: Path, scene: str):
         self.folder, self.kind, self.out = folder, kind, folder / "out"
@@ -145,8 +144,8 @@ class Bench:
 
 @dataclass
 class Reference:
-    old: dict  # what out/ holds after an earlier run, or nothing
-    new: dict  # what it holds after this one
+    old: dict  # the content of out/ after an earlier run, or nothing
+    new: dict  # its content after this run
     seconds: float  # that a run takes
     folder: Path
 
@@ -156,7 +155,7 @@ lock = threading.Lock()
 
 
 def reference_for(candela: str, name: str, scratch: Path) -> Reference:
-    """What uninterrupted runs leave; made once."""
+    """The results of uninterrupted runs; made once."""
     with lock:
         if name in references:
             return references[name]
@@ -187,7 +186,7 @@ def is_own(path: str) -> bool:
 
 
 def wrong_pieces(found: dict, reference: Reference) -> str:
-    """What is neither of the old results nor of the new ones, file by file."""
+    """Files that are neither old results nor new ones, file by file."""
     for path, content in found.items():
         if UNFINISHED in path:
             return f"it leaves {path}"
@@ -208,14 +207,14 @@ def is_whole_new(kind: Kind, found: dict, reference: Reference) -> bool:
 
 
 def wrong_with(name: str, found: dict, reference: Reference) -> str:
-    """What is neither the old result nor the whole new one."""
+    """The problem of a result that is neither the old one nor the complete new one."""
     if found in (reference.old, reference.new):
         return ""
     kind = KINDS[name]
     if kind.piecewise:
         return wrong_pieces(found, reference)
     if not kind.reproducible and set(found) == set(reference.new):
-        # A report of this run: its page is the last that is written.
+        # A report of this run: its page is written last.
         return ""
     strange = sorted(set(found) - set(reference.old) - set(reference.new))
     if strange:
@@ -225,7 +224,7 @@ def wrong_with(name: str, found: dict, reference: Reference) -> str:
 
 
 def left_by(bench: Bench) -> str:
-    """The programs and temporary files that are still there after a while."""
+    """The programs and temporary files that remain after a while."""
     until = time.monotonic() + SETTLED
     while True:
         if alive := processes_in(bench.temporary):
@@ -249,7 +248,7 @@ def problem_of(candela: str, directory: Path, name: str, chance, _index: int) ->
         shutil.copytree(reference.folder / "old", bench.out, dirs_exist_ok=True)
     number = chance.choice(SIGNALS)
     moment = chance.uniform(0, 1.1 * reference.seconds)
-    # Films are made last, by a program of their own, which a random moment would rarely meet.
+    # Films are encoded last, by a separate program, which a random moment would rarely hit.
     while_encoding = bool(kind.more) and chance.randrange(2) == 0
     process = bench.start()
     ended = threading.Event()
@@ -285,7 +284,7 @@ def problem_of(candela: str, directory: Path, name: str, chance, _index: int) ->
     elif wrong := hostile.unprintable((b"" if kind.piped else said[0]) + said[1]):
         problem = wrong
     elif process.returncode in kind.codes and kind.reproducible and not is_whole_new(kind, contents_of(bench.out), reference):
-        problem = "it ends well, and its result is not the whole new one"
+        problem = "it succeeds, but its result is not the complete new one"
     else:
         problem = wrong_with(name, contents_of(bench.out), reference)
     problem = problem or left_by(bench)

@@ -1,12 +1,12 @@
-"""Folders of jobs, frames and parts that somebody else has filled: links to files and folders of others, other names of files,
-pipes, sockets, folders in place of files, files without end, plans and journals that lie, and odd names. None may end `submit`,
-`animate`, `status`, `render --part` or `assemble` with a signal, keep it busy for more than ten seconds or have it take more than
-4 GB, make it print what is not UTF-8 or controls a terminal, change what is outside, leave something unfinished, or have it call
-something done that is not.
+"""Folders of jobs, frames and parts filled by an attacker: links to other users' files and folders, hard links,
+pipes, sockets, folders in place of files, endless files, lying plans and journals, and odd names. None may end `submit`,
+`animate`, `status`, `render --part` or `assemble` with a signal, keep it busy for more than ten seconds or make it use more than
+4 GB, make it print invalid UTF-8 or terminal control characters, change files outside, leave unfinished files, or make it report
+unfinished work as done.
 
     job_folders.py CANDELA [--count N] [--seconds S] [--kind links|files|values|names] [--seed S] [--keep FOLDER] [--jobs J]
 
-N folders of each kind. Whatever they lead to is a folder of this run's own, whose files are compared afterwards.
+N folders of each kind. Links lead to this run's own folder, whose files are compared afterwards.
 """
 import json
 import os
@@ -23,7 +23,7 @@ import films
 import hostile
 from films import SCENE, UNFINISHED, WORDS, made
 
-# What Candela names; of what -o names itself, links are followed.
+# Files that Candela names; links named by -o itself are followed.
 OWNED = [f"f/{name}" for name in (".candela", ".candela/jobs", ".candela/0000.png", ".candela/0002.png", "0000.png", "0001.png")]
 OWNED += [f"f/.candela/jobs/%04d.png{name}" for name in ("", "/plan.json", "/tasks", "/tasks.sh", "/finish.sh", "/0..0.json", "/0..2.json",
                                                          "/2..2.json", "/finish.json", "/1.log", "/finish.log")]
@@ -44,7 +44,7 @@ ENVIRONMENT = dict(os.environ, PATH=f"{TEMPLATE / 'bin'}:{os.environ['PATH']}")
 
 
 def make_template(candela: str) -> None:
-    """A job and a picture's parts, and as victims copies of all that Candela would know in them."""
+    """A job and a picture's parts, and as victims copies of all files that Candela would recognise in them."""
     work, victims = TEMPLATE / "made" / "work", TEMPLATE / "made" / "victims"
     work.mkdir(parents=True)
     victims.mkdir()
@@ -65,7 +65,7 @@ def make_template(candela: str) -> None:
 
 
 def state_of(folder: Path) -> dict:
-    """Of all that is in a folder what a command could change; of a file without end not its bytes."""
+    """The state of a folder that a command could change, without the bytes of endless files."""
     result = {}
     for path in sorted(folder.rglob("*")):
         status = path.lstat()
@@ -83,7 +83,7 @@ def remove(path: Path) -> None:
 
 
 def cleared(work: Path, name: str):
-    """A path to put something at, or nothing if something before it is in the way."""
+    """A path to put something at, or nothing if an earlier change is in the way."""
     path = work / name
     for parent in list(path.relative_to(work).parents)[-2::-1]:
         if (work / parent).is_symlink() or not (work / parent).is_dir():
@@ -109,7 +109,7 @@ def put_link(work: Path, chance) -> None:
 
 
 def put_socket(path: Path) -> None:
-    """By a short name: a socket's may have 107 characters."""
+    """Under a short name: a socket's is limited to 107 characters."""
     folder = os.open(path.parent, os.O_PATH)
     try:
         with socket.socket(socket.AF_UNIX) as made_here:
@@ -119,7 +119,7 @@ def put_socket(path: Path) -> None:
 
 
 def put_file(work: Path, chance) -> None:
-    """Something else in the place of a file."""
+    """Puts something else in place of a file."""
     name = chance.choice(OWNED)
     kind = chance.randrange(8)
     if kind >= 6:
@@ -156,7 +156,7 @@ def places_in(value, found: list) -> list:
 
 
 def put_value(work: Path, chance) -> None:
-    """A plan, a journal or a description that says something else."""
+    """Changes the content of a plan, a journal or a description."""
     found = sorted(path for path in work.rglob("*.json") if path.is_file() and not path.is_symlink())
     path = chance.choice(found)
     try:
@@ -184,7 +184,7 @@ def put_value(work: Path, chance) -> None:
 
 
 def put_name(work: Path, chance) -> None:
-    """Something of an odd name among the jobs."""
+    """Puts an entry with an odd name among the jobs."""
     jobs = work / "f" / ".candela" / "jobs"
     path = jobs / os.fsdecode(chance.choice(NAMES))
     if not jobs.is_dir() or os.path.lexists(path):
@@ -196,7 +196,7 @@ def put_name(work: Path, chance) -> None:
 
 
 def strange_line_of(script: Path) -> str:
-    """A line of a job script that is not one of Candela's."""
+    """A line of a job script that Candela does not write."""
     is_small = stat.S_ISREG(script.lstat().st_mode) and script.lstat().st_size < 1 << 20
     for line in script.read_bytes().split(b"\n") if is_small else ():
         if line.startswith(b"#SBATCH ") and not os.fsdecode(line[8:]).startswith(OPTIONS):
@@ -205,7 +205,7 @@ def strange_line_of(script: Path) -> str:
 
 
 def wrong_after(words: list, code: int, work: Path) -> str:
-    """What a command has called done, and is not."""
+    """Work that a command reported as done but is not."""
     if code == 0 and words[0] in ("animate", "submit") and "p.tif" not in words and "slurm" not in words and "print" not in words:
         frames = Path(os.fsdecode(words[words.index("-o") + 1])).parent
         for i in range(3):
@@ -240,9 +240,9 @@ def problem_of(candela: str, directory: Path, kind: str, chance, _index: int) ->
         before = state_of(work) if words[0] == "status" else None
         done, wrong = hostile.run([candela, *words], work, (0, 1, 2, 3, 4), ENVIRONMENT)
         if not wrong and state_of(directory / "victims") != victims:
-            wrong = "it has changed what is outside"
+            wrong = "it has changed files outside"
         if not wrong and before is not None and state_of(work) != before:
-            wrong = "it has written something"
+            wrong = "it has written a file"
         if not wrong:
             wrong = wrong_after(words, done.returncode, work)
         wrong = wrong or next(filter(None, (strange_line_of(script) for script in work.rglob("*.sh"))), "")

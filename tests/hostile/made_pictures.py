@@ -1,4 +1,4 @@
-"""Pictures made up byte by byte: headers that are nearly right, of any size, in every format that a texture may have."""
+"""Pictures made up byte by byte: nearly valid headers, of any size, in every format that a texture may have."""
 import random
 import struct
 import zlib
@@ -12,7 +12,7 @@ def size(chance: random.Random) -> int:
 
 
 def body(chance: random.Random) -> bytes:
-    """Pixels, or what passes for them: mostly too few."""
+    """Pixel data, or a substitute: mostly too few."""
     count = chance.choice((0, 1, 10, 100, 1000, 5000))
     kind = chance.randrange(3)
     if kind == 0:
@@ -73,7 +73,7 @@ def jpeg(chance: random.Random) -> bytes:
     huffman = bytes([0]) + bytes([0, 1] + [0] * 14) + bytes([0]) + bytes([0x10]) + bytes([0, 1] + [0] * 14) + bytes([0])
     result = b"\xff\xd8" + segment(0xDB, bytes(1) + bytes([1]) * 64) + segment(0xC4, huffman)
     result += segment(chance.choice((0xC0, 0xC2, 0xC2, 0xC9, 0xC3)), frame)
-    for _ in range(chance.choice((1, 1, 2, 200, 2000))):  # a progressive one may go over its pixels any number of times
+    for _ in range(chance.choice((1, 1, 2, 200, 2000))):  # a progressive one may have any number of scans
         scan = bytes([parts]) + b"".join(bytes([i + 1, 0]) for i in range(parts)) + bytes([0, chance.choice((0, 63)), 0])
         result += segment(0xDA, scan) + body(chance)[:chance.choice((0, 1, 10))].replace(b"\xff", b"")
     return result + b"\xff\xd9"
@@ -147,5 +147,5 @@ MAKERS = {"png": png, "ppm": pixmap, "pfm": pixmap, "pnm": pixmap, "hdr": radian
 
 
 def made(kind: str, chance: random.Random) -> bytes:
-    """A picture of that kind; now and then of another, as files whose names lie."""
+    """A picture of that kind, or sometimes of another, like files with wrong names."""
     return MAKERS[chance.choice(sorted(MAKERS)) if chance.random() < 0.1 else kind](chance)

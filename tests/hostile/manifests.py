@@ -1,10 +1,10 @@
 """Mutants of manifests and plugin folders: none may end `list`, `describe`, `plugin doctor` or `check` with a signal,
-keep it busy for more than ten seconds, make it print what is not UTF-8 or controls a terminal, or be replaced in
-silence.
+keep it busy for more than ten seconds, make it print invalid UTF-8 or terminal control characters, or be replaced
+silently.
 
     manifests.py CANDELA [--count N] [--kind manifest|library|folder] [--seed S] [--keep FOLDER] [--jobs J]
 
-N mutants of each kind, made from the plugins beside CANDELA.
+N mutants of each kind, made from CANDELA's plugins.
 """
 import json
 import os
@@ -42,7 +42,7 @@ def plugins_of(candela: str) -> list:
 
 
 def disturb(directory: Path, manifest: Path, library: Path, chance) -> None:
-    """Something that befalls folders."""
+    """Damages a folder."""
     kind = chance.randrange(8)
     target = chance.choice((manifest, library))
     if kind == 0:
@@ -87,7 +87,7 @@ def problem_of(candela: str, directory: Path, kind: str, chance, _index: int) ->
         manifest.write_bytes(hostile.mutated(original.read_bytes(), texts, chance, WORDS))
     elif kind == "library":
         content = library.read_bytes()
-        # An ELF file's code is code; what is read before anything of it runs is not.
+        # Mutates the parts of an ELF file that are read before its code runs, not the code.
         head = hostile.mutated(content[:4096], [content[:4096]], chance, [b"\x7fELF", b"\xff\xff\xff\xff"])
         library.write_bytes(chance.choice((head, content[:chance.randrange(len(content))], head[:64], b"\x7fELF" + head[8:])))
     else:
@@ -107,7 +107,7 @@ def problem_of(candela: str, directory: Path, kind: str, chance, _index: int) ->
         json.loads(manifest.read_bytes() if manifest.is_file() else b"?")
     except ValueError:
         if manifest.is_file() and "check" in command and plugin_kind in models and done.returncode == 0:
-            return f"{words}: its manifest is unreadable, and nothing is said"
+            return f"{words}: its manifest is unreadable, but there is no message"
     except OSError:
         pass
     return ""

@@ -1,5 +1,5 @@
 """Mutants of mesh files: none may end Candela with a signal, keep it busy for more than ten seconds, or make it print
-what is not UTF-8 or controls a terminal.
+invalid UTF-8 or terminal control characters.
 
     meshes.py CANDELA [--count N] [--kind ply|stl|obj|gltf|glb] [--seed S] [--keep FOLDER] [--jobs J]
 

@@ -1,5 +1,5 @@
-"""Hostile pictures, as textures, as environments and as what `candela diff` compares: none may end a program with a signal,
-keep it busy for more than ten seconds, take more than half a gigabyte, or make it print what is not UTF-8 or controls a terminal.
+"""Hostile pictures as textures, as environments and as input of `candela diff`: none may end a program with a signal, keep it busy
+for more than ten seconds, take more than half a gigabyte, or make it print invalid UTF-8 or terminal control characters.
 
     pictures.py CANDELA [--count N | --seconds T] [--kind png|ppm|pfm|hdr|exr|…] [--seed S] [--keep FOLDER] [--jobs J]
 

@@ -1,6 +1,6 @@
 """Mutants of scenes: none may end `candela check` with a signal, keep it busy for more than ten seconds, or make it
-print what is not UTF-8 or controls a terminal; and every error has a place: file, line and column, or
-the file where it concerns the whole of it.
+print invalid UTF-8 or terminal control characters; and every error has a place: file, line and column, or only the file if it
+concerns the whole file.
 
     scenes.py CANDELA [--count N] [--seed S] [--keep FOLDER] [--jobs J]
 
@@ -26,7 +26,7 @@ WORDS = [b"[[object]]", b"[[light]]", b"[observer]", b"[image]", b"[room]", b"[c
 def seeds() -> list:
     found = sorted((ROOT / "docs" / "examples").glob("*.toml")) + sorted((ROOT / "tests/fuzz/corpus/scene").iterdir())
     contents = [path.read_bytes() for path in found]
-    # Nesting a thousand deep says nothing new about its mutants.
+    # Mutants of a thousandfold nesting show nothing new.
     return [content for content in contents if 0 < len(content) < 20_000]
 
 
@@ -38,7 +38,7 @@ def problem_of(candela: str, directory: Path, _kind: str, chance, _index: int) -
     done, wrong = hostile.run([candela, "check", "scene.toml"], directory, codes=(0, 1, 2, 3))
     if wrong or done.returncode == 0:
         return wrong
-    # What concerns a file as a whole has no line; its place is the file.
+    # An error about a file as a whole has no line; its place is the file.
     placed = [line for line in done.stderr.decode().splitlines() if PLACE.match(line)]
     bare = [line for line in done.stderr.decode().splitlines() if line.startswith("candela: error: ")]
     return "" if placed and not bare else f"an error has no place: {done.stderr[-300:]!r}"

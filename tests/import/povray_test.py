@@ -1,10 +1,10 @@
-"""Imported models look as POV-Ray draws them, from the files that the readers beside this test read.
+"""Checks that imported models look as POV-Ray draws them from files read by this test's own readers.
 
     povray_test.py CANDELA FOLDER        FOLDER: of assimp's models
 
-The camera, the lights, and what a file does not say of its materials are the imported scene's; geometry, normals, colours and materials
-are the file's, by another way. Where the file's material is none of POV-Ray's, both draw Lambert's. Textures, which POV-Ray filters
-otherwise, are left behind."""
+The camera, the lights, and material properties that a file omits come from the imported scene; geometry, normals, colours and materials
+come from the file, read independently. If POV-Ray lacks the file's material, both draw Lambert's. Textures, which POV-Ray filters
+differently, are left out."""
 import shutil
 import subprocess
 import sys
@@ -20,7 +20,7 @@ WIDTH, HEIGHT = 400, 300
 TOLERANCE = 2  # of 255
 EDGE = 24  # more between neighbours is an edge, where the two may see different surfaces
 PHONG, LAMBERT, FACETS = (), ("--reflection", "lambert"), ("--reflection", "lambert", "--shading", "flat")
-# File, what is drawn, and how bright the scene's lights are: nothing is to be white.
+# The file, the models to draw, and a brightness of the scene's lights at which nothing is white.
 CASES = (
     ("OBJ/WusonOBJ.obj", PHONG, 0.7),  # normals and highlights
     ("OBJ/cube_usemtl.obj", PHONG, 0.4),  # materials of an MTL file, and one that it lacks
@@ -37,7 +37,7 @@ CASES = (
 
 
 def linear(srgb):
-    """Of 0 to 1: IEC 61966-2-1."""
+    """Decodes 0 to 1 by IEC 61966-2-1."""
     value = np.asarray(srgb, float)
     return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
 
@@ -155,13 +155,13 @@ def drawn_by_candela(candela, scene, options, brightness, folder):
 
 
 def neighbourhoods(picture):
-    """Each pixel's and its eight neighbours' values, in an axis of their own."""
+    """The values of each pixel and its eight neighbours, along a separate axis."""
     around = np.pad(picture, ((1, 1), (1, 1), (0, 0)), mode="edge")
     return np.stack([around[y:y + HEIGHT, x:x + WIDTH] for y in range(3) for x in range(3)])
 
 
 def compared(ours, other):
-    """How much of the picture the model covers, the share of that which is no edge, and the differences there."""
+    """How much of the picture the model covers, the share of that without edges, and the differences there."""
     around = neighbourhoods(other)
     interior = (around.max(axis=0) - around.min(axis=0)).max(axis=-1) <= EDGE
     model = (other != other[0, 0]).any(axis=-1)
@@ -189,7 +189,7 @@ def main():
             print(f"  the most at ({x}, {y}), where POV-Ray draws {tuple(map(int, other[y, x]))}")
         if covered < 0.05 or share < 0.4 or other.max() == 255:
             problems += 1
-            print("  too little of it is compared, or it is burnt out")
+            print("  too little of it is compared, or it is overexposed")
     return 1 if problems else 0
 
 

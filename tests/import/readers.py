@@ -1,6 +1,6 @@
-"""Model files as another reader than Candela's has them: triangles with what stands at their corners, by material.
+"""Reads model files independently of Candela: triangles with their corners' attributes, by material.
 
-Only what the files of povray_test.py have. Everything is in arrays of (triangles, corners, components)."""
+Supports only the features of povray_test.py's files. Everything is in arrays of (triangles, corners, components)."""
 import json
 import struct
 from pathlib import Path

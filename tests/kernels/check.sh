@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Compiles every kernel, after the prelude, as GLSL 3.30 and GLSL ES 3.00: a kernel is in the common subset of C++ and GLSL, or
 # it cannot be exported.
-#   check.sh PRELUDE KERNEL…     table.glsl lies beside the prelude
+#   check.sh PRELUDE KERNEL…     table.glsl is in the prelude's folder
 set -euo pipefail
 prelude=$1
 shift

@@ -15,6 +15,6 @@ constexpr candela::Property k_properties[] = {{"fixed-in-world"}};
 
 CANDELA_REFLECTION_PLUGIN(prepared, PreparedMaterial, k_fields,
                           {.title = "Prepared",
-                           .summary = "Constants that are made of the parameters once.",
+                           .summary = "Constants that are computed from the parameters once.",
                            .formula = "(see its kernel)",
                            .properties = k_properties})

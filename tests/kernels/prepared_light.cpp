@@ -15,6 +15,6 @@ constexpr candela::Property k_properties[] = {{"attenuation", "by distance"}};
 
 CANDELA_LIGHT_PLUGIN(prepared_light, PreparedLightLight, k_fields,
                      {.title = "Prepared",
-                      .summary = "A light whose colour is made of its temperature once.",
+                      .summary = "A light whose colour is computed from its temperature once.",
                       .formula = "(see its kernel)",
                       .properties = k_properties})

@@ -17,7 +17,7 @@ namespace {
 std::vector<float> read(const char* path) {
     std::ifstream file(path);
     std::vector<float> numbers{std::istream_iterator<float>(file), {}};
-    if (numbers.size() != 4) throw std::runtime_error("there are not four numbers in the file");
+    if (numbers.size() != 4) throw std::runtime_error("the file does not contain four numbers");
     return numbers;
 }
 

@@ -13,6 +13,6 @@ constexpr candela::Property k_properties[] = {{"fixed-in-world"}};
 
 CANDELA_REFLECTION_PLUGIN(vectors, VectorsMaterial, k_fields,
                           {.title = "Vectors",
-                           .summary = "What the kernel language has of vectors.",
+                           .summary = "The kernel language's vector functions.",
                            .formula = "(see its kernel)",
                            .properties = k_properties})

@@ -1,4 +1,4 @@
-// What the museum's bad plugins share: a matt reflection model, by hand and without fault, to spoil.
+// Shared by the museum's faulty plugins: a handwritten matt reflection model without fault, to be spoiled.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace museum {
 
-/// The manifest of a plugin that does harm when it is loaded must still be written.
+/// Even a plugin that does harm when loaded needs its manifest written.
 inline bool is_being_described() {
     std::string name;
     std::getline(std::ifstream("/proc/self/comm"), name);
@@ -27,7 +27,7 @@ constexpr auto k_fields = candela::sdk::fields(
 
 class Matt : public candela::ReflectionModel {
   public:
-    /// Of those exhibits that have a kernel.
+    /// For exhibits that have a kernel.
     static constexpr candela::KernelFunction k_kernel_functions[] = {{"reflect", true},
                                                                      {"reflect_ambient", true}};
 
@@ -82,7 +82,7 @@ constexpr candela::FileFormat k_formats[] = {{"ppm", "Portable pixmap"}};
         reflection, Model, museum::k_fields, \
         {.title = #Model, .summary = "Bad on purpose.", .reference = "none" __VA_OPT__(, ) __VA_ARGS__})
 
-/// One with the kernel text that lies beside it.
+/// A plugin with the kernel text in the file next to it.
 #define MUSEUM_KERNEL_PIECE(Model, prefix)                                             \
     CANDELA_KERNEL_PLUGIN(reflection, Model, prefix, museum::Params, museum::k_fields, \
                           {.title = #prefix, .summary = "Bad on purpose.", .reference = "none"})

@@ -1,5 +1,5 @@
-// What the museum's readers share: a format of runs (a count below 256, then red, green and blue), without
-// fault, to spoil.
+// Shared by the museum's readers: a run-length format (a count below 256, then red, green and blue) without
+// fault, to be spoiled.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What the museum's lights share: a lamp at a point, by hand and without fault, to spoil.
+// Shared by the museum's lights: a handwritten point light without fault, to be spoiled.
 #pragma once
 
 #include <cmath>

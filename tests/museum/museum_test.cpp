@@ -21,7 +21,7 @@ using nlohmann::json;
 
 namespace {
 
-/// What the kit says of a library, and its exit code.
+/// The kit's output for a library, and its exit code.
 struct Verdicts {
     int exit_code;
     json checks;
@@ -60,7 +60,7 @@ std::vector<std::string> processes_with(const std::string& library) {
     for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
         const std::string name = entry.path().filename().string();
         if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        // Of others' processes nothing is read, nor of those that have ended, be it since the file was
+        // Other users' processes cannot be read, nor can those that have ended, even after the file was
         // opened.
         try {
             if (read_file(entry.path() / "maps").find("/" + library) != std::string::npos)
@@ -205,7 +205,7 @@ TEST_CASE("the kit names the fault of each exhibit, and its exit code is 4") {
     }
 }
 
-TEST_CASE("a variable of a kernel that nobody reads is a warning, and the plugin conforms") {
+TEST_CASE("an unread variable of a kernel is a warning, and the plugin conforms") {
     const Verdicts verdicts = judged(exhibit("reflection-unfinished-kernel"), {"--check", "kernel as C++"});
     INFO(verdicts.checks.dump(2));
     CHECK(verdicts.exit_code == 0);
@@ -214,7 +214,7 @@ TEST_CASE("a variable of a kernel that nobody reads is a warning, and the plugin
               .find("unfinished-kernel.kernel:11:11: warning: unused variable 'later'") != std::string::npos);
 }
 
-TEST_CASE("a sound plugin that needs a file conforms if it is given one, and is not judged without") {
+TEST_CASE("a faultless plugin that needs a file conforms if it is given one, and is not judged without") {
     const fs::path file = write_file(scratch_directory() / "brightness.txt", "0.5\n");
     const Verdicts given = judged(exhibit("reflection-reads-a-file"), {"--set", "file=" + file.string()});
     INFO(given.checks.dump(2));
@@ -231,7 +231,7 @@ TEST_CASE("a sound plugin that needs a file conforms if it is given one, and is 
               .find("it has no parameter 'fil'") != std::string::npos);
 }
 
-TEST_CASE("what the kit cannot do is a usage error, and not a plugin that conforms") {
+TEST_CASE("an impossible request to the kit is a usage error, not a conforming plugin") {
     const std::string library = exhibit("reflection-is-negative").string();
     const std::vector<std::pair<std::vector<std::string>, const char*>> mistakes = {
         {{library, "--check", "finnite"}, "has 'finnite' in its name; did you mean 'finite'?"},
@@ -252,7 +252,7 @@ TEST_CASE("what the kit cannot do is a usage error, and not a plugin that confor
     }
 }
 
-TEST_CASE("a property may be declared for some values only, and is verified there") {
+TEST_CASE("a property may be declared for only some values, and is verified for those") {
     const fs::path directory = scratch_directory();
     const auto energy = [&](const char* brightness) {
         return judged(exhibit("reflection-reads-a-file"),
@@ -264,14 +264,14 @@ TEST_CASE("a property may be declared for some values only, and is verified ther
     CHECK(energy("1.2") == "failed");
 }
 
-TEST_CASE("on one processor, threads that share memory are found, and no time is spent on waiting for them") {
+TEST_CASE("on one processor, threads that share memory are found without waiting for them") {
     CommandSetup setup;
     setup.prepare = [] {
         cpu_set_t one;
         CPU_ZERO(&one);
         CPU_SET(::sched_getcpu(), &one);
         ::sched_setaffinity(0, sizeof one, &one);
-        const rlimit seconds{5, 5};  // of the processor
+        const rlimit seconds{5, 5};  // of processor time
         ::setrlimit(RLIMIT_CPU, &seconds);
     };
     const auto repeated = [&](const fs::path& library) {
@@ -280,7 +280,7 @@ TEST_CASE("on one processor, threads that share memory are found, and no time is
     const CommandResult shared = repeated(exhibit("reflection-shares-its-scratch"));
     INFO(shared.out << shared.err);
     CHECK(shared.out.find("when 8 threads call it at once") != std::string::npos);
-    // Of the shipped plugins, this one has the most calls to make.
+    // Of the shipped plugins, this one needs the most calls.
     const CommandResult sound = repeated(fs::path(CANDELA_TEST_PLUGINS) / "light-distributed.so");
     INFO(sound.out << sound.err);
     CHECK(sound.exit_code == 0);
@@ -294,25 +294,24 @@ TEST_CASE("in one process, for a debugger, the verdicts are the same") {
     CHECK(verdicts.of("bounds") == "passed");
 }
 
-TEST_CASE("what a plugin starts ends with its check, even if it hides in a session of its own") {
+TEST_CASE("processes that a plugin starts end with its check, even if they hide in their own session") {
     const Verdicts verdicts = judged(exhibit("reflection-leaves-a-process"), {"--check", "finite"});
     INFO(verdicts.checks.dump(2));
     CHECK(verdicts.of("finite") == "passed");
     CHECK(processes_with("reflection-leaves-a-process.so").empty());
 }
 
-TEST_CASE("a plugin that hangs, and what it has started, ends when the kit is killed") {
+TEST_CASE("a plugin that hangs, and the processes that it has started, end when the kit is killed") {
     const fs::path library = exhibit("reflection-hangs-with-a-child");
     RunningProgram kit({CANDELA_TEST_KIT, library.string(), "--check", "finite"});
     const auto count = [&] { return processes_with("reflection-hangs-with-a-child.so").size(); };
-    // The check, and what it has started. The kit and its guardian do not load the library.
+    // The check, and its child. The kit and its guardian do not load the library.
     REQUIRE(comes_true([&] { return count() == 2; }));
     kit.send(SIGKILL);
     CHECK(comes_true([&] { return count() == 0; }));
 }
 
-TEST_CASE(
-    "a plugin that never returns is stopped when its time is over, and after two such checks for good") {
+TEST_CASE("a plugin that never returns is stopped at the time limit, and after two such checks for good") {
     for (const char* const kind : {"reflection", "light", "shading", "shape"}) {
         const Verdicts verdicts =
             judged(exhibit(std::string(kind) + "-never-returns"), {"--time-limit", "1"});
@@ -332,7 +331,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("what a check has found is shown before the next one has ended, through a pipe, too") {
+TEST_CASE("a check's result is shown before the next one has ended, even through a pipe") {
     const fs::path shown = scratch_directory() / "shown.txt";
     // Its output is a pipe; the kit hangs in its second check that calls the plugin.
     RunningProgram kit({"sh", "-c", "\"$1\" \"$2\" --time-limit 3600 | cat > \"$3\"", "sh", CANDELA_TEST_KIT,
@@ -344,7 +343,7 @@ TEST_CASE("what a check has found is shown before the next one has ended, throug
         ::kill(std::stoi(process), SIGKILL);
 }
 
-TEST_CASE("a manifest that disagrees, is missing or is broken is found before anything is run") {
+TEST_CASE("a manifest that disagrees, is missing or is broken is found before anything runs") {
     const fs::path directory = scratch_directory();
     const fs::path library = directory / "reflection-faultless.so",
                    manifest = directory / "reflection-faultless.json";
@@ -364,7 +363,7 @@ TEST_CASE("a manifest that disagrees, is missing or is broken is found before an
     CHECK(judged(library).of("handshake") == "failed");
 }
 
-TEST_CASE("a library under another name, or with a dependency that is missing, is named") {
+TEST_CASE("a library under another name, or with a missing dependency, is named") {
     const fs::path directory = scratch_directory();
     fs::copy_file(exhibit("reflection-faultless"), directory / "reflection-other.so");
     fs::copy_file(exhibit("reflection-faultless").replace_extension(".json"),
@@ -391,7 +390,8 @@ TEST_CASE("a library under another name, or with a dependency that is missing, i
 }
 
 #ifdef CANDELA_TEST_THREADS
-TEST_CASE("a data race that changes no result is found by ThreadSanitizer, where a plugin is built with it") {
+TEST_CASE(
+    "a data race that does not change results is found by ThreadSanitizer, if a plugin is built with it") {
     const auto threads = [](const std::string& name) {
         const fs::path library = fs::path(CANDELA_TEST_THREADS_MUSEUM) / (name + ".so");
         return run_program({"env", CANDELA_TEST_SYMBOLIZER, CANDELA_TEST_THREADS, library.string()});

@@ -1,5 +1,5 @@
-// The renderer survives what a host can: a plugin's fault is an error that names the plugin, and no picture
-// is left.
+// The renderer survives every fault that a host can: a plugin's fault is an error that names the plugin, and
+// no picture is left.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -31,7 +31,7 @@ CommandSetup in_directory(const fs::path& directory) {
 }  // namespace
 
 TEST_CASE(
-    "what plugins throw, write where they may not, or give that is no number, ends in an error that names "
+    "exceptions, out-of-bounds writes and non-finite results of plugins end in an error that names "
     "them") {
     const fs::path picture = scratch_directory() / "a.png";
     const std::vector<Survived> faults = {
@@ -59,7 +59,8 @@ TEST_CASE(
     CHECK(ambient.err.find("plugin reflection/throws-in-ambient: no ambience") != std::string::npos);
 }
 
-TEST_CASE("a plugin that writes past its batch, wherever that ends, is found or harmless; it never crashes") {
+TEST_CASE(
+    "a plugin that writes past its batch, however far, is found or harmless, and never causes a crash") {
     const fs::path directory = scratch_directory();
     for (const char* const size : {"16", "64", "300"}) {
         const fs::path picture = directory / "a.png";
@@ -75,7 +76,7 @@ TEST_CASE("a plugin that writes past its batch, wherever that ends, is found or 
     INFO(hasty.err);
     CHECK(hasty.exit_code == 1);
     CHECK(hasty.err.find("plugin reflection/hasty-at-the-end ") != std::string::npos);
-    // 512 pixels a side fill whole batches: there it is found.
+    // 512 pixels per side fill whole batches, where it is found.
     CHECK(rendered({"--reflection=writes-past-the-end"}, directory / "b.png").exit_code == 1);
     const CommandResult added = rendered({"--reflection=adds-past-the-end"}, directory / "c.png");
     INFO(added.err);
@@ -91,7 +92,7 @@ TEST_CASE("listing, checking and using other plugins never loads one that traps"
     CHECK(rendered({}, scratch_directory() / "a.png").exit_code == 0);
 }
 
-TEST_CASE("the doctor survives a plugin that traps, and names what is wrong with each") {
+TEST_CASE("the doctor survives a plugin that traps, and names each plugin's problem") {
     const fs::path directory = scratch_directory();
     for (const char* const name : {"reflection-traps-on-load", "reflection-faultless"}) {
         for (const char* const extension : {".so", ".json"}) {
@@ -120,7 +121,8 @@ TEST_CASE("the doctor survives a plugin that traps, and names what is wrong with
     }
 }
 
-TEST_CASE("however loading a library ends, the doctor says so and ends, and so does what writes manifests") {
+TEST_CASE(
+    "however loading a library ends, the doctor reports it and terminates, and so does the manifest writer") {
     const fs::path directory = scratch_directory();
     const fs::path library = directory / "reflection-misbehaves-on-load.so";
     for (const char* const extension : {".so", ".json"}) {
@@ -165,7 +167,7 @@ TEST_CASE("however loading a library ends, the doctor says so and ends, and so d
     }
 }
 
-TEST_CASE("however loading a library ends, the conformance kit says so, and ends") {
+TEST_CASE("however loading a library ends, the conformance kit reports it and terminates") {
     const fs::path library = fs::path(CANDELA_TEST_MUSEUM) / "reflection-misbehaves-on-load.so";
     struct Ending {
         const char* what;
@@ -190,7 +192,7 @@ TEST_CASE("however loading a library ends, the conformance kit says so, and ends
     }
 }
 
-TEST_CASE("the doctor says once that a plugin is refused, whether its folder's path is relative or not") {
+TEST_CASE("the doctor reports a refused plugin once, whether its folder's path is relative or absolute") {
     const fs::path directory = scratch_directory();
     fs::create_directory(directory / "plugins");
     fs::copy_file(fs::path(CANDELA_TEST_MUSEUM) / "reflection-faultless.so",
@@ -207,7 +209,7 @@ TEST_CASE("the doctor says once that a plugin is refused, whether its folder's p
     CHECK(result.out.find("refused: plugin") == std::string::npos);
 }
 
-TEST_CASE("a new plugin that is called like one that is there will hide it, and that is said") {
+TEST_CASE("a new plugin with an existing plugin's name hides it, with a warning") {
     const fs::path directory = scratch_directory();
     const CommandResult hiding =
         run_candela({"plugin", "new", "reflection", "lambert"}, in_directory(directory));
@@ -217,7 +219,7 @@ TEST_CASE("a new plugin that is called like one that is there will hide it, and 
     CHECK(run_candela({"plugin", "new", "reflection", "velvet"}, in_directory(directory)).err.empty());
 }
 
-TEST_CASE("plugins that every user can change are refused, unless one says otherwise") {
+TEST_CASE("plugins that every user can change are refused, unless explicitly allowed") {
     const fs::path directory = scratch_directory();
     for (const char* const file : {"reflection-faultless.so", "reflection-faultless.json"})
         fs::copy_file(fs::path(CANDELA_TEST_MUSEUM) / file, directory / file);

@@ -67,7 +67,7 @@ class Exercising(unittest.TestCase):
     def test_an_answer_is_saved_as_grade_reads_it_and_loaded_again(self):
         self.open()
         self.write(PHONG)
-        # What the button would download.
+        # The content that the button would download.
         text = self.browser.driver.execute_async_script("""
             const done = arguments[0], own = URL.createObjectURL;
             URL.createObjectURL = (blob) => { blob.text().then(done); return own.call(URL, blob); };

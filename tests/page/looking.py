@@ -126,7 +126,7 @@ class Looking(PageTest):
         self.assert_alike(self.picture(generated), generated.render("--set", f"observer.height={height}"), "zoom", before=own)
 
     def test_canvas_shows_it(self):
-        """What is on the screen is the picture, once it has come to rest."""
+        """The screen shows the picture, once it no longer changes."""
         self.browser.click("show-lights")  # which lie over it
         deadline = time.monotonic() + 60
         while True:

@@ -1,4 +1,4 @@
-"""Models from the text of a kernel."""
+"""Models from a kernel's text."""
 import unittest
 
 import numpy as np

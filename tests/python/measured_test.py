@@ -35,7 +35,7 @@ class Measured(unittest.TestCase):
         write_merl(self.path, np.repeat(numbers[..., np.newaxis], 3, axis=-1))
         brdf = candela.read_merl(self.path)
         for index in np.ndindex(*sizes):
-            # The middle of each cell, with a frame in which the half vector is the pole: Rusinkiewicz (1998).
+            # The centre of each cell, in a frame whose pole is the half vector: Rusinkiewicz (1998).
             h = (np.pi / 2) * ((index[0] + 0.5) / sizes[0]) ** 2
             d = (np.pi / 2) * (index[1] + 0.5) / sizes[1]
             p = np.pi * (index[2] + 0.5) / sizes[2]

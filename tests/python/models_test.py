@@ -9,7 +9,7 @@ RANDOM = np.random.default_rng(20)
 
 
 def directions(*shape, about=None):
-    """Unit vectors; within 80 degrees of `about` where that is given."""
+    """Unit vectors; within 80 degrees of `about` if that is given."""
     v = RANDOM.normal(size=(*shape, 3))
     v /= np.linalg.norm(v, axis=-1, keepdims=True)
     if about is None:
@@ -224,7 +224,7 @@ class WorkedExamples(unittest.TestCase):
         np.testing.assert_allclose(incident.to_light, [-0.4962, 0.8683, 0], atol=2e-4)
         self.assertAlmostEqual(float(normal @ incident.to_light), 0.4135, delta=2e-4)
         model = candela.reflection("phong", ka=0.1, kd=0.8, ks=0.2, shininess=10)
-        # R.V is -0.5514 there: no highlight, though its tenth power is positive.
+        # R.V is -0.5514 there: no highlight, although its tenth power is positive.
         parts = model.evaluate_parts(normal, [0, 0, 1], incident.to_light, light=incident.diffuse)
         self.assertLess(parts.specular[0], 1e-6)
         ambient = model.ambient(normal, [0, 0, 1], ambient=0.3)

@@ -1,5 +1,5 @@
-"""Runs the notebooks of docs/python, cell by cell, and compares what they come to with what is known. What a notebook needs of Jupyter is
-that the value of a cell's last line is shown; to have all of Jupyter installed for it would take 30 packages."""
+"""Runs the notebooks of docs/python, cell by cell, and compares their results with known ones. The only Jupyter feature that they need is
+showing the value of a cell's last line; installing Jupyter for that would take 30 packages."""
 import ast
 import contextlib
 import io
@@ -13,11 +13,11 @@ NOTEBOOKS = pathlib.Path(__file__).resolve().parents[2] / "docs/python"
 
 
 def run(name):
-    """What is defined in the end, and the pictures that were shown."""
+    """The final definitions, and the pictures that were shown."""
     notebook = json.loads((NOTEBOOKS / name).read_text(encoding="utf-8"))
     names, pictures = {"__name__": "__main__"}, []
     for i, cell in enumerate(cell for cell in notebook["cells"] if cell["cell_type"] == "code"):
-        assert not cell["outputs"], f"{name} is kept without outputs"
+        assert not cell["outputs"], f"{name} must be stored without outputs"
         tree = ast.parse("".join(cell["source"]), f"{name}, code cell {i}")
         last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
         with contextlib.redirect_stdout(io.StringIO()):

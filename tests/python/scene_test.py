@@ -1,4 +1,4 @@
-"""Scenes of files, texts and dictionaries; pictures; what is said of mistakes."""
+"""Scenes from files, texts and dictionaries; pictures; errors."""
 import os
 import pathlib
 import subprocess
@@ -60,7 +60,7 @@ class Pictures(unittest.TestCase):
             self.assertFalse(owner.flags.owndata)
             owner = owner.base
         self.assertEqual(type(owner).__name__, "PyCapsule")
-        picture[:] = 7  # and it is whose it is
+        picture[:] = 7  # and it names its owner
         self.assertEqual(int(picture.sum()), 7 * picture.size)
 
     def test_a_picture_shows_itself_in_a_notebook(self):

@@ -1,4 +1,4 @@
-"""The stub of the module against the module, whose functions have their signatures in their docstrings; and documentation."""
+"""Compares the module's stub with the module, whose functions have their signatures in their docstrings; and checks documentation."""
 import ast
 import inspect
 import pathlib
@@ -16,7 +16,7 @@ def names_of(arguments):
 
 
 def stubbed():
-    """What the stub declares: "Scene.render" and the names of its arguments, or None for what is no function."""
+    """The stub's declarations: "Scene.render" and the names of its arguments, or None for other than functions."""
     declared = {}
 
     def add(prefix, nodes):
@@ -35,7 +35,7 @@ def stubbed():
 
 
 def bound():
-    """The same of the module."""
+    """The module's declarations."""
     found = {}
 
     def arguments_of(function):

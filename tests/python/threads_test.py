@@ -20,7 +20,7 @@ BALL = {
 
 
 def resident():
-    """Bytes of this process in memory."""
+    """The memory of this process in bytes."""
     return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * 4096
 
 
@@ -47,11 +47,11 @@ class Threads(unittest.TestCase):
         thread = threading.Thread(target=other)
         thread.start()
         interval = sys.getswitchinterval()
-        # From here on, nobody gets Python's lock unless somebody releases it.
+        # From here on, a thread gets Python's lock only if another releases it.
         sys.setswitchinterval(1000)
         try:
             gate.release()
-            # Whether the system lets the other one run during a particular picture is its own affair.
+            # The system decides whether the other thread runs during a particular picture.
             for _ in range(1000):
                 scene.render()
                 if seen:
@@ -72,7 +72,7 @@ class Memory(unittest.TestCase):
         before = resident()
         for _ in range(1000):
             scene.render(floats=True), renderer.render(floats=True)
-        # A picture that stayed would be 2000 of them.
+        # Leaking pictures would add up to 2000 of them.
         self.assertLess(resident() - before, 100 * size)
 
 

@@ -1,10 +1,10 @@
-"""Renders every model file below some folders, and counts pictures, refusals by their reason, and what looks wrong.
+"""Renders every model file below some folders, and counts pictures, refusals by reason, and pictures that look wrong.
 
     collection.py CANDELA FOLDER... [--out RESULT.json] [--before RESULT.json] [--pictures FOLDER] [--jobs J]
 
 Give it collections of other people's files; none is part of this project. Each file is rendered alone, with limits on time
-and memory. A crash, a time-out, or a refusal without a message is a failure (exit code 1). With --before, a file that
-was a picture then and is refused now is listed. --pictures keeps the pictures, to be looked at.
+and memory. A crash, a time-out, or a refusal without a message is a failure (exit code 1). With --before, files that made a picture then
+and are refused now are listed. --pictures keeps the pictures for inspection.
 """
 import argparse
 import collections
@@ -33,7 +33,7 @@ def model_files(folders: list) -> list:
         for path in sorted(folder.rglob("*")):
             if path.suffix.lower() not in FORMATS or not path.is_file():
                 continue
-            # A small glTF or OBJ file may differ by the files beside it alone, so only those that hold everything are compared.
+            # Small glTF or OBJ files may differ only in their companion files, so only self-contained files are compared.
             if path.suffix.lower() in (".glb", ".stl", ".ply"):
                 digest = hashlib.sha256(path.read_bytes()).digest()
                 if digest in seen:
@@ -49,7 +49,7 @@ def limited() -> None:
 
 
 def looks_of(picture: bytes) -> list:
-    """What a glance at the picture would find."""
+    """Problems that are visible at a glance."""
     header = b"P6\n%d %d\n255\n" % (WIDTH, HEIGHT)
     if not picture.startswith(header):
         return ["unreadable"]
@@ -73,7 +73,7 @@ def looks_of(picture: bytes) -> list:
 
 
 def reason_of(message: str) -> str:
-    """A message without what differs from file to file, so that reasons can be counted."""
+    """A message without file-specific parts, so that reasons can be counted."""
     message = re.sub(r"'[^']*'|\"[^\"]*\"", "'…'", message)
     return re.sub(r"\d[\d.,e+-]*", "#", message)[:160]
 

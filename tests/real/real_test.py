@@ -1,4 +1,4 @@
-"""Each of the files in files.py is read as it is meant: its triangles, its picture, and all that is left out said.
+"""Checks that each file in files.py is read as intended: its triangles, its picture, and reports of everything left out.
 
     real_test.py CANDELA [NAME...]      NAME: only cases whose names contain it
 """
@@ -66,9 +66,9 @@ def problems(candela: str, case: files.Case, cubes: dict, directory: Path):
         yield "it is " + ("closed" if found["closed"] else "open")
     for part in case.says:
         if not any(part in message for message in said):
-            yield f"nobody says '{part}': {said}"
+            yield f"no message contains '{part}': {said}"
     if case.silent and said:
-        yield f"there is nothing to say: {said}"
+        yield f"unexpected message: {said}"
     if case.like == "cube":
         seen = picture(candela, scene, directory)
         if case.color not in cubes:

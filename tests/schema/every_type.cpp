@@ -1,5 +1,5 @@
 // A reflection model that takes a value of every type, for the JSON Schema: one of them required, and a `kd`
-// that is not that of the shipped models.
+// unlike that of the shipped models.
 #include "candela/reflection_plugin.h"
 
 using namespace candela::sdk;

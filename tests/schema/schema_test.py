@@ -1,6 +1,6 @@
-"""What `candela schema` prints, before an independent validator, and beside `candela check`.
+"""Tests the output of `candela schema` with an independent validator, and against `candela check`.
 
-Run by ctest, which says where things are.
+Run by ctest, which sets the paths.
 """
 import json
 import os
@@ -40,7 +40,7 @@ def blocks(file):
     return re.findall(r"^```toml\n(.*?)^```$", (SOURCE / file).read_text(), re.M | re.S)
 
 
-# A scene in which all things are in their places, as text by table, so that one table can be replaced.
+# A complete valid scene, as text by table, so that one table can be replaced.
 TABLES = {
     "top": "version = 1",
     "room": "[room]\nheight = 100.0",
@@ -54,7 +54,7 @@ TABLES = {
 
 
 def scene(**tables):
-    """The scene with tables replaced; with `<table>_more`, something is added to one."""
+    """The scene with tables replaced; `<table>_more` adds to a table."""
     texts = dict(TABLES)
     for name, text in tables.items():
         if name.endswith("_more"):
@@ -146,7 +146,7 @@ WRONG = {
     "a light as a shape": thing('type = "point"\nposition = [0.0, 0.0, 0.0]'),
     "an unknown word": scene(observer_more='projection = "fisheye"'),
     "an unknown word of a plugin": light('type = "point"\nposition = [2, 3, 3]\nattenuation = "linear"'),
-    # What is missing.
+    # Missing keys.
     "a light without type": light("color = [255, 255, 255]"),
     "an object without type": thing("size = 1.0"),
     "a point light without position": light('type = "point"'),
@@ -189,7 +189,7 @@ BOUNDARIES = {
     "no room and no picture": scene(room="", image=""),
 }
 
-# What a JSON Schema of one file cannot say.
+# Errors that a JSON Schema of one file cannot express.
 BEYOND = {
     "no version": scene(top=""),
     "no observer": scene(observer=""),
@@ -207,7 +207,7 @@ class Schema(unittest.TestCase):
         schema = json.loads(output_of("schema"))
         self.assertEqual(schema["$schema"], "http://json-schema.org/draft-07/schema#")
         jsonschema.Draft7Validator.check_schema(schema)
-        # The meta-schema lets unknown keywords and wrong references pass.
+        # The meta-schema accepts unknown keywords and wrong references.
         objects = 0
         for node in self.nodes(schema):
             if node.get("type") == "object":
@@ -245,7 +245,7 @@ class Schema(unittest.TestCase):
                     own = definition["properties"][parameter["name"]]
                     if own is not True:
                         self.assertEqual(own["enum"], parameter["choices"])
-                    # Where models have other words for a key of one name, the description lists them.
+                    # If models describe a key of the same name differently, the description lists all.
                     if "enum" in known:
                         self.assertEqual(known["enum"], parameter["choices"])
                     else:
@@ -306,7 +306,7 @@ class Agreement(unittest.TestCase):
         self.compare(BEYOND, by_schema=True, by_check=False)
 
     def test_parts(self):
-        """`candela check a.toml b.toml` of parts is a scene, and each part fits for itself."""
+        """`candela check a.toml b.toml` accepts the parts as a scene, and each part fits the schema by itself."""
         validator = validator_of()
         SCRATCH.mkdir(parents=True, exist_ok=True)
         files = []
@@ -353,7 +353,7 @@ BAD_VALUES = {
 
 
 class ThirdParty(Agreement):
-    # Not again what the base class tests.
+    # Does not repeat the base class's tests.
     test_wrong = test_boundaries = test_beyond_schemas = test_parts = None
 
     def test_plugin(self):

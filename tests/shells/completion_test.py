@@ -1,8 +1,8 @@
-"""Names from other people's files, completed in bash, zsh and fish: the word that comes of it is the name, and nothing of it is executed.
+"""Completes names from untrusted files in bash, zsh and fish: the resulting word is the name, and no part of it is executed.
 
     CANDELA=build/release/bin/candela python3 tests/shells/completion_test.py [--seconds N] [--seed N] [--shells bash,zsh,fish]
 
-Without options: names that have a meaning for some shell, and some random ones.
+Without options: names with special meaning in some shell, and some random ones.
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ from typed import COMMAND, KINDS, Shell, candidates
 
 SCRATCH = pathlib.Path(os.environ.get("CANDELA_TEST_SCRATCH") or tempfile.mkdtemp(prefix="candela-shells-")).absolute()
 PLUGINS = pathlib.Path(COMMAND).parent.parent / "lib/candela/plugins"
-VICTIM = "victim"  # a file that nobody but an executed name makes
+VICTIM = "victim"  # a file that only an executed name creates
 SCENE = """version = 1
 observer = {{position = [0, 1, 4], look_at = [0, 0, 0]}}
 light = [{{type = "directional", name = "{name}", direction = [-1, -1, -1]}}]
@@ -66,7 +66,7 @@ class Tester:
             shell.end()
 
     def check(self, shell, words, before, typed, quote, expected=None, is_folder=False):
-        """`words`: before the one that is completed, which begins with `before` and then `typed`, without the quotation mark."""
+        """`words`: those before the completed one, which begins with `before` and then `typed`, without the quotation mark."""
         line = " ".join(["candela", *words, before + quote + typed])
         if expected is None:
             found = candidates([*words, before + typed], shell.here)
@@ -92,7 +92,7 @@ class Tester:
             self.check(shell, [verb, "s.toml", option], "", what, quote)
 
     def try_scene_of_several(self, shell, name, chance):
-        """What they have in common is inserted, and that is whole, too. (fish and zsh go on with one of them.)"""
+        """Their common part is inserted, also complete. (fish and zsh continue with one of them.)"""
         if shell.kind != "bash":
             return
         names = {name + chance.choice(FRAGMENTS) for _ in range(chance.randrange(2, 4))}
@@ -101,7 +101,7 @@ class Tester:
         self.check(shell, ["render", "s.toml", "--set"], "", "object.", quote)
 
     def try_plugin(self, shell, name, chance):
-        """One that begins in no other way than all others, so that it is the only one that is meant."""
+        """A prefix that no other name shares, so that it is unambiguous."""
         name = "zq" + name.replace("/", "")
         folder = shell.here.parent / "plugins"
         folder.mkdir(exist_ok=True)
@@ -125,7 +125,7 @@ class Tester:
             self.check(shell, ["render", where, "--reflection"], "", "zq", quote)
 
     def try_file(self, shell, name, chance):
-        """Shells complete names of files themselves; those with control characters are theirs alone."""
+        """Shells complete file names themselves; those with control characters are left to them."""
         name = "zq" + "".join(c for c in name if c != "/" and c.isprintable())
         if len(name.encode()) > 200:
             return

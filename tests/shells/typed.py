@@ -1,5 +1,5 @@
-"""A shell on a terminal, as somebody types in it, with `candela` on its PATH: Tab has the command complete the word, Enter has it note its
-arguments, and do nothing else."""
+"""A shell on a terminal, driven by typing, with `candela` on its PATH: Tab makes the command complete the word, Enter makes it record its
+arguments and do nothing else."""
 import fcntl
 import os
 import pathlib
@@ -17,7 +17,7 @@ COMMAND = os.path.abspath(os.environ.get("CANDELA_TEST_COMMAND") or os.environ["
 SHELLS = pathlib.Path(__file__).resolve().parent.parent.parent / "apps/candela/shells"
 LONGEST = 60  # seconds, on a busy machine
 KINDS = {"bash": ["bash", "--norc", "--noprofile", "-i"], "zsh": ["zsh", "-f", "-i"], "fish": ["fish", "--no-config", "-i"]}
-WHAT_IS_TYPED = "\x18\x0b"  # has the shell write down its line; a terminal makes nothing of it
+WHAT_IS_TYPED = "\x18\x0b"  # makes the shell record its line; a terminal ignores it
 
 # With a name that the shell has to quote only where it is completed.
 STAND_IN = """#!/bin/sh
@@ -26,7 +26,7 @@ printf '%s\\0' "$@" > "$NOTES/arguments.new"
 mv "$NOTES/arguments.new" "$NOTES/arguments"
 """
 
-# Each says that it is ready by a file, because nothing else is known of a prompt.
+# Each signals by a file that it is ready, because prompts differ.
 SETUP = {
     "bash": """PS1=; source {shells}/candela.bash; bind 'set enable-bracketed-paste off'
 bind -x '"\\C-x\\C-k": printf %s "$READLINE_LINE" > {notes}/line.new; mv {notes}/line.new {notes}/line'
@@ -45,7 +45,7 @@ touch {notes}/ready
 
 class Shell:
     def __init__(self, kind, folder):
-        """`folder`: of its own, and made anew; the shell is in `folder`/here."""
+        """`folder`: its own, created again; the shell runs in `folder`/here."""
         self.kind, self.here, self.notes = kind, folder / "here", folder / "notes"
         shutil.rmtree(folder, ignore_errors=True)
         for part in ("here", "notes", "home", "programs"):
@@ -73,13 +73,13 @@ class Shell:
         os.write(self.terminal, keys.encode())
 
     def wait_for(self, note):
-        """What the shell, or the command, has noted."""
+        """The record of the shell or the command."""
         file, end = self.notes / note, time.monotonic() + LONGEST
         while not file.exists():
             if select.select([self.terminal], [], [], 0.002)[0]:
                 self.shown = (self.shown + os.read(self.terminal, 65536))[-4000:]
             if time.monotonic() > end:
-                raise TimeoutError(f"{self.kind} has not come to '{note}': {self.shown[-1000:]}")
+                raise TimeoutError(f"{self.kind} did not write '{note}': {self.shown[-1000:]}")
         content = file.read_bytes()
         file.unlink()
         return content
@@ -88,8 +88,7 @@ class Shell:
         return subprocess.run([self.kind, "-n"], input=line, capture_output=True, check=False).returncode != 0
 
     def arguments(self, typed, quote=""):
-        """What the command is given after `typed` and Tab. `quote`: the quotation mark that is open in it, to be closed where the shell has
-        not done so."""
+        """The command's arguments after `typed` and Tab. `quote`: the open quotation mark, to be closed unless the shell has done so."""
         self.type(typed + "\t")
         if quote:
             self.type(WHAT_IS_TYPED)
@@ -100,7 +99,7 @@ class Shell:
 
 
 def candidates(words, folder):
-    """What a word may become, without any shell."""
+    """The candidates for a word, without a shell."""
     environment = dict(os.environ, CANDELA_COMPLETE="1", XDG_DATA_HOME=str(folder), CANDELA_PLUGIN_PATH="")
     lines = subprocess.run([COMMAND, *words], env=environment, cwd=folder, capture_output=True, check=True).stdout.split(b"\n")
     return [re.sub(rb"\t.*", b"", line) for line in lines if line and not line.startswith(b"\t")]

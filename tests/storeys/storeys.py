@@ -2,7 +2,7 @@
 """Checks that imports and includes point down: api < base < host < scene < render < embedding < core < sdk, apps.
 
 Plugins, and the parts of the SDK that are built into plugins, include headers of api and of the SDK, and nothing else; any
-compiler builds them, so they import no module. Each module of api exports what its header declares, all of it. No two
+compiler builds them, so they do not import modules. Each module of api exports everything that its header declares. No two
 headers are installed under one name.
     storeys.py ROOT
 """
@@ -12,13 +12,13 @@ import sys
 
 STOREYS = ["api", "base", "host", "scene", "render", "embedding", "core"]
 SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
-# What is compiled into plugins, as opposed to the SDK's programs.
+# The parts that are compiled into plugins, as opposed to the SDK's programs.
 SDK_OF_PLUGINS = ("sdk/include/", "sdk/target/", "sdk/templates/")
-# Headers of api without a module: macros, kernels, templates of their own, what only tests of plugins include, and what is
-# about memory alone.
+# Headers of api without a module: macros, kernels, templates, headers that only tests of plugins include, and those about memory
+# only.
 HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "instances.h", "kernel.h", "kernel_functions.h",
                  "kernel_table.h", "kernel_vectors.h", "large_pages.h", "multiversion.h", "swizzles.h"}
-# A declaration at the beginning of a line, as clang-format puts what is in a namespace: a type, another name for one, a function,
+# A declaration at the beginning of a line, where clang-format puts the members of a namespace: a type, an alias, a function,
 # a constant.
 DECLARATION = re.compile(
     r"^(?:template <.*> )?(?:enum class |struct |class )(?:CANDELA_API )?(?P<type>\w+)[^;\n]*\{(?:.*\};)?$"
@@ -35,7 +35,7 @@ def sources(root):
 
 
 def storey_of(path):
-    """The storey of a core file: its folder below core/, or "core" for what re-exports all of them."""
+    """The storey of a core file: its folder below core/, or "core" for the module that re-exports all of them."""
     parts = path.split("/")
     return parts[1] if len(parts) > 2 else "core"
 
@@ -52,7 +52,7 @@ def of_plugins(path):
 
 
 def declared(text):
-    """What a header of api declares in namespace candela, and the lines that are not understood."""
+    """The declarations of an api header in namespace candela, and the unrecognised lines."""
     names, unknown = set(), []
     inside = text.split("namespace candela {\n", 1)[1]
     for line in inside.splitlines():
@@ -67,19 +67,19 @@ def declared(text):
 
 
 def export_findings(files):
-    """Where a header of api and its module differ. A plugin sees the header, the core and programs the module."""
+    """The differences between a header of api and its module. Plugins see the header; the core and programs see the module."""
     for path, text in files.items():
         folder, name = path.rsplit("/", 1)
         if folder != "core/api/include/candela" or not name.endswith(".h") or name in HEADERS_ALONE:
             continue
         module = f"core/api/{name[:-2]}.cppm"
         if module not in files:
-            yield f"{path}: there is no {module} that exports what it declares"
+            yield f"{path}: {module}, which should export its declarations, is missing"
             continue
         names, unknown = declared(text)
         exported = set(re.findall(r"^\s*using candela::([^;]+);", files[module], re.MULTILINE))
         for line in unknown:
-            yield f"{path}: what is declared by '{line}'?"
+            yield f"{path}: unrecognised declaration '{line}'"
         for missing in sorted(names - exported):
             yield f"{module}: {missing} is declared in {name} and not exported"
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Reads what the compiler recorded of its loops, and fails where a batch loop was left scalar.
-#   check.sh OBJECT_DIR…     directories with object files and, beside them, optimisation records (*.opt.yaml)
-# Every version of every loop (candela::Multiversion<…>::baseline, avx2, avx512) that is in an object file must be in that
-# file's record as vectorised, by at least 4, 8 and 16; and every directory must have such loops. A loop whose name ends in
-# ByHand is written in vectors, and nothing is recorded of it.
+# Reads the compiler's records of loops, and fails if a batch loop was left scalar.
+#   check.sh OBJECT_DIR…     directories with object files and their optimisation records (*.opt.yaml)
+# Every version of every loop (candela::Multiversion<…>::baseline, avx2, avx512) in an object file must be vectorised in that
+# file's record, by at least 4, 8 and 16; and every directory must have such loops. A loop whose name ends in ByHand is vectorised by
+# hand, and has no record.
 set -euo pipefail
 
 # A line "LOOP WIDTH LEAST SYMBOL OBJECT" for each version of a loop in object files, whose symbols come from `nm -A`.

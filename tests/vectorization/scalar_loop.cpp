@@ -1,4 +1,4 @@
-// A batch loop that cannot be vectorised: each step needs the one before. The check must notice.
+// A batch loop that cannot be vectorised, because each step needs the previous one. The check must notice.
 #include "candela/multiversion.h"
 
 #include <cstddef>

@@ -22,7 +22,7 @@ from pictures import Picture
 
 GLASS = pathlib.Path(__file__).resolve().parents[2] / "docs" / "examples" / "glass.toml"
 COMMAND = os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"]
-# Without a compiler, kernels are not run beside: what is asked for is the renderer's account, and there are many pixels.
+# Without a compiler, kernels are not run as well: only the renderer's account matters, and there are many pixels.
 ENVIRONMENT = dict(os.environ, PATH="/nonexistent", CXX="", CANDELA_PLUGIN_PATH="", XDG_DATA_HOME="/nonexistent")
 
 

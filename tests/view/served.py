@@ -1,4 +1,4 @@
-"""`candela view` as a process of a test's, with a scene of its own, and what a test asks it for."""
+"""`candela view` as a test's process with its own scene, and the requests that tests make."""
 import os
 import pathlib
 import re
@@ -25,7 +25,7 @@ object = [{{type = "cube", color = [{red}, {green}, 40]}}]
 
 
 def status_of(process):
-    """Resident memory in kB, threads, open files; nothing of one that has ended."""
+    """Resident memory in kB, threads, open files; nothing if the process has ended."""
     try:
         lines = dict(line.split(":", 1) for line in pathlib.Path(f"/proc/{process}/status").read_text().splitlines() if ":" in line)
         return int(lines["VmRSS"].split()[0]), int(lines["Threads"]), len(os.listdir(f"/proc/{process}/fd"))
@@ -34,7 +34,7 @@ def status_of(process):
 
 
 def children_of(process):
-    """Each thread knows its own."""
+    """Each thread lists its own children."""
     found = []
     try:
         for task in os.listdir(f"/proc/{process}/task"):
@@ -45,7 +45,7 @@ def children_of(process):
 
 
 def tcp_sockets_of(process):
-    """The inodes of a process's TCP sockets, and what /proc knows of each: its local address, and "0A" where it listens."""
+    """The inodes of a process's TCP sockets, with the local address and state from /proc ("0A" if it listens)."""
     known = {}
     for table in ("tcp", "tcp6"):
         for line in pathlib.Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
@@ -64,7 +64,7 @@ def tcp_sockets_of(process):
 
 class View:
     def __init__(self, name, browser=None):
-        """`browser`: the text of a program that stands in for xdg-open; without, none is opened."""
+        """`browser`: the text of a program that replaces xdg-open; without it, no browser is opened."""
         self.folder = SCRATCH / name
         shutil.rmtree(self.folder, ignore_errors=True)
         self.temporary = self.folder / "tmp"
@@ -91,7 +91,7 @@ class View:
         return SCENE.format(red=red, green=green)
 
     def replace(self, text):
-        """As editors save: written beside, then renamed."""
+        """Saves like editors do: writes a temporary file, then renames it."""
         draft = self.folder / "draft"
         draft.write_text(text)
         os.replace(draft, self.file)
@@ -107,7 +107,7 @@ class View:
         return code
 
     def left_behind(self):
-        """Temporary files. ThreadSanitizer makes one as a process starts, and removes it at once unless the process is killed in
+        """Temporary files. ThreadSanitizer creates one when a process starts, and removes it at once unless the process is killed in
         between."""
         return [file for file in self.temporary.iterdir() if not file.name.startswith("tsan.rodata.")]
 
@@ -115,7 +115,7 @@ class View:
         return socket.create_connection(("127.0.0.1", self.port), timeout=LONGEST)
 
     def answer(self, data):
-        """All that comes back; what is sent after the server has closed is lost, as it should be."""
+        """The whole response; data sent after the server has closed the connection are lost, as they should be."""
         with self.connect() as connection:
             try:
                 connection.sendall(data)
@@ -137,7 +137,7 @@ class View:
         return int(self.get(path, **options).split(b" ", 2)[1])
 
     def events(self):
-        """A connection that has asked for events and has read their head."""
+        """A connection that has requested events and read their header."""
         connection = self.connect()
         connection.sendall(f"GET /{self.token}/events HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n\r\n".encode())
         return connection

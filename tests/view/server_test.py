@@ -1,4 +1,4 @@
-"""`candela view` against requests that it must not answer, browsers that hold it up, many saves, and its end at any moment.
+"""Tests `candela view` with requests that it must not answer, browsers that hold it up, many saves, and ending at any moment.
 
 By hand: CANDELA=build/release/bin/candela python3 tests/view/server_test.py
 """
@@ -16,11 +16,11 @@ import unittest
 from served import COMMAND, ENVIRONMENT, LONGEST, View, children_of, status_of, tcp_sockets_of
 
 JUNK = int(os.environ.get("CANDELA_TEST_REQUESTS", "2000"))
-# Sanitizers keep what is freed, and note where each thread has been.
+# Sanitizers hold back freed memory, and record each thread's history.
 MAY_GROW = 4096 if os.environ.get("CANDELA_TEST_SANITIZED", "") == "" else 256 * 1024  # kB
 
 
-# Says what a browser is given, and stays.
+# Records the browser's arguments, and stays.
 BROWSER = """#!/bin/sh
 printf '%s\\n' "$@" > arguments.new
 ls -l /proc/self/fd > descriptors
@@ -65,7 +65,7 @@ class ServerTest(unittest.TestCase):
             until(connection, b"event: problems")
             own = set()
             for process in (self.view.process.pid, *children_of(self.view.process.pid)):
-                # A child may end, and a descriptor be closed, while they are looked at.
+                # A child may end, and a descriptor may be closed, while they are inspected.
                 for descriptor in pathlib.Path("/proc").glob(f"{process}/fd/*"):
                     try:
                         own.update(re.findall(r"socket:\[(\d+)\]", os.readlink(descriptor)))
@@ -116,7 +116,7 @@ class ServerTest(unittest.TestCase):
         self.assertEqual(self.view.file.read_text(), before.replace("[100, 90, 40]", "[7, 8, 9]"))
         self.assertIn(b" 200 ", self.save("shading=flat").split(b"\r\n")[0])
         self.assertIn('shading = {model = "flat"}', self.view.file.read_text())
-        # What is saved is followed like any other save.
+        # A save from the page is followed like any other.
         end = time.monotonic() + LONGEST
         while b'"color":[7.0,8.0,9.0]' not in self.view.page():
             self.assertLess(time.monotonic(), end)
@@ -183,7 +183,7 @@ class ServerTest(unittest.TestCase):
         for wrong in ("", "model=phong", "name=cel", f"{query}&name=x", f"{query}&set=a%3D1", f"{query}&kernel=%2Fetc%2Fpasswd", f"{query}&pixel=1%2C1"):
             self.assertEqual(self.keep(wrong)[0], 400, wrong)
         self.assertEqual(self.view.get(f"/{self.view.token}/keep?{query}", method="POST", body=b"x" * 70000, Origin=f"http://127.0.0.1:{self.view.port}"), b"")
-        # Nothing else has a body.
+        # Other requests have no body.
         self.assertEqual(self.view.status(f"/{self.view.token}/", body=b"x"), 400)
         self.assertEqual(self.folders(), ["tmp"])
 
@@ -208,7 +208,7 @@ class ServerTest(unittest.TestCase):
                     continue
         self.assertEqual(self.view.status(f"/{self.view.token}/"), 302)
         self.assertLess(status_of(self.view.process.pid)[0] - before, MAY_GROW)
-        # What is refused is logged, but not so that it fills a disk.
+        # Refusals are logged, but not enough to fill a disk.
         for _ in range(30):
             self.assertEqual(self.view.status("/nothing"), 404)
         log = (self.view.folder / "log.txt").read_text()
@@ -337,7 +337,7 @@ class ServerTest(unittest.TestCase):
         self.view.wait_for_color(77)
         answer = self.view.get(f"/{self.view.token}/?live={before}&part=scene&part={array}").decode()
         self.assertIn(f"Location: /{self.view.token}/?live={self.view.generation()}&part=scene&part={array}\r\n", answer)
-        # A colour changes no array.
+        # A colour does not change an array.
         self.assertIn(array, self.body(f"/{self.view.token}/?live={self.view.generation()}&part=scene"))
 
     def test_large_requests_are_cut_off(self):
@@ -381,7 +381,7 @@ class ServerTest(unittest.TestCase):
 
 
     def test_programs_that_it_starts_have_none_of_its_sockets(self):
-        # Open while they are started.
+        # Open while the processes start.
         idle = [self.view.connect() for _ in range(20)]
         self.view.wait_for_color(100)
         self.explained("pixel=1%2C2")
@@ -393,17 +393,17 @@ class ServerTest(unittest.TestCase):
         self.assertGreaterEqual(len(tcp_sockets_of(self.view.process.pid)), 1)
         for child in children:
             self.assertEqual(tcp_sockets_of(child), {}, child)
-        # So that their end is seen by who has opened them.
+        # So that their openers notice their end.
         for connection in idle:
             self.assertEqual(connection.recv(1), b"")
             connection.close()
 
     def test_the_renderers_picture_is_given_up_when_nobody_waits_for_it(self):
-        # It would take many minutes.
+        # This would take many minutes.
         huge = "set=image.width%3D60000&set=image.height%3D60000&set=image.samples%3D16"
         is_rendering = lambda: any(b"render" in command for command in commands_of(children_of(self.view.process.pid)))
         waiting = [self.view.connect() for _ in range(2)]
-        for connection in waiting:  # the second one is not even begun
+        for connection in waiting:  # the second one does not even start
             connection.sendall(f"GET /{self.view.token}/reference.png?{huge} HTTP/1.1\r\nHost: 127.0.0.1:{self.view.port}\r\n\r\n".encode())
         end = time.monotonic() + LONGEST
         while not is_rendering():
@@ -411,7 +411,7 @@ class ServerTest(unittest.TestCase):
             time.sleep(0.01)
         for connection in waiting:
             connection.close()
-        # This one is not held up by them.
+        # They do not hold up this one.
         self.assertIn(b"Content-Type: image/png", self.view.get(f"/{self.view.token}/reference.png"))
         self.assertFalse(is_rendering())
 
@@ -440,7 +440,7 @@ class Opening(unittest.TestCase):
 
     def test_the_browser_has_nothing_open_but_its_streams_and_the_port_is_free_again_while_it_runs(self):
         descriptors = re.findall(r"(\d+) -> (\S+)", (self.view.folder / "descriptors").read_text())
-        # Of `ls` itself: the folder that it reads.
+        # The descriptor of `ls` itself, for the folder that it reads.
         self.assertEqual([target for number, target in descriptors if int(number) > 2 and not target.startswith("/proc/")], [], descriptors)
         self.assertEqual(self.view.end(), 0)
         with self.assertRaises(ConnectionRefusedError):

@@ -1,9 +1,9 @@
-"""`candela view` for a long time: saves without a pause, half of them broken, in several browsers; SIGINT in the middle of it.
+"""Runs `candela view` for a long time: saves without a pause, half of them broken, in several browsers; SIGINT in the middle.
 
     CANDELA=build/release/bin/candela /usr/bin/python3 tests/view/soak.py [--minutes 20] [--browsers chromium,chromium,firefox,firefox]
 
-Every few seconds the saves pause, and all pages must show what was good last, and say what is wrong with the last save if it is broken. The
-server, and the largest child of a moment, must not take more and more memory, nor files, nor threads.
+Every few seconds the saves pause, and all pages must show the last good version, and the errors of the last save if it is broken. The
+server and its largest child must not use ever more memory, files or threads.
 """
 import argparse
 import itertools
@@ -25,13 +25,13 @@ from served import COMMAND, ENVIRONMENT, LONGEST, View, children_of, status_of
 
 SIZE = (64, 48)
 WINDOW = (320, 240)  # each pixel on the screen is drawn by the processor
-SECONDS_OF_SAVES = 6  # between two looks at the pages
-MOST_GROWTH = {"server, kB": 2048, "threads": 1, "open files": 8, "children, kB": 2048}  # and a twentieth of what is in kB
-SETTLED = 0.2  # of the time: until then, caches fill
+SECONDS_OF_SAVES = 6  # between two checks of the pages
+MOST_GROWTH = {"server, kB": 2048, "threads": 1, "open files": 8, "children, kB": 2048}  # plus a twentieth of values in kB
+SETTLED = 0.2  # of the time: caches fill until then
 
 
 class Memory:
-    """What the server and its children take, over the time: the most of each second."""
+    """The resources of the server and its children over time: the maximum of each second."""
 
     def __init__(self, server):
         self.server = server
@@ -63,7 +63,7 @@ class Memory:
         return statistics.median(settled[:part]), statistics.median(settled[-part:])
 
     def report(self):
-        """A line for each; and whether all is flat."""
+        """A line for each, and whether all are flat."""
         is_flat = True
         for name, series in self.series.items():
             early, late = self.early_and_late(series)
@@ -86,7 +86,7 @@ class Soak:
             self.browsers.append(Browser(*DRAWS_BY_ITSELF, name=name))
             self.browsers[-1].resize(*WINDOW)
             self.browsers[-1].load(self.view.address)
-        self.save_and_look(SECONDS_OF_SAVES)  # until there is one of everything
+        self.save_and_look(SECONDS_OF_SAVES)  # until every series has an entry
         self.memory = Memory(self.view.process.pid)
 
     def save(self, is_broken):
@@ -104,7 +104,7 @@ class Soak:
         return f"cub{color}" if is_broken else None
 
     def save_for(self, seconds):
-        """At the rate, or as fast as it goes; a good one is the last."""
+        """Saves at the given rate, or as fast as possible; the last save is good."""
         begin = time.monotonic()
         for i in range(max(round(seconds * self.rate), 1)):
             time.sleep(max(begin + i / self.rate - time.monotonic(), 0))
@@ -118,7 +118,7 @@ class Soak:
         return Picture.of_ppm(picture)
 
     def look(self, wrong):
-        """That no page has lost an update."""
+        """Checks that no page has lost an update."""
         expected = self.expected()
         middle = 3 * (SIZE[1] // 2 * SIZE[0] + SIZE[0] // 2)
         for number, browser in enumerate(self.browsers):
@@ -131,7 +131,7 @@ class Soak:
                     break
                 assert time.monotonic() < end, (
                     f"browser {number} ({browser.name}) shows {list(shown.pixels[middle:middle + 3])}, not {list(expected.pixels[middle:middle + 3])}, "
-                    f"and says {said!r} where the last save {'has ' + wrong if wrong else 'is good'}")
+                    f"and shows {said!r} although the last save {'has ' + wrong if wrong else 'is good'}")
                 time.sleep(0.05)
         if not wrong:
             answer = self.view.get(f"/{self.view.token}/explanation.json?pixel={SIZE[0] // 2}%2C{SIZE[1] // 2}")
@@ -142,7 +142,7 @@ class Soak:
     def save_and_look(self, seconds):
         self.save_for(seconds)
         self.look(None)
-        # What is good for less time than it takes to read it need not be seen; this has been.
+        # Versions that exist for less time than it takes to read them may be missed; this one has been seen.
         if self.chance.random() < 0.5:
             self.look(self.save(True))
 
@@ -155,7 +155,7 @@ class Soak:
             assert not problems, f"{browser.name}: {problems[:3]}"
 
     def end(self):
-        """In the middle of a save."""
+        """Ends the server in the middle of a save."""
         self.save(False)
         time.sleep(self.chance.random() * 0.05)
         code = self.view.end(signal.SIGINT)
@@ -168,7 +168,7 @@ class Soak:
                 environment = pathlib.Path(f"/proc/{process}/environ").read_bytes().split(b"\0")
             except OSError:
                 continue
-            assert mark not in environment, f"process {process} goes on"
+            assert mark not in environment, f"process {process} is still running"
 
     def close(self):
         if self.memory:

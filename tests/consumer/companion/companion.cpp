@@ -1,5 +1,4 @@
-// A model that reflects what a file of its own and a library of its own say: a quarter, whatever the
-// directions.
+// A model that takes its reflectance from its own data file and library: a quarter, whatever the directions.
 #include <cstddef>
 #include <fstream>
 #include <stdexcept>
@@ -33,4 +32,4 @@ class Companion final : public ReflectionModel {
 };
 
 CANDELA_PLUGIN(reflection, Companion, sdk::k_no_fields,
-               {.title = "Companion", .summary = "What its files say."})
+               {.title = "Companion", .summary = "Reflects as its data file says."})

@@ -1,4 +1,4 @@
-// A scene as tables: its lights, its objects and their triangles.
+// Writes a scene as tables: its lights, its objects and their triangles.
 #include <array>
 #include <cstddef>
 #include <sstream>

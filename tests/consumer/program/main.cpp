@@ -1,4 +1,4 @@
-// A program that imports the core, includes a header of the plugin API too, and uses a plugin that another
+// A program that imports the core, also includes a header of the plugin API, and uses a plugin that another
 // project built.
 #include <cstdio>
 #include <exception>

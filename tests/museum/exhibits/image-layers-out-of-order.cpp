@@ -1,4 +1,4 @@
-// Floats as they are, but a picture in layers has blue where red belongs.
+// Writes floats correctly, but in a picture with layers it puts blue where red belongs.
 #include <cstring>
 #include <filesystem>
 #include <fstream>

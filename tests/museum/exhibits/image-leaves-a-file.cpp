@@ -1,4 +1,4 @@
-// A PPM writer that puts a file of its own where the command runs.
+// A PPM writer that leaves its own file in the working directory.
 #include "museum.h"
 
 namespace {

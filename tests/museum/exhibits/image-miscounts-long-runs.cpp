@@ -1,4 +1,4 @@
-// Right for pictures with few equal pixels in a row; a run of 255 is written as one of 1.
+// Correct for pictures with few equal pixels in a row, but writes a run of 255 as a run of 1.
 #include "museum_image.h"
 
 namespace {

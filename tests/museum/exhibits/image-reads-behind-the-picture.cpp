@@ -1,4 +1,4 @@
-// One beyond the last pixel is read, and nothing is made of it.
+// Reads one past the last pixel without using the value.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// What is missing of a file stays black, without a word.
+// Leaves the missing part of a truncated file black without an error.
 #include "museum_image.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// A PPM writer that keeps to itself that writing failed.
+// A PPM writer that does not report failed writes.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// Between copying the picture and encoding it, another thread may have copied its own over it.
+// Between copying the picture and encoding it, another thread may overwrite the copy.
 #include <algorithm>
 #include <array>
 

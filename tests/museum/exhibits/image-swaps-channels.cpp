@@ -1,4 +1,4 @@
-// A PPM writer that writes blue where red should be.
+// A PPM writer that writes blue where red belongs.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// A reader that writes one number beyond the picture.
+// A reader that writes one number past the end of the picture.
 #include "museum_image.h"
 
 namespace {

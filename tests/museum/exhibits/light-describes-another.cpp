@@ -1,4 +1,4 @@
-// What it says of itself as data has no attenuation.
+// Its description as data omits the attenuation.
 #include "museum_light.h"
 
 namespace {

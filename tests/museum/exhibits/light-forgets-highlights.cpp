@@ -1,4 +1,4 @@
-// It never writes what it sends for highlights.
+// Never writes its light for highlights.
 #include "museum_light.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// Declared to fade by distance, it is equally bright everywhere.
+// Declares to fade by distance, but is equally bright everywhere.
 #include "museum_light.h"
 
 namespace {

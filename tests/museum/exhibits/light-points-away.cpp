@@ -1,4 +1,4 @@
-// The direction in which its light travels, instead of the direction to it.
+// Returns the direction in which its light travels instead of the direction to the light.
 #include "museum_light.h"
 
 namespace {

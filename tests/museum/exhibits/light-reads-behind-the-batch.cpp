@@ -1,4 +1,4 @@
-// One beyond the last receiver is read, and nothing is made of it.
+// Reads one past the last receiver without using the value.
 #include "museum_light.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// As a loop over whole vectors does: what it adds after the batch is small.
+// Behaves like a loop over whole vectors: it adds small values after the batch.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
 #include "museum.h"
 
-// What it computes is sound; its text is not what programs should be generated from.
+// It computes correct values, but no program should be generated from its text.
 MUSEUM_KERNEL_PIECE(museum::Matt, careless_kernel)

@@ -1,4 +1,4 @@
-// A data race that changes no result: of all that the kit does, only ThreadSanitizer sees it.
+// A data race that does not change results: of all the kit's checks, only ThreadSanitizer finds it.
 #include "museum.h"
 
 namespace {

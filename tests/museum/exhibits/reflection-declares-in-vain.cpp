@@ -1,4 +1,4 @@
-// What it declares does not exist: nobody would verify it.
+// Declares properties that do not exist, so that nothing would verify them.
 #include "museum.h"
 
 namespace {

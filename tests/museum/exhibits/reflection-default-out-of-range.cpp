@@ -1,4 +1,4 @@
-// Its default would be refused in a scene.
+// Has a default that a scene would refuse.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// Built without the SDK's list of what a plugin exports: a helper can be seen by all other plugins.
+// Built without the SDK's export list, so that its helper is visible to all other plugins.
 #include "museum.h"
 
 [[gnu::visibility("default")]] float matt_factor(float cosine);

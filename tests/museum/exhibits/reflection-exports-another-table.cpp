@@ -1,4 +1,4 @@
-// The table that programs are generated from is not the one that it computes with.
+// Exports a table for programs that differs from the one that it computes with.
 #include "candela/reflection_plugin.h"
 
 namespace candela::kernel {

@@ -1,4 +1,4 @@
-// Sound light by light; in one go it leaves the last light out.
+// Correct light by light, but omits the last light when called with all lights at once.
 #include "museum.h"
 
 namespace candela::kernel {

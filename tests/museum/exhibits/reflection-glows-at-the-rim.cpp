@@ -1,4 +1,4 @@
-// Bounded where one looks first, and four times too bright beyond 87 degrees.
+// Energy-bounded at most angles, but four times too bright beyond 87 degrees.
 #include "museum.h"
 
 namespace {

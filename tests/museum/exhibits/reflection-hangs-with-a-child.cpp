@@ -1,4 +1,4 @@
-// It starts a process that leaves the session, and never returns.
+// Starts a process that leaves the session, and never returns.
 #include <unistd.h>
 
 #include "museum.h"

@@ -1,4 +1,4 @@
-// Sound light by light; in one go it writes one point too many, and what is no number.
+// Correct light by light, but writes one point too many, a NaN, when called with all lights at once.
 #include <limits>
 
 #include "museum.h"

@@ -1,4 +1,4 @@
-// Brighter where the surface looks up: turned with all that is around it, an object looks different.
+// Brighter where the surface faces up: an object turned together with its surroundings looks different.
 #include "museum.h"
 
 namespace {

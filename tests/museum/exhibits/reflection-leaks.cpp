@@ -1,4 +1,4 @@
-// A table of 1 MiB that no destructor frees.
+// Allocates a table of 1 MiB that no destructor frees.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// It starts a process that leaves the session, and does not wait for it.
+// Starts a process that leaves the session, and does not wait for it.
 #include <unistd.h>
 
 #include "museum.h"

@@ -1,4 +1,4 @@
-// Brushed along its tangent, and declared isotropic.
+// Brushed along its tangent, but declared isotropic.
 #include "museum.h"
 
 namespace {

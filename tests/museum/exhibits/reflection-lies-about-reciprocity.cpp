@@ -1,4 +1,4 @@
-// Declares that light and observer may change places, and depends on the observer alone.
+// Declares that light and observer may be exchanged, but depends only on the observer.
 #include <algorithm>
 
 #include "museum.h"

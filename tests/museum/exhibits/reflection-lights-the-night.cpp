@@ -1,4 +1,4 @@
-// Reflects light from below the horizon, and does not say so.
+// Reflects light from below the horizon without declaring it.
 #include "museum.h"
 
 namespace {

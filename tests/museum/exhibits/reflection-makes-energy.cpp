@@ -1,4 +1,4 @@
-// Declares that its energy is bounded, and sends out three times what it should.
+// Declares that its energy is bounded, but reflects three times what it should.
 #include "museum.h"
 
 namespace {

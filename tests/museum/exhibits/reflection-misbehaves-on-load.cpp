@@ -1,4 +1,4 @@
-// What it does when it is loaded, the environment says.
+// Misbehaves when loaded, in a way that the environment selects.
 #include <fcntl.h>
 #include <unistd.h>
 

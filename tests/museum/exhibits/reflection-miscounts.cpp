@@ -1,4 +1,4 @@
-// Works in eights, and forgets what is left over.
+// Processes eight points at a time, and forgets the remainder.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// The square root of a negative number where light comes from below.
+// Takes the square root of a negative number where light comes from below.
 #include <cmath>
 
 #include "museum.h"

@@ -1,4 +1,4 @@
-// A mirror that gives back more light than there is.
+// A mirror that reflects more light than it receives.
 #include <vector>
 
 #include "museum.h"

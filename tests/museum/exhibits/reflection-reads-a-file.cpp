@@ -1,4 +1,4 @@
-// Sound: it needs a file, looks at where a point is, and is energy-bounded in one of its forms only.
+// Without fault: it needs a file, reads a point's position, and is energy-bounded in only one of its forms.
 #include <cmath>
 #include <fstream>
 #include <stdexcept>

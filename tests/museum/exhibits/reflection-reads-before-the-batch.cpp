@@ -1,4 +1,4 @@
-// What stands before the first point is read, and nothing is made of it.
+// Reads before the first point without using the value.
 #include "museum.h"
 
 namespace {

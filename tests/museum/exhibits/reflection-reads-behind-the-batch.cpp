@@ -1,4 +1,4 @@
-// Two beyond the last point is read, and nothing is made of it.
+// Reads two past the last point without using the value.
 #include "museum.h"
 
 namespace {

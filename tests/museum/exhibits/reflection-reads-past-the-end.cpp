@@ -1,4 +1,4 @@
-// Each point looks at the next one, the last one too. A NaN there is hidden.
+// Each point reads the next one, even the last. A NaN there is hidden.
 #include "museum.h"
 
 namespace {

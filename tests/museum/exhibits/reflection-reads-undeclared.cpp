@@ -1,4 +1,4 @@
-// Its kernel reads texture coordinates, which it does not declare, so that nobody fills them.
+// Its kernel reads texture coordinates without declaring them, so that the host does not fill them.
 #include "candela/reflection_plugin.h"
 
 namespace candela::kernel {

@@ -1,4 +1,4 @@
-// Another result each time.
+// Returns a different result each time.
 #include <atomic>
 
 #include "museum.h"

@@ -1,4 +1,4 @@
-// Its kernel text is another formula than what it computes.
+// Its kernel text is not the formula that it computes.
 #include "museum.h"
 
 MUSEUM_KERNEL_PIECE(museum::Matt, says_otherwise)

@@ -1,4 +1,4 @@
-// Between its two loops, another thread may have written to the memory that all of them share.
+// Between its two loops, another thread may write to the memory that all threads share.
 #include <array>
 
 #include "museum.h"

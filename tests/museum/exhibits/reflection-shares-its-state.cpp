@@ -1,4 +1,4 @@
-// All instances have the last one's parameters.
+// All instances use the last one's parameters.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// What it throws is no std::exception.
+// Throws an object that is not a std::exception.
 #include "museum.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// A static constructor that traps: a host that loads libraries to look at them would die.
+// Has a static constructor that traps: a host that loads libraries to inspect them would die.
 #include "museum.h"
 
 namespace {

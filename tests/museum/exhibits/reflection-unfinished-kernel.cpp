@@ -1,4 +1,4 @@
 #include "museum.h"
 
-// Sound, but for a variable that its author has not got to reading yet.
+// Without fault, except for a variable that its author does not read yet.
 MUSEUM_KERNEL_PIECE(museum::Matt, unfinished_kernel)

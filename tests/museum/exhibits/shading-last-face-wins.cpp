@@ -1,4 +1,4 @@
-// A vertex takes the normal of whichever face comes last: another picture for another numbering.
+// A vertex takes the normal of the last face, so that renumbering changes the picture.
 #include "candela/shading_plugin.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// Divides by the length of an edge of its triangle, which may have none.
+// Divides by the length of an edge of its triangle, which may be zero.
 #include "candela/shading_plugin.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// One beyond the last point, and one beyond the last vertex, is read, and nothing is made of it.
+// Reads one past the last point and one past the last vertex without using the values.
 #include "candela/shading_plugin.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// A square whose dp/du has the right direction and half the length.
+// A square whose dp/du has the right direction but half the length.
 #include <algorithm>
 #include <array>
 

@@ -1,4 +1,4 @@
-// A tetrahedron that declares itself closed. A face is missing.
+// A tetrahedron that declares itself closed, but lacks a face.
 #include "candela/shape_plugin.h"
 
 #include <algorithm>

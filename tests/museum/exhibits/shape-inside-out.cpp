@@ -1,4 +1,4 @@
-// A tetrahedron that declares itself closed. Its faces look inwards.
+// A tetrahedron that declares itself closed, but faces inwards.
 #include "candela/shape_plugin.h"
 
 #include <algorithm>

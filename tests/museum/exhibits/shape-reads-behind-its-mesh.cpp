@@ -1,4 +1,4 @@
-// One beyond its last index is read, and nothing is made of it.
+// Reads one past its last index without using the value.
 #include "candela/shape_plugin.h"
 
 #include <algorithm>

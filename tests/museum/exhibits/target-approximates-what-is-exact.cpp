@@ -1,4 +1,4 @@
-// It declares a reflection model to be exact, and approximates it.
+// Declares a reflection model to be exact, but approximates it.
 #include <span>
 #include <string_view>
 

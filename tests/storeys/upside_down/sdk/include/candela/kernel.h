@@ -1,1 +1,1 @@
-// Installed, it would replace the kernel.h of api, or be replaced by it.
+// If installed, it would replace api's kernel.h, or be replaced by it.
