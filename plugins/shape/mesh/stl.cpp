@@ -295,7 +295,8 @@ class TextReader {
 
     [[noreturn]] void refuse(std::string_view word, std::string_view wanted) const {
         if (word.empty()) throw BadFile(fmt::format("ends where {} was expected", wanted));
-        throw BadFile(fmt::format("line {}: found {}; expected {}", scanner_.line(), in_quotes(word), wanted));
+        throw BadFile(
+            fmt::format("line {}: found {}; expected {}", scanner_.line(), in_quotes(word), wanted));
     }
 
     TextScanner scanner_;
