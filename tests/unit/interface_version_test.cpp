@@ -67,7 +67,7 @@ std::string progress() {
 
 std::string expected(const fs::path& directory, const std::string& abi) {
     return "plugin '" + (directory / "reflection-other-interface.so").string() +
-           "' is refused: it was built for '" + abi + "', this is '" + std::string(candela::host_abi()) +
+           "' is refused: it was built for '" + abi + "', but this is '" + std::string(candela::host_abi()) +
            "'; build it again with this Candela's SDK";
 }
 

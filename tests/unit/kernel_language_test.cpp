@@ -323,7 +323,7 @@ TEST_CASE("kernel language: no variable is read before it has a value, and every
     for (const char* const body : {"", "float x = 1.0;", "if (m.k > 0.0) return Reflected(s.color, s.color);",
                                    "for (int i = 0; i < 3; ++i) return Reflected(s.color, s.color);"}) {
         INFO(body);
-        CHECK(holds(problem_in(body), "nothing is returned"));
+        CHECK(holds(problem_in(body), "path to its end that returns nothing"));
     }
 }
 
@@ -389,7 +389,7 @@ TEST_CASE("kernel language: a kernel declares structs, constants and functions, 
                             "KERNEL vec3 f(float a) { return X_PI * a * X_UP; }") == "");
     for (const Refused& each : std::vector<Refused>{
              {"float x = 1.0;", "x.kernel:1:1: expected a struct, a constant (const) or a function (KERNEL)"},
-             {"const float x = sin(1.0);", "made of numbers"},
+             {"const float x = sin(1.0);", "consist only of numbers"},
              {"const float x = y;", "unknown variable"},
              {"struct Surface { float x; };", "'Surface' is the name of a type"},
              {"struct A { A a; };", "unknown type 'A'"},

@@ -184,7 +184,7 @@ TEST_CASE("a value outside its range is an error that names the range") {
     check_error(std::string("version = 1\n") + k_observer + "fov = 179.9999999999\n" + k_models, 5, 7,
                 "less than 180");
     check_error(whole() + "size = nan\n", 15, 8, "nan");
-    check_error(whole() + "size = inf\n", 15, 8, "not a number");
+    check_error(whole() + "size = inf\n", 15, 8, "not a usable number");
     check_error(whole() + "size = 1e39\n", 15, 8, "too large");
     check_error(whole() + "scale = 0\n", 15, 9, "greater than 0");
     check_error(whole() + "[image]\nsamples = 2\n", 16, 11, "2 is not one of 1, 4, 8, 16");
@@ -382,7 +382,7 @@ TEST_CASE("invalid settings are errors that name their flag") {
     CHECK(message("object.bix.size", "2").find("did you mean 'box'?") != std::string::npos);
     CHECK(message("object.3.size", "2").find("numbered 0 to 0") != std::string::npos);
     CHECK(message("object.box.sise", "2").find("did you mean 'size'?") != std::string::npos);
-    CHECK(message("object.box.size", "[1").find("no value") != std::string::npos);
+    CHECK(message("object.box.size", "[1").find("not a value") != std::string::npos);
     CHECK(message("object.box.size", "big").find("expected a number") != std::string::npos);
     CHECK(message("image.width", "0").find("1 to 65536") != std::string::npos);
     CHECK(message("image", "0").find("needs a table and a key") != std::string::npos);

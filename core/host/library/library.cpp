@@ -130,7 +130,7 @@ const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manife
 
     if (manifest != nullptr && manifest->abi != host_abi()) {
         refuse(library,
-               fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
+               fmt::format("it was built for '{}', but this is '{}'; build it again with this Candela's SDK",
                            manifest->abi, host_abi()));
     }
     Loaded& entry = loaded_libraries()[library];
@@ -147,9 +147,10 @@ const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manife
         }
         const std::string_view abi = entry.library.get<const char*()>("candela_plugin_abi")();
         if (abi != host_abi()) {
-            refuse(library,
-                   fmt::format("it was built for '{}', this is '{}'; build it again with this Candela's SDK",
-                               abi, host_abi()));
+            refuse(
+                library,
+                fmt::format("it was built for '{}', but this is '{}'; build it again with this Candela's SDK",
+                            abi, host_abi()));
         }
         const PluginDescriptor* descriptor =
             entry.library.get<const PluginDescriptor*()>("candela_plugin_descriptor")();
