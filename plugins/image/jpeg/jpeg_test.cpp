@@ -78,7 +78,7 @@ double root_mean_square_difference(const Decoded& picture, const Bytes& pixels) 
 
 }  // namespace
 
-TEST_CASE("a JPEG of any kind is read like by OpenImageIO") {
+TEST_CASE("a JPEG of any kind is read the same as by OpenImageIO") {
     const fs::path file = scratch_directory() / "kind.jpg";
     const auto check = [&](const char* kind, const std::string& content, float tolerance = 1e-6f) {
         INFO(kind);

@@ -65,7 +65,7 @@ class EarClipper {
         }
         for (std::size_t i = 0; i < n; ++i)
             if (turn(i) <= 0) reflex_.push_back(i);
-        // Corners that may lie inside an ear; ears are removed from them as they are cut.
+        // Each ear searches the reflex corners once for those to remove.
         spend(p_.size() * reflex_.size());
     }
 
@@ -117,7 +117,7 @@ class EarClipper {
         return is_free;
     }
 
-    /// Takes a few seconds.
+    /// Limits the tests to a few seconds' worth.
     void spend(std::size_t tests) {
         constexpr std::size_t k_most_tests = 500'000'000;
         tests_ += tests;
