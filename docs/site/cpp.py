@@ -1,4 +1,4 @@
-"""The C++ reference: what the installed headers and the core's modules declare, a page for each, read by Doxygen."""
+"""The C++ reference: a page for each installed header and each module of the core, read by Doxygen."""
 import html
 import re
 import shutil
@@ -6,13 +6,13 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-# Folders of sources, what a page of each is called, and what they are for.
+# The title, the folders and the purpose of each group of pages.
 GROUPS = (
     ("Interfaces", ("core/api/include",),
-     "What plugins implement, and the data that crosses the boundary. Programs import the same as modules."),
-    ("Plugin SDK", ("sdk/include",), "What a plugin is written with."),
-    ("For exporters", ("sdk/target/include",), "Parts that targets share."),
-    ("Embedding", ("core/embedding/include",), "For programs of any C++20 compiler."),
+     "The interfaces of plugins, and the data that crosses the boundary. Programs import them as modules."),
+    ("Plugin SDK", ("sdk/include",), "The headers for writing plugins."),
+    ("For exporters", ("sdk/target/include",), "Code shared by targets."),
+    ("Embedding", ("core/embedding/include",), "For programs built with any C++20 compiler."),
     ("Modules", ("core/base", "core/host", "core/scene", "core/render"), "For programs that import `candela.core`."),
 )
 SETTINGS = """
@@ -42,25 +42,25 @@ CODE, END = "```cpp\n", "```\n"
 
 
 def escaped(comment):
-    """A comment that is prose, outside of its `code`."""
+    """A comment with Doxygen's special characters escaped outside of its `code`."""
     parts = re.split(r"(`[^`]*`)", comment)
     return "".join(part if part.startswith("`") else re.sub(r"([<>@\\#])", r"\\\1", part) for part in parts)
 
 
 def for_doxygen(path, text):
-    """Sources as Doxygen understands them: without the words of modules, and with the comments behind members as theirs."""
+    """The source without module declarations, and with trailing comments marked as Doxygen's."""
     lines = []
     for line in text.splitlines():
         if path.suffix == ".cppm":
             if re.match(r"(module|export module|import|export import)\b[^(]*;", line):
                 line = ""
             line = re.sub(r"^export ", "", line)
-        if re.match(r'#include ".*\.kernel"', line):  # which is read on its own
+        if re.match(r'#include ".*\.kernel"', line):  # read separately
             line = ""
-        if path.suffix == ".kernel" and "" in lines:  # below the comment at the head
+        if path.suffix == ".kernel" and "" in lines:  # below the file's first comment
             line = re.sub(r"^// ", "/// ", line)
         line = re.sub(r"^(\s*[^#}/\s][^/]*?)\s+// (?!NOLINT)(.*)$", r"\1  ///< \2", line)
-        if lines and "///< " in lines[-1]:  # which goes on
+        if lines and "///< " in lines[-1]:  # continues
             line = re.sub(r"^(\s+)// ", r"\1///< ", line)
         line = re.sub(r"(///<? )(.*)$", lambda found: found[1] + escaped(found[2]), line)
         lines.append(line)
@@ -74,7 +74,7 @@ def comment_at_head(text):
         if not line.startswith("//"):
             break
         lines.append(line[2:].removeprefix(" "))
-    # What is indented is code.
+    # Indented lines are code.
     return "\n".join(line if line.startswith("    ") else html.escape(line, quote=False) for line in lines)
 
 
@@ -110,11 +110,11 @@ class Reference:
     def __init__(self, root, folder, scratch):
         self.root, self.folder, self.scratch = root, folder, scratch
         self.pages = {}  # by path of source
-        self.anchors = {}  # page by id of what is on it
+        self.anchors = {}  # page by id of its declarations
         self.compounds = []
 
     def page_of(self, path, group, text):
-        """Partitions of a module share its page."""
+        """The page of a source; partitions of a module share its page."""
         module = re.search(r"^export module ([\w.]+)(:\w+)?;", text, re.MULTILINE)
         name = module[1] if module else f"candela/{path.as_posix().partition('/include/candela/')[2]}"
         page = next((page for page in self.pages.values() if page.name == name), None) or Page(name, group, "")
@@ -213,18 +213,18 @@ class Reference:
         return self.template(member) + text + arguments
 
     def values(self, members, page):
-        """Members that are data, or an enumeration's values."""
+        """A table of data members, or of an enumeration's values."""
         rows = [f"| {'value' if members[0].tag == 'enumvalue' else 'member'} | meaning |", "|---|---|"]
         for member in members:
             shown = member.findtext("name") if member.tag == "enumvalue" else self.declaration(member)
             meaning = " ".join(self.description(member, page).split())
-            if meaning.count(".") == 1:  # which Doxygen adds
+            if meaning.count(".") == 1:  # added by Doxygen
                 meaning = meaning.removesuffix(".")
             rows.append(f"| `{shown.replace('|', chr(92) + '|')}` | {meaning} |")
         return "\n".join(rows) + "\n"
 
     def functions(self, members, page, level):
-        """Each with its description below it; those without one are declared together."""
+        """Each function with its description below it; those without one are declared together."""
         parts, alone = [], []
         for member in members:
             about = self.description(member, page)
@@ -257,13 +257,13 @@ class Reference:
                 f"{self.description(member, page)}\n\n{self.values(member.findall('enumvalue'), page)}")
 
     def write(self):
-        """Writes all pages, and returns their part of the navigation."""
+        """Writes all pages and returns their part of the navigation."""
         self.read()
         classes = [compound for compound in self.compounds if compound.get("kind") in ("class", "struct") and self.page_at(compound)]
         free = [member for compound in self.compounds if compound.get("kind") in ("namespace", "file")
                 for member in compound.iter("memberdef") if self.page_at(member)]
         free = list({member.get("id"): member for member in free}.values())
-        # Macros without a word are not for others.
+        # Macros without a description are internal.
         free = [member for member in free if member.get("kind") != "define" or "".join(member.find("briefdescription").itertext()).strip()]
         for element in classes + free:
             page = self.page_at(element)
@@ -294,7 +294,7 @@ class Reference:
             for _, page in pages:
                 (self.folder / page.file).write_text(page.text())
             rows = [f"| [`{name}`]({page.file}) | {page.summary()} |" for name, page in pages]
-            index.append(f"## {group}\n\n{about}\n\n| file or module | what it is |\n|---|---|\n" + "\n".join(rows) + "\n")
+            index.append(f"## {group}\n\n{about}\n\n| file or module | contents |\n|---|---|\n" + "\n".join(rows) + "\n")
             navigation.append({group: [{name.removeprefix("candela/"): f"cpp/{page.file}"} for name, page in pages]})
         (self.folder / "index.md").write_text("\n".join(index))
         return navigation

@@ -1,4 +1,4 @@
-// Sets the models' formulas, as pages do that show a scene.
+// Typesets the models' formulas, like the pages of scenes.
 import { formulaLines } from "../../plugins/target/webgl/scripts/typeset.js";
 
 for (const element of document.querySelectorAll("pre.formula")) {

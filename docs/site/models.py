@@ -1,4 +1,4 @@
-"""Pages of the installed models: what their manifests say, a picture by the renderer, and the lobes of reflection models."""
+"""Pages of the installed models, from their manifests, with a rendered picture and the lobes of reflection models."""
 import html
 import json
 import subprocess
@@ -6,7 +6,7 @@ from pathlib import Path
 
 KINDS = {"light": "Lights", "reflection": "Reflection models", "shading": "Shading models", "shape": "Shapes",
          "image": "Picture formats", "target": "Targets"}
-FACETS = 12  # few enough that shading models differ
+FACETS = 12  # few enough that shading models differ visibly
 
 SCENE = """version = 1
 [observer]
@@ -35,7 +35,7 @@ position = [0, 0, 0]
 """
 LAMP = 'type = "point"\nposition = [1.6, 2.2, 2.4]\nintensity = 12'
 BALL = 'type = "sphere"\nradius = 0.9'
-# What the scene says of a model's own parameters, where their defaults show little.
+# Parameters of models whose defaults show little.
 LIGHTS = {
     "ambient": 'type = "ambient"\ncolor = [160, 160, 160]\nintensity = 6',
     "directional": 'type = "directional"\ndirection = [-1, -1.2, -1]',
@@ -48,13 +48,13 @@ LIGHTS = {
 SHAPES = {"sphere": BALL, "cube": 'type = "cube"\nsize = 1.3\nrotation = [0, 35, 0]',
           "torus": 'type = "torus"\nmajor_radius = 0.75\nminor_radius = 0.3\nrotation = [35, 0, 0]',
           "teapot": 'type = "teapot"\nsize = 1.2'}
-# What they show comes from around the object, so that they have no lobe either.
+# These models show the object's surroundings and therefore have no lobe.
 SHOW_SURROUNDINGS = {"dielectric"}
 ENVIRONMENT = Path(__file__).resolve().parent.parent / "examples/terrace.png"
 
 
 def scene_of(kind, name):
-    """A scene that shows the model, or nothing where there is nothing to see of it."""
+    """A scene that shows the model, or None if it has no visible effect."""
     parts = {"shading": "phong", "reflection": "phong", "light": LAMP, "shape": BALL}
     environment = ""
     if kind == "reflection":
@@ -109,7 +109,7 @@ class Models:
         subprocess.run([self.candela, *words], check=True, stdout=subprocess.DEVNULL)
 
     def picture(self, kind, name):
-        """The file name of the picture beside the page, or nothing."""
+        """The file name of the picture next to the page, or None."""
         scene = scene_of(kind, name)
         if scene is None:
             return None
@@ -133,7 +133,7 @@ class Models:
             text.append(f'## Formula\n\n<pre class="formula" data-parameters="{names}">{html.escape(manifest["formula"])}</pre>\n')
         if kind == "reflection" and name not in SHOW_SURROUNDINGS:
             other = "Phong's" if name != "phong" else "Lambert's"
-            text.append(f"## Lobe\n\n![What the model reflects of light from 45 degrees, with {other} model over it]"
+            text.append(f"## Lobe\n\n![The model's reflection of light from 45 degrees, with that of {other} model over it]"
                         f"({self.lobe(name)})\n")
         text.append(f"## Parameters\n\n{parameters_table(manifest['parameters'])}")
         if manifest.get("properties"):
@@ -145,7 +145,7 @@ class Models:
         return picture
 
     def write(self):
-        """Writes all pages, and returns their part of the navigation."""
+        """Writes all pages and returns their part of the navigation."""
         manifests = json.loads(subprocess.run([self.candela, "list", "--json"], check=True, capture_output=True, text=True).stdout)
         index, navigation = ["# Models\n"], [{"All models": "models/index.md"}]
         for kind, title in KINDS.items():

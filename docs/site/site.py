@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""site.py CANDELA OUT: the documentation as a site, OUT/html/index.html, which needs no server.
+"""site.py CANDELA OUT: builds the documentation as a site, OUT/html/index.html, which needs no server.
 
-The documents as they are, a page for each installed model with its picture and lobe, one of all commands' help, and one for each header
-and module of C++. Every link is checked: those between documents by mkdocs, those of the finished pages here."""
+It contains the documents, a page for each installed model with its picture and lobe, a page with the help of all commands, and a page for each
+header and module of C++. mkdocs checks the links between documents; this script checks those of the finished pages."""
 import html.parser
 import json
 import os
@@ -27,7 +27,7 @@ def copy_documents(sources):
     shutil.copy(HERE / "site.css", sources / "site.css")
     subprocess.run(["esbuild", HERE / "formulas.js", "--bundle", "--minify", "--log-level=error", f"--outfile={sources}/formulas.js"],
                    check=True)
-    # A link to a folder is one to the list of what is in it.
+    # A link to a folder leads to a list of its contents.
     for folder in ("docs/adr", "docs/examples", "docs/examples/plugins"):
         names = sorted(entry.name for entry in (sources / folder).iterdir() if entry.name != "README.md")
         links = [f"- [{name}]({name}{'/README.md' if (sources / folder / name).is_dir() else ''})" for name in names
@@ -37,7 +37,7 @@ def copy_documents(sources):
 
 
 def link_folders(sources):
-    """Links to folders lead to their README.md, as they do where the repository is browsed."""
+    """Makes links to folders lead to their README.md, as in a browsed repository."""
     for document in sources.rglob("*.md"):
         text = document.read_text()
 
@@ -56,7 +56,7 @@ def commands_page(candela):
     listed = subprocess.run([candela, ""], check=True, capture_output=True, text=True,
                             env={**os.environ, "CANDELA_COMPLETE": "1"}).stdout
     verbs = dict(line.split("\t") for line in listed.splitlines())
-    text = ["# Commands\n", "What `candela VERB --help` prints. The same is in the manual pages: `man candela-render`.\n"]
+    text = ["# Commands\n", "The output of `candela VERB --help`, which is also in the manual pages: `man candela-render`.\n"]
     for verb, summary in verbs.items():
         text.append(f"## candela {verb}\n\n{summary[0].upper()}{summary[1:]}.\n\n```text\n{output(verb, '--help').strip()}\n```\n")
     return "\n".join(text)
@@ -112,10 +112,10 @@ def main():
     (out / "mkdocs.yml").write_text(settings)
     built = subprocess.run(["mkdocs", "build", "--quiet", "--clean", "--strict", "-f", out / "mkdocs.yml"], check=False)
     if built.returncode != 0:
-        sys.exit("site: mkdocs has found what is wrong above")
+        sys.exit("site: mkdocs reported the errors above")
     wrong = list(broken_links(site))
     for line in wrong:
-        print(f"site: {line} leads nowhere", file=sys.stderr)
+        print(f"site: broken link: {line}", file=sys.stderr)
     if wrong:
         sys.exit(1)
     print(site / "index.html")

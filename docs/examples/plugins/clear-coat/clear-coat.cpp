@@ -7,11 +7,11 @@ namespace candela::kernel {
 using candela::kernel::ClearCoatMaterial;
 using namespace candela::sdk;
 
-constexpr auto k_fields =
-    fields(ambient_coefficient(&ClearCoatMaterial::ka), diffuse_coefficient(&ClearCoatMaterial::kd),
-           real(&ClearCoatMaterial::ior, "ior", 1.5f, "of the coat: the index of refraction").range(1.01f, 3),
-           real(&ClearCoatMaterial::roughness, "roughness", 0.15f, "of the coat: 0 polished, 1 rough")
-               .range(0.03f, 1));
+constexpr auto k_fields = fields(
+    ambient_coefficient(&ClearCoatMaterial::ka), diffuse_coefficient(&ClearCoatMaterial::kd),
+    real(&ClearCoatMaterial::ior, "ior", 1.5f, "the coat's index of refraction").range(1.01f, 3),
+    real(&ClearCoatMaterial::roughness, "roughness", 0.15f, "the coat's roughness: 0 polished, 1 rough")
+        .range(0.03f, 1));
 
 constexpr candela::Property k_properties[] = {{"reciprocal"}, {"energy-bounded"}, {"isotropic"}};
 

@@ -8,8 +8,8 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// What a projector of 90 degrees with 2 x 2 panes, 2 m above the floor and looking at it, sends to a point
-/// of the floor.
+/// The intensity at a point of the floor from a projector of 90 degrees with 2 x 2 panes, 2 m above it and
+/// pointing down.
 float sent_to(float x, float z) {
     const auto light = candela::sdk::make<candela::Light>(CANDELA_PLUGIN_DIR, "gobo",
                                                           {{"position", candela::Vec3{0, 2, 0}},
@@ -29,12 +29,12 @@ float sent_to(float x, float z) {
 
 }  // namespace
 
-TEST_CASE("in the middle of a pane, 1 m aside and 1 m ahead, all light of the distance arrives") {
+TEST_CASE("in the middle of a pane, 1 m to the side and 1 m ahead, all light for that distance arrives") {
     CHECK_THAT(sent_to(1, 1), WithinAbs(4.0 / 6, 1e-5));
     CHECK_THAT(sent_to(-1, 1), WithinAbs(4.0 / 6, 1e-5));
 }
 
-TEST_CASE("a fiftieth of the light passes the bars, and none leaves the field") {
+TEST_CASE("a fiftieth of the light passes the bars, and none falls outside the field") {
     CHECK_THAT(sent_to(0, 1), WithinAbs(0.02 * 4 / 5, 1e-5));
     CHECK_THAT(sent_to(0.1f, 1), WithinAbs(0.02 * 4 / 5.01, 1e-5));
     CHECK_THAT(sent_to(1.9f, 1), WithinAbs(0.02 * 4 / 8.61, 1e-5));

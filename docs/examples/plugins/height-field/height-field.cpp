@@ -1,4 +1,4 @@
-// A terrain from an ASCII grid, the format in which surveys publish heights.
+// A terrain from an ASCII grid, a format in which surveys publish heights.
 #include <candela/shape_plugin.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Grid {
 
 std::size_t whole(double number, const std::string& key) {
     if (!(number >= 2 && number <= 8192) || number != std::floor(number))
-        throw std::runtime_error("its '" + key + "' is no whole number from 2 to 8192");
+        throw std::runtime_error("its '" + key + "' is not an integer from 2 to 8192");
     return static_cast<std::size_t>(number);
 }
 
@@ -37,8 +37,7 @@ Grid read(const char* path) {
     Grid grid;
     std::string key;
     double hole = -9999, number = 0;
-    // The header: keys, in any case, each with a number. Where a number stands in a key's place the heights
-    // begin.
+    // The header: keys, in any case, each with a number. The heights begin at the first line without a key.
     while ((file >> std::ws) && std::isalpha(file.peek()) != 0 && file >> key >> number) {
         std::ranges::transform(key, key.begin(),
                                [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -48,7 +47,7 @@ Grid read(const char* path) {
         if (key == "nodata_value") hole = number;
     }
     if (grid.columns == 0 || grid.rows == 0)
-        throw std::runtime_error("it is no ASCII grid: 'ncols' or 'nrows' is missing");
+        throw std::runtime_error("it is not an ASCII grid: 'ncols' or 'nrows' is missing");
     if (!(grid.cell_size > 0) || !std::isfinite(grid.cell_size))
         throw std::runtime_error("its 'cellsize' is not above 0");
     grid.heights.reserve(grid.columns * grid.rows);
@@ -106,10 +105,10 @@ class HeightField final : public candela::Shape {
 
 constexpr auto k_fields = fields(
     file(&HeightFieldParams::file, "file", "heights as an ASCII grid (.asc), in the unit of its cellsize"),
-    real(&HeightFieldParams::width, "width", 1, "from west to east; heights have the same scale")
+    real(&HeightFieldParams::width, "width", 1, "the extent from west to east; heights have the same scale")
         .above(0)
         .unit("m"),
-    real(&HeightFieldParams::exaggeration, "exaggeration", 1, "times as high as the scale says").above(0));
+    real(&HeightFieldParams::exaggeration, "exaggeration", 1, "a factor for heights").above(0));
 
 constexpr candela::Property k_properties[] = {{"open"}};
 
@@ -118,6 +117,6 @@ constexpr candela::Property k_properties[] = {{"open"}};
 CANDELA_PLUGIN(
     shape, HeightField, k_fields,
     {.title = "Height field",
-     .summary = "A terrain of heights from a file; north is -z, and what has no data is at height 0.",
+     .summary = "A terrain of heights from a file; north is -z, and cells without data have height 0.",
      .reference = "Esri ASCII raster format, ArcGIS documentation",
      .properties = k_properties})

@@ -14,7 +14,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// A file that is gone when the test has ended.
+/// A file that is removed when the test ends.
 class Grid {
   public:
     explicit Grid(const std::string& text) {
@@ -33,7 +33,7 @@ class Grid {
 
 }  // namespace
 
-TEST_CASE("a slope of 3 in 4 has 5/4 of its area, and its highest cells lie in the north") {
+TEST_CASE("a slope of 3 in 4 has 5/4 of its flat area, and its highest cells are in the north") {
     const Grid grid(
         "ncols 3\nNROWS 2\nxllcorner 0\nyllcorner 0\ncellsize 4\nNODATA_value -9999\n3 3 3\n0 0 -9999\n");
     const auto shape = candela::sdk::make<candela::Shape>(CANDELA_PLUGIN_DIR, "height-field",
@@ -51,7 +51,7 @@ TEST_CASE("a slope of 3 in 4 has 5/4 of its area, and its highest cells lie in t
     CHECK_THAT(area, WithinRel(8.0f * 5, 1e-5f));
 }
 
-TEST_CASE("a grid that ends too early is refused, and says so") {
+TEST_CASE("a grid that ends too early is refused with a message that says so") {
     const Grid grid("ncols 3\nnrows 2\ncellsize 1\n1 2 3 4\n");
     CHECK_THROWS_WITH(
         candela::sdk::make<candela::Shape>(CANDELA_PLUGIN_DIR, "height-field", {{"file", grid.path()}}),

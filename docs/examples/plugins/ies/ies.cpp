@@ -1,5 +1,5 @@
-// A lamp as its maker has measured it: IES LM-63 (ANSI/IES LM-63-19), photometry of type C. The file becomes
-// a table of the kernel.
+// A lamp with the manufacturer's measurements: IES LM-63 (ANSI/IES LM-63-19), photometry of type C. The file
+// becomes a table for the kernel.
 #include <candela/light_plugin.h>
 
 namespace candela::kernel {
@@ -21,7 +21,8 @@ using namespace candela::sdk;
 
 namespace {
 
-/// Candela by vertical angle (0 is along the lamp's axis) for each horizontal angle; both ascend, in degrees.
+/// Candela by vertical angle (0 is along the lamp's axis) for each horizontal angle; both ascending, in
+/// degrees.
 struct Photometry {
     std::vector<float> vertical, horizontal, candela;
 
@@ -31,7 +32,7 @@ struct Photometry {
         while (std::getline(file, line) && !line.starts_with("TILT=")) {
         }
         if (!line.starts_with("TILT=NONE"))
-            throw std::runtime_error("it has no 'TILT=NONE': it is no IES file, or its lamp is tilted");
+            throw std::runtime_error("it has no 'TILT=NONE': it is not an IES file, or its lamp is tilted");
         std::string rest{std::istreambuf_iterator<char>(file), {}};
         std::ranges::replace(rest, ',', ' ');
         std::istringstream numbers(rest);
@@ -49,7 +50,7 @@ struct Photometry {
             list(13);  // lamps, lumens, multiplier, counts, type, unit, size, factors
         for (const std::size_t i : {3, 4})
             if (!(head[i] >= 1 && head[i] <= 1000))
-                throw std::runtime_error("its number of angles is none from 1 to 1000");
+                throw std::runtime_error("its number of angles is not from 1 to 1000");
         if (head[5] != 1) throw std::runtime_error("its photometry is not of type C");
         vertical = list(static_cast<std::size_t>(head[3]));
         horizontal = list(static_cast<std::size_t>(head[4]));
@@ -59,8 +60,8 @@ struct Photometry {
             if (!std::ranges::is_sorted(*angles)) throw std::runtime_error("its angles do not ascend");
     }
 
-    /// Between two angles the values are mixed; what was not measured is dark below and above, and symmetric
-    /// around.
+    /// The value at an angle, interpolated; 0 outside the measured vertical angles. Missing horizontal angles
+    /// follow from symmetry.
     float at(float down, float around) const {
         if (down < vertical.front() || down > vertical.back()) return 0;
         const float last = horizontal.back();
@@ -86,8 +87,7 @@ struct Photometry {
     }
 };
 
-/// The largest step of degrees in which all angles are a whole number of steps; no smaller than half a
-/// degree.
+/// The largest step, in degrees, of which all angles are multiples; at least half a degree.
 float step_of(const std::vector<float>& angles) {
     for (const float step : {90.0f, 45.0f, 30.0f, 22.5f, 15.0f, 10.0f, 7.5f, 5.0f, 2.5f, 2.0f, 1.0f}) {
         const auto is_whole = [&](float angle) {
@@ -98,11 +98,11 @@ float step_of(const std::vector<float>& angles) {
     return 0.5f;
 }
 
-/// A grid of equal steps, as the kernel reads it.
+/// A grid of equal steps, as expected by the kernel.
 std::vector<float> table_of(const char* path) {
     const Photometry photometry(path);
     const float last = photometry.vertical.back();
-    // From the axis on, where the first angle may be greater than 0.
+    // Starting at the axis: the first angle may be greater than 0.
     std::vector<float> downwards = photometry.vertical;
     downwards.insert(downwards.begin(), 0.0f);
     const auto steps = static_cast<int>(std::ceil(last / step_of(downwards)));
@@ -120,12 +120,12 @@ std::vector<float> table_of(const char* path) {
     return table;
 }
 
-constexpr auto k_fields =
-    fields(light_color(&IesLight::color),
-           real(&IesLight::intensity, "intensity", 0.001f, "that one candela of the file is").minimum(0),
-           point(&IesLight::position, "position", "where the lamp is"),
-           direction(&IesLight::direction, "direction", "the lamp's axis, where its vertical angle is 0"),
-           file_table(&IesLight::file, "file", table_of, "the lamp's photometry (.ies, LM-63, type C)"));
+constexpr auto k_fields = fields(
+    light_color(&IesLight::color),
+    real(&IesLight::intensity, "intensity", 0.001f, "the intensity of one candela in the file").minimum(0),
+    point(&IesLight::position, "position", "the lamp's position"),
+    direction(&IesLight::direction, "direction", "the lamp's axis, at which the vertical angle is 0"),
+    file_table(&IesLight::file, "file", table_of, "the lamp's photometry (.ies, LM-63, type C)"));
 
 constexpr candela::Property k_properties[] = {{"attenuation", "by distance"}};
 
@@ -134,7 +134,7 @@ constexpr candela::Property k_properties[] = {{"attenuation", "by distance"}};
 CANDELA_LIGHT_PLUGIN(
     ies, IesLight, k_fields,
     {.title = "IES light",
-     .summary = "A lamp as its maker has measured it, from a photometric file.",
+     .summary = "A lamp with the manufacturer's measurements, from a photometric file.",
      .formula = "I_L = color intensity I(vertical, horizontal) / r^2",
      .reference = "ANSI/IES LM-63-19, Approved method: IES standard file format for photometric data",
      .properties = k_properties})

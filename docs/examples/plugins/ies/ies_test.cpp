@@ -13,7 +13,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// A file that is gone when the test has ended.
+/// A file that is removed when the test ends.
 class Lamp {
   public:
     explicit Lamp(const std::string& text) {
@@ -26,7 +26,7 @@ class Lamp {
     ~Lamp() { std::filesystem::remove_all(folder_); }
     std::string path() const { return (folder_ / "lamp.ies").string(); }
 
-    /// What 1000 of its candela, as 1, send from a lamp at 2 m that looks down to a point of the floor.
+    /// The intensity at a point of the floor from a lamp 2 m above it that points down; 1000 cd count as 1.
     float sent_to(float x, float z) const {
         const auto light = candela::sdk::make<candela::Light>(
             CANDELA_PLUGIN_DIR, "ies",
@@ -51,11 +51,11 @@ const std::string k_lamp =
 
 }  // namespace
 
-TEST_CASE("straight below at 2 m, 1000 cd are a quarter") {
+TEST_CASE("straight below at 2 m, 1000 cd give a quarter") {
     CHECK_THAT(Lamp(k_lamp).sent_to(0, 0), WithinRel(0.25f, 1e-5f));
 }
 
-TEST_CASE("at 45 degrees, each side has its own value, over the square of the distance") {
+TEST_CASE("at 45 degrees, each side has its own value, divided by the square of the distance") {
     const Lamp lamp(k_lamp);
     CHECK_THAT(lamp.sent_to(0, 2), WithinRel(0.5f / 8, 1e-4f));
     CHECK_THAT(lamp.sent_to(0, -2), WithinRel(0.1f / 8, 1e-4f));
@@ -63,7 +63,7 @@ TEST_CASE("at 45 degrees, each side has its own value, over the square of the di
     CHECK_THAT(lamp.sent_to(-2, 0), WithinRel(0.3f / 8, 1e-4f));
 }
 
-TEST_CASE("a file that is cut off, or none of the kind, is refused") {
+TEST_CASE("a file that is cut off, or not an IES file, is refused") {
     CHECK_THROWS_WITH(Lamp(k_lamp.substr(0, k_lamp.size() - 20)).sent_to(0, 0),
                       ContainsSubstring("ends before its last candela"));
     CHECK_THROWS_WITH(Lamp("hello\n").sent_to(0, 0), ContainsSubstring("TILT=NONE"));

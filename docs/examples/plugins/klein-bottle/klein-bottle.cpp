@@ -7,13 +7,17 @@ namespace candela::kernel {
 using candela::kernel::KleinBottleShape;
 using namespace candela::sdk;
 
-// After a turn the figure of eight is upside down: u = 1 joins u = 0 only with v reversed, and with the sides
-// exchanged.
+// After one turn the figure of eight is upside down: u = 1 joins u = 0 only with v reversed and the sides
+// swapped.
 constexpr Topology k_topology{.v_is_periodic = true};
 
 constexpr auto k_fields = fields(
-    real(&KleinBottleShape::radius, "radius", 0.5f, "of the way around the axis").above(0).unit("m"),
-    real(&KleinBottleShape::thickness, "thickness", 0.4f, "of the figure of eight").above(0).unit("m"),
+    real(&KleinBottleShape::radius, "radius", 0.5f, "the radius of the path around the axis")
+        .above(0)
+        .unit("m"),
+    real(&KleinBottleShape::thickness, "thickness", 0.4f, "the size of the figure of eight")
+        .above(0)
+        .unit("m"),
     segments(&KleinBottleShape::segments, 128, "faces around; half as many along the figure of eight"));
 
 constexpr candela::RelationSpec k_relations[] = {{candela::RelationType::less, "thickness", "radius", false,

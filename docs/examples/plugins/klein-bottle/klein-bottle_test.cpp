@@ -12,7 +12,7 @@ using candela::Vec3;
 
 namespace {
 
-/// Vertices at one place, to a tenth of a millimetre, as one.
+/// The mesh with coincident vertices merged, to a tenth of a millimetre.
 class Surface {
   public:
     explicit Surface(std::int64_t segments)
@@ -49,8 +49,9 @@ class Surface {
 
 }  // namespace
 
-TEST_CASE("every edge lies between two faces, and vertices - edges + faces is 0, as of every Klein bottle") {
-    // An odd number of faces along the eight: of the two points where it meets itself one is then no vertex.
+TEST_CASE("every edge lies between two faces, and vertices - edges + faces is 0, as for every Klein bottle") {
+    // An odd number of faces along the eight, so that it has a vertex at only one of the two points where it
+    // meets itself.
     const Surface surface(102);
     CHECK(surface.is_closed());
     CHECK(surface.euler() == 0);

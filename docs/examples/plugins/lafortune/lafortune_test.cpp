@@ -14,7 +14,7 @@ TEST_CASE("c = (-1, -1, 1) is Phong's lobe: the power of the cosine between obse
         WithinRel(0.3 * 11 * std::pow(lobe, 20) * std::cos(30 * 0.0174532925), 1e-4));
 }
 
-TEST_CASE("c = (1, 1, 1) throws light back to where it came from") {
+TEST_CASE("c = (1, 1, 1) reflects light back to its source") {
     const auto back = [](float observer) {
         return reflected(CANDELA_PLUGIN_DIR, "lafortune", {{"c_xy", 1.0}, {"c_z", 1.0}}, observer, 50)
             .specular.x;

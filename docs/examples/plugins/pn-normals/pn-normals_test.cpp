@@ -84,7 +84,7 @@ TEST_CASE("inside a triangle, all six coefficients count") {
     check_normal(normal_at(corners, {third, third, third}), x / length, y / length, z / length);
 }
 
-TEST_CASE("where two vertices coincide, normals are those of the vertices") {
+TEST_CASE("if two vertices coincide, the normals are those of the vertices") {
     Corners corners{.normal = {Vec3{0, 0, 1}, Vec3{0, 0, 1}, Vec3{0, 0, 1}}};
     corners.position[1] = corners.position[0];
     check_normal(normal_at(corners, {0.2f, 0.3f, 0.5f}), 0, 0, 1);

@@ -1,5 +1,5 @@
-// Dominic Szablewski (2021), "The Quite OK Image Format", specification 1.0: a pixel is a repetition, one
-// seen before, a small difference, or itself.
+// Dominic Szablewski (2021), "The Quite OK Image Format", specification 1.0: a pixel is stored as a
+// repetition, an index of an earlier pixel, a small difference, or its own value.
 #include <candela/image_plugin.h>
 
 #include <array>
@@ -83,11 +83,11 @@ class Qoi final : public candela::ImageFormat {
             return static_cast<int>(number);
         };
         if (bytes.size() < 14 || std::memcmp(bytes.data(), "qoif", 4) != 0)
-            throw std::runtime_error("it is no QOI picture");
+            throw std::runtime_error("it is not a QOI picture");
         at = 4;
         const int width = size(), height = size();
-        at += 2;  // channels and colour space, which say nothing about the pixels that follow
-        // No more than 62 pixels come from a byte: what claims more is not whole, and gets no memory.
+        at += 2;  // channels and colour space, which do not affect the pixels that follow
+                  // A byte holds at most 62 pixels: a file that claims more is cut off, and gets no memory.
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
         if (pixels > k_longest_run * bytes.size()) throw std::runtime_error("it ends before its last pixel");
         const std::span<float> values = sink.allocate(width, height, true);
@@ -111,7 +111,7 @@ class Qoi final : public candela::ImageFormat {
             values[3 * i + 2] = static_cast<float>(pixel.b) / 255;
         }
         for (const Byte expected : k_end)
-            if (next() != expected) throw std::runtime_error("it does not end as a QOI picture does");
+            if (next() != expected) throw std::runtime_error("it lacks the end mark of a QOI picture");
     }
 
   private:
@@ -148,12 +148,12 @@ class Qoi final : public candela::ImageFormat {
 };
 
 constexpr candela::FileFormat k_formats[] = {
-    {"qoi", "Quite OK Image, compressed without loss", candela::PixelType::byte, true}};
+    {"qoi", "Quite OK Image, lossless compression", candela::PixelType::byte, true}};
 
 }  // namespace
 
 CANDELA_PLUGIN(image, Qoi, k_no_fields,
                {.title = "QOI",
-                .summary = "Pictures without loss, smaller than PPM and written faster than PNG.",
+                .summary = "Lossless pictures, smaller than PPM and written faster than PNG.",
                 .reference = "Szablewski (2021), The Quite OK Image Format, specification 1.0",
                 .formats = k_formats})

@@ -43,7 +43,7 @@ TEST_CASE(
 }
 
 // The specification's chunks, section by section.
-TEST_CASE("QOI_OP_RUN: black at first, 62 at most in a chunk") {
+TEST_CASE("QOI_OP_RUN: the first pixel's predecessor is black, and a chunk holds at most 62 pixels") {
     CHECK(chunks_of(Bytes(3 * 62)) == Bytes{0xc0 | 61});
     CHECK(chunks_of(Bytes(3 * 64)) == Bytes{0xc0 | 61, 0xc0 | 1});
 }
@@ -53,10 +53,10 @@ TEST_CASE("QOI_OP_DIFF: differences of -2 to 1, around zero as well, with a bias
 TEST_CASE("QOI_OP_LUMA: green by -32 to 31, with red and blue relative to it by -8 to 7") {
     CHECK(chunks_of({20, 25, 32}) == Bytes{0x80 | (25 + 32), (20 - 25 + 8) << 4 | (32 - 25 + 8)});
 }
-TEST_CASE("QOI_OP_RGB: anything else, as it is") {
+TEST_CASE("QOI_OP_RGB: any other pixel, uncompressed") {
     CHECK(chunks_of({100, 200, 50}) == Bytes{0xfe, 100, 200, 50});
 }
-TEST_CASE("QOI_OP_INDEX: a pixel seen before is its place, (3 r + 5 g + 7 b + 11 a) mod 64") {
+TEST_CASE("QOI_OP_INDEX: an earlier pixel is stored as its index, (3 r + 5 g + 7 b + 11 a) mod 64") {
     const auto place = static_cast<std::uint8_t>((100 * 3 + 200 * 5 + 50 * 7 + 255 * 11) % 64);
     CHECK(chunks_of({100, 200, 50, 0, 90, 0, 100, 200, 50}) ==
           Bytes{0xfe, 100, 200, 50, 0xfe, 0, 90, 0, place});

@@ -9,11 +9,11 @@
 using Catch::Matchers::WithinAbs;
 
 TEST_CASE(
-    "at a corner of edges of 1, 2 and 4 each face counts by the reciprocal of the edges that it lies "
-    "between") {
+    "at a corner with edges of 1, 2 and 4, each face's weight is the reciprocal of the product of its "
+    "edges") {
     const auto model = candela::sdk::make<candela::ShadingModel>(CANDELA_PLUGIN_DIR, "reciprocal-weighted");
 
-    // A tetrahedron's corner: edges along x, y and z. The faces look along -z, -x and -y.
+    // A tetrahedron's corner: edges along x, y and z. The faces point along -z, -x and -y.
     const std::array<float, 4> x{0, 1, 0, 0}, y{0, 0, 2, 0}, z{0, 0, 0, 4};
     const std::array<std::uint32_t, 9> indices{0, 2, 1, 0, 3, 2, 0, 1, 3};
     const std::array<float, 3> face_x{0, -1, 0}, face_y{0, 0, -1}, face_z{-1, 0, 0};

@@ -42,7 +42,7 @@ TEST_CASE(
     CHECK_THAT(sun.azimuth, WithinAbs(194.340241, 0.02));
 }
 
-TEST_CASE("at noon of an equinox the sun is over the equator, and at midnight there is none") {
+TEST_CASE("at noon of an equinox the sun is overhead at the equator, and at midnight there is none") {
     const auto equator = [](double hour) {
         // The equinox of 2024 was at 3:06 UTC; the equation of time was 7.5 minutes.
         return sun_at({{"year", std::int64_t{2024}},
