@@ -134,9 +134,9 @@ def main():
         "relationships": [{"spdxElementId": a, "relationshipType": r, "relatedSpdxElement": b} for a, r, b in relationships],
     }
     text = json.dumps(document, indent=2) + "\n"
-    beside = output.with_suffix(".part")
-    beside.write_text(text)
-    beside.rename(output)
+    unfinished = output.with_suffix(".part")
+    unfinished.write_text(text)
+    unfinished.rename(output)
 
 
 main()

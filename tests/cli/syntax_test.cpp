@@ -55,7 +55,7 @@ TEST_CASE("mistakes in values are explained at their place") {
         {"a = [1,\nb = 3\n", "2:1", "'b' is not a value"},
         {"a = {b = 1,}\n", "1:12", "a comma before the closing } is not allowed"},
         {"a = {b = 1\n", "1:11", "expected a key, ',' or '}' in this table, found the end of the line"},
-        {"a = 1979-13-41\n", "1:12", "this is no date: expected month between 1 and 12"},
+        {"a = 1979-13-41\n", "1:12", "this is not a date: expected month between 1 and 12"},
     });
 }
 

@@ -198,9 +198,9 @@ TEST_CASE("verify and generate do not replace files that the scene is made from,
         CHECK(is_untouched);
         fs::remove(scene);
     };
-    const fs::path beside = folder / "scene.cpp", below = folder / "cpp" / "scene.cpp",
+    const fs::path same_folder = folder / "scene.cpp", below = folder / "cpp" / "scene.cpp",
                    page = folder / "index.html";
-    refused(beside, {"generate", beside.string(), "--target", "cpp", "-o", folder.string()});
+    refused(same_folder, {"generate", same_folder.string(), "--target", "cpp", "-o", folder.string()});
     refused(below, {"verify", below.string(), "--target", "cpp", "--report", folder.string()});
     refused(page, {"verify", page.string(), "--target", "cpp", "--report", folder.string()});
 }

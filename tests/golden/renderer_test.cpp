@@ -62,7 +62,7 @@ class Fixture {
         const auto bytes = film.view().bytes;
         return {bytes.begin(), bytes.end()};
     }
-    Bytes anew() const {
+    Bytes from_scratch() const {
         return picture([&](candela::Film& film) { return candela::render(scene, film, {}); });
     }
     Bytes by(candela::Renderer& renderer) const {
@@ -70,7 +70,7 @@ class Fixture {
     }
     /// Compares without printing pictures.
     void require_same(candela::Renderer& renderer) const {
-        const bool is_same = by(renderer) == anew();
+        const bool is_same = by(renderer) == from_scratch();
         REQUIRE(is_same);
     }
 
@@ -178,7 +178,7 @@ TEST_CASE("the thousandth picture holds no more memory than the hundredth", "[wh
             fixture.scene.observer.position.x = 0.3f + 0.01f * static_cast<float>(i % 7);
             fixture.by(renderer);  // visibility computed again
             fixture.by(renderer);  // lit again
-            fixture.anew();
+            fixture.from_scratch();
         }
     };
     render(100);
