@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
-# Checks the form of the sources: clang-format for all of them, clang-tidy for those that a change may have affected. Makes the
-# release build first.
+# Checks the form of the sources: clang-format and the prose of all of them, clang-tidy for those that a change may have affected.
+# Makes the release build first.
 #   scripts/lint.sh              files that differ from upstream, committed or not, and those that include or import them
 #   scripts/lint.sh --since REV  like that, against REV
 #   scripts/lint.sh --all        everything (half an hour with two cores)
-#   scripts/lint.sh --format     only clang-format, which takes a second
+#   scripts/lint.sh --format     only clang-format and the prose, which takes seconds
+#   scripts/lint.sh --commits REV   only the subjects of the commits since REV
 # If nothing differs from upstream, as in a fresh clone, everything is checked, unless the environment variable
 # CANDELA_LINT_SINCE names a commit to compare with.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 
-usage() { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+usage() { sed -n '2,10s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 commit() { git rev-parse --verify --quiet "$1^{commit}" 2>/dev/null; }
 
 # The commit to compare with, or nothing to check everything.
@@ -34,12 +35,14 @@ scope=changed
 case "${1-}" in
     '') ;;
     --all | --format) scope=${1#--}; [ $# -eq 1 ] || usage ;;
+    --commits) [ $# -eq 2 ] || usage; exec python3 -B "$root/scripts/prose.py" --commits "$2" ;;
     --since) [ $# -eq 2 ] || usage; CANDELA_LINT_SINCE=$2 ;;
     *) usage ;;
 esac
 
 "$root/scripts/setup.sh"
 git ls-files -z '*.cpp' '*.cppm' '*.h' | xargs -0 clang-format-19 --dry-run --Werror
+python3 -B "$root/scripts/prose.py"
 [ "$scope" != format ] || exit 0
 
 since=
