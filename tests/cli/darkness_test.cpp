@@ -61,7 +61,7 @@ TEST_CASE("a light that emits nothing is the reason: no intensity, black, or a c
 
 TEST_CASE("objects that reflect nothing are the reason") {
     CHECK(holds(warning(light(k_in_front) + k_ball + "[object.material]\nka = 0\nkd = 0\nks = 0\n"),
-                "the objects do not reflect"));
+                "the objects reflect none of the light"));
 }
 
 TEST_CASE("light too weak for 8 bits is the reason, and a float picture of it is not black") {

@@ -106,7 +106,9 @@ TEST_CASE("candela edit writes nothing and says why if the scene would have erro
              Wrong{{"--change", "light.key.position=[0,0,0]"}, 3, "is inside object"},
              Wrong{{"--change", "width"}, 2, "has no '='"},
              Wrong{{}, 2, "nothing to change"},
-             Wrong{{"--change", "light.key.intensity=2", "--set", "light.key.intensity=3"}, 2, "prevails"},
+             Wrong{{"--change", "light.key.intensity=2", "--set", "light.key.intensity=3"},
+                   2,
+                   "takes precedence"},
          }) {
         const Edited edited = edit(wrong.options);
         INFO(edited.result.err);

@@ -164,12 +164,12 @@ TEST_CASE("links in place of a job's or a picture's folders are refused by name"
         const Place place;
         place.put_link(name, place.victims);
         check_refused(place.candela({"render", "scene.toml", "-o", "p.tif", "--part", "1/2"}), 1,
-                      "'" + std::string(name) + "' cannot be made");
+                      "'" + std::string(name) + "' cannot be created");
         place.check_victims();
     }
     const Place place;
     place.put_link("frames/.candela", place.victims);
-    check_refused(place.candela({"animate", "scene.toml"}), 1, "'frames/.candela' cannot be made");
+    check_refused(place.candela({"animate", "scene.toml"}), 1, "'frames/.candela' cannot be created");
     place.check_victims();
 }
 

@@ -196,7 +196,7 @@ TEST_CASE("messages explain mistakes with parts") {
     refused({"render", "scene.toml", "-o", "-", "--part", "1/2"}, 2, "name it with -o");
     refused({"assemble"}, 2, "needs the picture's name");
     refused({"assemble", "p.png"}, 1, "'p.png' has no parts");
-    refused({"assemble", "p.what"}, 2, "is of no format");
+    refused({"assemble", "p.what"}, 2, "has a format that no image plugin");
     write_file(directory / "p.png.parts/picture.json", "{\"width\": 3}");
     refused({"assemble", "p.png"}, 1, "does not describe a picture");
     refused({"submit", "scene.toml", "--parts", "4"}, 2, "name it with -o");

@@ -228,7 +228,7 @@ TEST_CASE("plugins that every user can change are refused, unless explicitly all
     CHECK(run_candela(words).exit_code == 0);
     const auto refused = [&] {
         const CommandResult result = run_candela(words);
-        CHECK(result.err.find("is writable by every user, so anybody code could run here") !=
+        CHECK(result.err.find("is writable by every user, so anybody could run code here") !=
               std::string::npos);
         CHECK(result.exit_code == 1);
         std::vector<std::string> trusting = words;

@@ -19,8 +19,7 @@ namespace candela::sdk {
 inline void require_plausible(std::uintmax_t pixels, std::uintmax_t file_size,
                               std::uintmax_t pixels_per_byte) {
     if (pixels > pixels_per_byte * file_size)
-        throw std::runtime_error(
-            "the file is too small for its pixels: it is truncated, or its header is wrong");
+        throw std::runtime_error("it is too small for its pixels: it is truncated, or its header is wrong");
 }
 
 }  // namespace candela::sdk
