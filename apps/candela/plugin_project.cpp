@@ -199,8 +199,8 @@ ProjectNames project_names(const std::string& name) {
     for (const char c : name) good = good && is_allowed(c);
     if (!good) {
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' cannot be a plugin's name: lower-case letters, digits "
-                                "and single hyphens, a letter first",
+                    fmt::format("'{}' is not a valid plugin name; expected lower-case letters, digits and "
+                                "single hyphens, starting with a letter",
                                 name));
     }
     ProjectNames names{.name = name, .ident = {}, .type = type_of(name, '-'), .title = {}};

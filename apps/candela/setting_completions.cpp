@@ -116,7 +116,7 @@ std::vector<Completion> setting_completions(std::string_view typed, const candel
         return {};
     }
     // Up to the next part, as for folders.
-    const std::size_t part = typed.rfind('.') + 1;  // 0 where there is none
+    const std::size_t part = typed.rfind('.') + 1;  // 0 if there is none
     std::vector<Completion> result;
     for (const Settable& settable : paths.found()) {
         if (!settable.path.starts_with(typed)) continue;

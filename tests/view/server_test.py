@@ -158,8 +158,8 @@ class ServerTest(unittest.TestCase):
         self.assertEqual(self.view.folder.joinpath("cel/cel.kernel").read_text(), "// mine\nstruct CelMaterial { vec3 ka; };\nKERNEL vec3 cel_reflect_ambient(CelMaterial m, Surface s) { return m.ka; }\n")
         before = {each: each.read_bytes() for each in self.view.folder.joinpath("cel").iterdir()}
         self.view.folder.joinpath("link").symlink_to("/nonexistent")
-        for name, reason in (("cel", b"already exists"), ("link", b"already exists"), ("tmp", b"already exists"), ("..%2Fx", b"cannot be a plugin's name"),
-                             ("%2Ftmp%2Fx", b"cannot be a plugin's name"), ("", b"cannot be a plugin's name"), ("-x", b"cannot be a plugin's name"), ("A", b"cannot be a plugin's name")):
+        for name, reason in (("cel", b"already exists"), ("link", b"already exists"), ("tmp", b"already exists"), ("..%2Fx", b"is not a valid plugin name"),
+                             ("%2Ftmp%2Fx", b"is not a valid plugin name"), ("", b"is not a valid plugin name"), ("-x", b"is not a valid plugin name"), ("A", b"is not a valid plugin name")):
             status, answer = self.keep(f"model=phong&name={name}")
             self.assertEqual(status, 422, name)
             self.assertIn(reason, answer, name)

@@ -194,7 +194,7 @@ class Light(_Instance):
 
     @property
     def sample_count(self) -> int:
-        """The number of directions from which it reaches a point: 1 for a point light, 0 for ambient light, more for a light with a size."""
+        """The number of directions from which it reaches a point: 1 for a point light, 0 for ambient light, more for area lights."""
         return self._core.sample_count
 
     @property

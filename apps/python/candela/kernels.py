@@ -44,8 +44,8 @@ class _Kernel:
             self.members = _MEMBER.findall(body[1])
             rest = _MEMBER.sub("", body[1]).strip()
             if rest:
-                raise RequestError(f"'{rest.splitlines()[0].strip()}' in struct {self.struct}: expected members of type float, int or vec3, each on "
-                                   "a line of its own")
+                raise RequestError(f"'{rest.splitlines()[0].strip()}' in struct {self.struct}: expected members of type float, "
+                                   "int or vec3, each on a line of its own")
         self.has_ambient = re.search(rf"\b{self.prefix}_reflect_ambient\s*\(", text) is not None
         self.reads = [flag for member, flag in _READS.items() if re.search(rf"\.{member}\b", text)]
 
