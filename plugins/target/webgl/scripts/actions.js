@@ -45,7 +45,7 @@ export function connectActions(settings, render) {
     onClick("copy-link", async () => {
         history.replaceState(null, "", fragmentOf(settings) || location.pathname + location.search);
         const isCopied = await copyToClipboard(location.href);
-        announce(isCopied ? "Link copied." : "The link is in the address bar.");
+        announce(isCopied ? "The link was copied." : "The link is in the address bar.");
         showOn(document.getElementById("copy-link"), isCopied ? "Link copied" : "Link in the address bar");
     });
     onClick("copy-options", async () => {
@@ -55,7 +55,7 @@ export function connectActions(settings, render) {
             return;
         }
         const isCopied = await copyToClipboard(text);
-        announce(isCopied ? "Options for candela render copied." : text);
+        announce(isCopied ? "The options for candela render were copied." : text);
         if (isCopied) showOn(button, "Options copied");
         else showNotice(text);
     });
@@ -64,7 +64,7 @@ export function connectActions(settings, render) {
         try {
             const href = pngUrl(await render(width, height), width, height);
             element("a", { href, download: `${settings.scene.title}.png` }).click();
-            announce("Picture saved.");
+            announce("The picture was saved.");
         } catch (error) {
             showError(error);
         }
@@ -86,7 +86,7 @@ export function connectSaving(settings) {
         let problem = "";
         try {
             const response = await fetch(`save?${query}`, { method: "POST" });
-            if (response.ok) announce("Changes saved.");
+            if (response.ok) announce("The changes were saved.");
             else problem = (await response.text()).trim();
         } catch (error) {
             problem = error.message;
