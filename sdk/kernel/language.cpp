@@ -51,7 +51,7 @@ void replace(std::vector<Declaration>& declarations, const Body& body) {
     if (found == declarations.end())
         throw std::invalid_argument(fmt::format("the kernel has no function '{}'", body.function));
     std::vector<Statement> statements = parsed_body(tokens_of(body.source.text, 1));
-    if (statements.empty()) throw Refusal{{0, 1}, "nothing is returned"};
+    if (statements.empty()) throw Refusal{{0, 1}, "the body returns nothing"};
     std::get<Function>(*found).body = std::move(statements);
 }
 
