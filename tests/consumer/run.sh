@@ -80,7 +80,7 @@ expect "$scratch/out" "has vertex colours, which this target does not support" "
 code=0
 "$candela" verify --target csv --plugin-dir "$csv" 2>"$scratch/out" || code=$?
 [ "$code" -eq 2 ] || fail "exit code $code for a target that draws nothing"
-expect "$scratch/out" "target/csv draws no picture" "candela verify"
+expect "$scratch/out" "target/csv does not draw a picture" "candela verify"
 code=0
 "$candela" generate --target csw --plugin-dir "$csv" 2>"$scratch/out" || code=$?
 expect "$scratch/out" "unknown target 'csw'; did you mean 'csv'? (possible: cpp, csv, gltf, opengl, povray, three, webgl)" "candela generate"
