@@ -83,10 +83,7 @@ class Look {
         parameters_.set("allow_outside", source.allows_outside);
         // The same parameters as in the scene, which then need not read the file again.
         const std::string extension = candela::extension_of(source.file);
-        if (extension == "gltf" || extension == "glb") {
-            parameters_.set("sides", std::string("both"));
-            parameters_.set("crease_angle", 0.0);
-        }
+        if (extension == "gltf" || extension == "glb") parameters_.set("sides", std::string("both"));
     }
 
     /// Makes a point of the file's coordinates the origin.

@@ -85,23 +85,29 @@ bool is_cut_off_png(const char* path) {
     return true;
 }
 
+/// A little-endian number of `count` bytes.
+std::uint32_t number_at(std::string_view head, std::size_t first, std::size_t count) {
+    std::uint32_t number = 0;
+    for (std::size_t k = count; k-- > 0;) number = number << 8 | static_cast<unsigned char>(head[first + k]);
+    return number;
+}
+
 /// The size of a WebP file, which OpenImageIO decodes as a whole when it opens it. Zero if the header is not
 /// WebP's.
 std::uintmax_t webp_pixels(std::string_view head) {
-    const auto at = [&](std::size_t i) { return std::uintmax_t{static_cast<unsigned char>(head[i])}; };
     if (head.size() < 30) return 0;
     const std::string_view chunk = head.substr(12, 4);
     std::uintmax_t width = 0, height = 0;
     if (chunk == "VP8X") {
-        width = 1 + (at(24) | at(25) << 8 | at(26) << 16);
-        height = 1 + (at(27) | at(28) << 8 | at(29) << 16);
+        width = std::uintmax_t{1} + number_at(head, 24, 3);
+        height = std::uintmax_t{1} + number_at(head, 27, 3);
     } else if (chunk == "VP8L") {
-        const std::uintmax_t bits = at(21) | at(22) << 8 | at(23) << 16 | at(24) << 24;
+        const std::uint32_t bits = number_at(head, 21, 4);
         width = 1 + (bits & 0x3fff);
         height = 1 + (bits >> 14 & 0x3fff);
     } else if (chunk == "VP8 ") {
-        width = (at(26) | at(27) << 8) & 0x3fff;
-        height = (at(28) | at(29) << 8) & 0x3fff;
+        width = number_at(head, 26, 2) & 0x3fff;
+        height = number_at(head, 28, 2) & 0x3fff;
     }
     return width * height;
 }
@@ -109,16 +115,14 @@ std::uintmax_t webp_pixels(std::string_view head) {
 /// The size of a BMP file, whose compressed pixels OpenImageIO decodes when it opens it. Zero if the header
 /// is that of OS/2, which has no compression.
 std::uintmax_t bmp_pixels(std::string_view head) {
-    constexpr std::size_t k_width = 18, k_height = 22;
-    if (head.size() < k_head) return 0;
-    const auto magnitude_at = [&](std::size_t i) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 4; k-- > 0;) bits = bits << 8 | static_cast<unsigned char>(head[i + k]);
-        const auto value = static_cast<std::int32_t>(bits);  // rows from the top have a negative height
-        return static_cast<std::uintmax_t>(value < 0 ? -std::int64_t{value} : std::int64_t{value});
-    };
     constexpr char k_size_of_os2 = 12;
-    return head[14] == k_size_of_os2 ? 0 : magnitude_at(k_width) * magnitude_at(k_height);
+    if (head.size() < k_head || head[14] == k_size_of_os2) return 0;
+    const auto magnitude_at = [&](std::size_t first) {
+        // Rows from the top have a negative height.
+        const std::int64_t value = static_cast<std::int32_t>(number_at(head, first, 4));
+        return static_cast<std::uintmax_t>(value < 0 ? -value : value);
+    };
+    return magnitude_at(18) * magnitude_at(22);
 }
 
 /// Deflate expands one byte to at most 1032, each holding up to eight one-bit pixels; most formats expand
