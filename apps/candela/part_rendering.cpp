@@ -113,7 +113,8 @@ int render_part(const CommandLine& line) {
         is_done = "the picture is already complete";
     } else {
         write_description(parted, output);
-        if (is_up_to_date(file, parted.inputs_of_parts(), Links::not_followed)) is_done = "already up to date";
+        if (is_up_to_date(file, parted.inputs_of_parts(), Links::not_followed))
+            is_done = "already up to date";
     }
     if (is_done == nullptr) {
         ProgressBar bar("rendering", !is_quiet());

@@ -23,7 +23,7 @@ struct MeshRequest {
     /// Whether normals are needed: authored ones, and the smooth groups from which shading models compute
     /// theirs. If not, the shape may share vertices wherever it can.
     bool normals = true;
-    bool facets = false;  // whether the renderer supports a faceted mesh
+    bool facets = false;                                   // whether the renderer supports a faceted mesh
     ColorEncoding color_management = ColorEncoding::srgb;  // the scene's: how colours in files are decoded
 };
 
@@ -44,8 +44,8 @@ struct MeshLayout {
     bool has_derivatives = false;
     bool has_color = false;
     bool has_smooth_groups = false;  // otherwise every vertex has its own normal
-    /// Every triangle is flat: the normal at its points is its own, and its vertices, shared or not, have none.
-    /// Only if facets are requested.
+    /// Every triangle is flat: the normal at its points is its own, and its vertices, shared or not, have
+    /// none. Only if facets are requested.
     bool is_faceted = false;
     Closedness closedness = Closedness::unknown;
     std::size_t open_edges = 0;  // of one_sided shapes; of open ones only if counted, otherwise the host
