@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -39,6 +40,17 @@ std::optional<std::string> failure_of(const Words& command) {
     }
 }
 
+/// Records why a task failed, unless it did so itself. Returns what to add to the report if that fails, too.
+std::string record_failure(const std::filesystem::path& journal, const std::string& why) {
+    try {
+        const auto said = read_journal(journal);
+        if (!said || said->state != JournalEntry::State::failed) write_failure(journal, why);
+        return {};
+    } catch (const std::exception& problem) {
+        return fmt::format("\n(not recorded: {})", problem.what());
+    }
+}
+
 /// Runs one task; reports and records why it failed, if it did.
 bool run_task(const std::string& name, const Words& command, const JobFolder& folder) {
     const auto wait_for_the_end = [] {
@@ -51,8 +63,7 @@ bool run_task(const std::string& name, const Words& command, const JobFolder& fo
     if (!failure) return true;
     std::string why = *failure;
     why.erase(why.find_last_not_of('\n') + 1);
-    const auto said = read_journal(folder.journal_of(name));
-    if (!said || said->state != JournalEntry::State::failed) write_failure(folder.journal_of(name), why);
+    why += record_failure(folder.journal_of(name), why);
     static std::mutex mutex;
     const std::scoped_lock lock(mutex);
     fail(ExitCode::failure, fmt::format("task {}: {}", name, why));

@@ -220,6 +220,16 @@ TEST_CASE("endless files in a job's folder take neither memory nor time") {
     CHECK(place.candela({"assemble", "p.tif"}).exit_code == 1);
 }
 
+TEST_CASE("a folder in place of a task's journal ends the job with an error, not a signal") {
+    const Place place;
+    fs::create_directories(place.directory / k_job / "0..1.json");
+    write_file(place.directory / k_job / "0..1.json" / "file", "");  // an empty folder is replaced
+    const CommandResult result = place.candela(k_submit);
+    check_refused(result, 1, "is not the journal of a task");
+    CHECK(holds(result.err, "0..1.json' is a directory"));
+    CHECK(holds(result.err, "1 of 1 tasks failed"));
+}
+
 TEST_CASE("a journal's claim that its task runs is believed only if its process can exist now") {
     const Place place;
     REQUIRE(place.candela({"submit", "scene.toml", "--engine", "print", "--chunk", "2"}).exit_code == 0);
