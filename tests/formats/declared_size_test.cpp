@@ -67,6 +67,15 @@ std::string bmp(std::int32_t width, std::int32_t height) {
     return bytes;
 }
 
+/// An OpenEXR file whose first attribute declares 1.7 GB of text.
+std::string exr(std::uint32_t flags) {
+    std::string bytes = "v/1\x01";
+    put(bytes, 2 | flags, 4);
+    bytes += std::string("comments\0string\0", 16);
+    put(bytes, 1'700'000'000, 4);
+    return bytes + "text";
+}
+
 /// Renders with the file as a texture, within five seconds of processor time and a gigabyte and a half.
 CommandResult rendered_with(const std::string& name, const std::string& bytes) {
     const fs::path folder = scratch_directory();
@@ -107,6 +116,16 @@ TEST_CASE("a file of a few bytes that declares millions of pixels is refused bef
         INFO(name << ", " << bytes.size() << " bytes: " << result.err);
         CHECK(result.exit_code == 1);
         CHECK(result.err.find("too small for its pixels") != std::string::npos);
+    }
+}
+
+TEST_CASE("an OpenEXR file whose header declares more bytes than it has is refused") {
+    constexpr std::uint32_t k_one_part = 0, k_multipart = 0x1000;
+    for (const std::uint32_t flags : {k_one_part, k_multipart}) {
+        const CommandResult result = rendered_with("text.exr", exr(flags));
+        INFO(result.err);
+        CHECK(result.exit_code == 1);
+        CHECK(result.err.find("its header declares more bytes than the file has") != std::string::npos);
     }
 }
 

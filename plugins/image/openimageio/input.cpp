@@ -92,6 +92,28 @@ std::uint32_t number_at(std::string_view head, std::size_t first, std::size_t co
     return number;
 }
 
+/// Whether the attributes of an OpenEXR file's headers end within the file. OpenEXR allocates what an
+/// attribute declares before it reads it.
+bool are_exr_headers_whole(const char* path) {
+    constexpr std::uint32_t k_is_multipart = 0x1000;
+    std::ifstream in(path, std::ios::binary);
+    std::string magic_and_version(8, '\0'), name, type, length(4, '\0');
+    in.read(magic_and_version.data(), 8);
+    const bool is_multipart = (number_at(magic_and_version, 4, 4) & k_is_multipart) != 0;
+    const auto file_size = static_cast<std::streamoff>(std::filesystem::file_size(path));
+    for (bool is_first_of_header = true; std::getline(in, name, '\0'); is_first_of_header = name.empty()) {
+        if (name.empty()) {
+            if (is_first_of_header || !is_multipart) return true;
+            continue;
+        }
+        if (!std::getline(in, type, '\0') || !in.read(length.data(), 4)) return false;
+        const std::streamoff end = in.tellg() + std::streamoff{number_at(length, 0, 4)};
+        if (end > file_size) return false;
+        in.seekg(end);
+    }
+    return false;
+}
+
 /// The size of a WebP file, which OpenImageIO decodes as a whole when it opens it. Zero if the header is not
 /// WebP's.
 std::uintmax_t webp_pixels(std::string_view head) {
@@ -158,6 +180,8 @@ std::unique_ptr<OIIO::ImageInput> opened(const char* path) {
     const std::string format(format_of(head, path));
     const std::uintmax_t size = std::filesystem::file_size(path);
     if (format == "png" && is_cut_off_png(path)) throw std::runtime_error("it is cut off");
+    if (format == "openexr" && !are_exr_headers_whole(path))
+        throw std::runtime_error("its header declares more bytes than the file has");
     if (format == "webp") require_moderate(4 * webp_pixels(head), size);
     if (format == "bmp") require_plausible(bmp_pixels(head), size, k_most_pixels_per_byte);
     // The colours stay as in the file, however transparent the pixels.
