@@ -21,7 +21,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = [ROOT / name for name in ("core", "sdk", "plugins", "apps")]
 # pybind11's templates take clang-tidy minutes and a gigabyte for each source.
-ONLY_WITH_ALL = ROOT / "apps" / "python"
+ONLY_WITH_ALL = ROOT / "apps" / "bindings" / "python"
 # A change to one of these affects everything.
 OF_ALL = {".clang-tidy", "scripts/tidy.py"}
 VERSIONS = (22, 21, 20, 19)

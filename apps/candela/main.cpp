@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "completion.h"
-#include "exit_code.h"
-#include "manual.h"
-#include "reporting.h"
-#include "signals.h"
-#include "task_journal.h"
-#include "verbs.h"
-#include "wrapping.h"
+#include "cli/commands.h"
+#include "cli/completion.h"
+#include "cli/manual.h"
+#include "cli/signals.h"
+#include "console/exit_code.h"
+#include "console/reporting.h"
+#include "console/wrapping.h"
+#include "jobs/heartbeat.h"
 
 import candela.simd;
 import candela.text;

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "picture_comparison/differences.h"
+#include "compare/differences.h"
 
 import candela.files;
 import candela.memory;

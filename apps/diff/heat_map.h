@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "picture_comparison/picture.h"
+#include "compare/picture.h"
 
 import candela.diagnostics;
 import candela.files;

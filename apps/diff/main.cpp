@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "command_line.h"
+#include "cli/command_line.h"
+#include "cli/outputs.h"
+#include "cli/signals.h"
+#include "compare/comparison.h"
+#include "compare/perception.h"
+#include "console/reporting.h"
 #include "heat_map.h"
-#include "outputs.h"
-#include "picture_comparison/comparison.h"
-#include "picture_comparison/perception.h"
 #include "picture_file.h"
-#include "reporting.h"
-#include "signals.h"
 
 import candela.files;
 

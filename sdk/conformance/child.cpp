@@ -13,7 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "guarded_child.h"
+#include "sandbox/guarded_child.h"
 
 namespace {
 

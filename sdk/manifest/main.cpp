@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
-#include "guarded_child.h"
 #include "loops.h"
+#include "sandbox/guarded_child.h"
 
 import candela.diagnostics;
 import candela.library;

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "descendants.h"
+#include "sandbox/process_tree.h"
 
 namespace {
 

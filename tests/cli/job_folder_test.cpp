@@ -15,9 +15,9 @@
 #include <thread>
 #include <vector>
 
+#include "sandbox/temporary_folder.h"
 #include "support/box_scene.h"
 #include "support/command.h"
-#include "temporary_folder.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;

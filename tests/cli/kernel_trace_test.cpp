@@ -1,5 +1,5 @@
 // Kernel text with notes, compiled and run: compares all forms of statement with values computed by hand.
-#include "explanation/kernel_trace.h"
+#include "inspect/kernel_trace.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>

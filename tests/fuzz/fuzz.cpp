@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 
 namespace fuzz {
 

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "fuzz/fuzz.h"
-#include "view/request.h"
+#include "viewer/request.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     constexpr std::string_view k_token = "0123456789abcdef0123456789abcdef";

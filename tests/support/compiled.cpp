@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "command.h"
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 #include "plugins.h"
 
 Compiled compiled(const candela::SceneRequest& request) {

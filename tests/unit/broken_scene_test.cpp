@@ -1,6 +1,6 @@
 // One mistake, one message.
 #include "support/broken_scene.h"
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <string>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
 

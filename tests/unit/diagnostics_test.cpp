@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 
 import candela.core;
 

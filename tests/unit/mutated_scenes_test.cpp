@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 #include "support/plugins.h"
 
 import candela.core;

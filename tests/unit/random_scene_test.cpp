@@ -1,6 +1,6 @@
 // The generator of random scenes, which other tests rely on.
 #include "support/random_scene.h"
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>

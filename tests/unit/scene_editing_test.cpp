@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/random_scene.h"

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
 

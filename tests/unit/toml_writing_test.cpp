@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 
 import candela.core;
 import candela.toml;

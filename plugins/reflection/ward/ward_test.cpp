@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/microfacets.h"
 #include "support/plugins.h"

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <span>
 
-#include "diagnostics_text.h"
+#include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"

@@ -1,0 +1,101 @@
+// Compiles plugins at run time.
+#include "binding.h"
+
+#include "candela/kernel_language/language.h"
+#include "inspect/kernel_compiler.h"
+#include "module.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.library;
+import candela.manifest;
+import candela.registry;
+
+namespace candela::python {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> options_for(const std::string& name, const fs::path& folder) {
+    const fs::path core = plugin_search_path({}).back().parent_path().parent_path() / CANDELA_CORE_FILE;
+    std::vector<std::string> options{
+        "-std=c++20",
+        "-O3",
+        "-fPIC",
+        "-shared",
+        "-fvisibility=hidden",
+        "-fno-math-errno",
+        "-fno-trapping-math",
+        "-fwrapv",  // defines integer overflow in kernels
+        "-fstack-clash-protection",
+#ifdef __x86_64__
+        "-mprefer-vector-width=512",
+#endif
+        "-w",
+        fmt::format("-DCANDELA_PLUGIN_NAME=\"{}\"", name),
+        "-DCANDELA_PLUGIN_VERSION=\"0\"",
+        fmt::format("-DCANDELA_KERNEL_FILE=\"{}\"", (folder / (name + ".kernel")).string()),
+        "-I",
+        kernel_headers().string(),
+        "-I",
+        folder.string()};
+    options.push_back((folder / (name + ".cpp")).string());
+    options.push_back(core.string());
+    options.push_back("-Wl,--version-script=" + (folder / "plugin.map").string());
+    options.insert(options.end(), {"-o", (folder / fmt::format("reflection-{}.so", name)).string()});
+    return options;
+}
+
+/// Removes the temporary folder, which users do not know, from a compiler's message.
+std::string without(const fs::path& folder, std::string message) {
+    const std::string path = folder.string() + "/";
+    for (std::size_t at = message.find(path); at != std::string::npos; at = message.find(path, at))
+        message.erase(at, path.size());
+    return message;
+}
+
+/// Compiles <folder>/<name>.cpp to a plugin in that folder, with the exports in <folder>/plugin.map, and
+/// writes its manifest.
+void compile_plugin(const std::string& name, const fs::path& folder) {
+    const auto compiler = cxx_compiler();
+    if (!compiler)
+        throw Error(ErrorCategory::failure,
+                    "a kernel needs a C++ compiler, and none is installed (packages g++ or clang)");
+    std::error_code problem;
+    if (!fs::exists(kernel_headers() / "candela/reflection_plugin.h", problem))
+        throw Error(ErrorCategory::failure,
+                    "a kernel needs Candela's headers, which are not installed (package candela-dev)");
+    const ProgramOutput compiled = run_kernel_compiler(*compiler, options_for(name, folder), folder);
+    if (compiled.exit_code != 0) {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("{} could not compile the kernel: {}", compiler->filename().string(),
+                                without(folder, first_error(compiled.err))));
+    }
+    const fs::path library = folder / fmt::format("reflection-{}.so", name);
+    const Manifest manifest = manifest_of(load_plugin(library, nullptr), host_abi());
+    OutputFile file(fs::path(library).replace_extension(".json"), Existing::replaced);
+    file.write(to_json(manifest));
+    file.finish();
+}
+
+/// Translates a kernel to C++; throws Error if it is not in the kernel language.
+std::string kernel_as_cpp(const std::string& source, const std::string& file) {
+    try {
+        return kernel_language::emitted(kernel_language::read_kernel({file, source}),
+                                        kernel_language::Emission::guarded_cpp);
+    } catch (const kernel_language::Problem& problem) {
+        throw Error(ErrorCategory::bad_request, problem.text());
+    }
+}
+
+}  // namespace
+
+void add_kernel(py::module_& module) {
+    module.def("compile_plugin", &compile_plugin, py::arg("name"), py::arg("folder"),
+               py::call_guard<py::gil_scoped_release>(), "Makes a plugin from the files in a folder.");
+    module.def("kernel_as_cpp", &kernel_as_cpp, py::arg("source"), py::arg("file"),
+               "Translates a kernel, which must be in the kernel language, to C++.");
+}
+
+}  // namespace candela::python

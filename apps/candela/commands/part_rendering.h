@@ -1,0 +1,24 @@
+// Pictures rendered a band of rows at a time: into one file, or as a part.
+#pragma once
+
+#include "cli/command_line.h"
+#include "console/stopwatch.h"
+
+import candela.files;
+import candela.film;
+import candela.registry;
+import candela.render;
+import candela.scene;
+
+/// Whether the picture is too large to keep in memory and the format does not require that.
+bool is_streamed(const candela::ImageSettings& image, const candela::PictureFormat& format,
+                 candela::Registry& registry);
+
+/// Renders a picture into the file that --output names, with only some bands in memory. Returns the exit
+/// code.
+int render_by_rows(const CommandLine& line, const candela::CompiledScene& scene,
+                   const candela::PictureFormat& format, candela::Existing existing,
+                   candela::Registry& registry, const Stopwatch& total);
+
+/// Renders the part that --part names. Returns the exit code.
+int render_part(const CommandLine& line);

@@ -1,0 +1,173 @@
+#include "exercise/exercises.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+#include <system_error>
+
+#include "candela/target/kernels.h"
+#include "json/json.h"
+
+import candela.color;
+import candela.diagnostics;
+import candela.files;
+import candela.reflection;
+import candela.text;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+
+namespace {
+
+constexpr int k_version = 1;
+constexpr std::size_t k_largest_file = 100'000;  // bytes
+constexpr std::size_t k_most_files = 10'000;
+
+/// The names of the functions defined by a kernel.
+std::vector<std::string> functions_of(const std::string& text) {
+    static const std::regex k_function(R"(\bKERNEL\s+\w+\s+(\w+)\s*\()");
+    std::vector<std::string> names;
+    for (auto m = std::sregex_iterator(text.begin(), text.end(), k_function); m != std::sregex_iterator();
+         ++m)
+        names.push_back((*m)[1]);
+    return names;
+}
+
+Error no_answer(const fs::path& file, const std::string& why) {
+    return {ErrorCategory::bad_request,
+            fmt::format("'{}' is not an answer to an exercise: {}", file.string(), why)};
+}
+
+}  // namespace
+
+const candela::PluginFile& loaded_model(const std::string& model, candela::Registry& registry) {
+    const std::size_t slash = model.find('/');
+    const std::string kind = slash == std::string::npos ? "reflection" : model.substr(0, slash);
+    const std::string name = slash == std::string::npos ? model : model.substr(slash + 1);
+    if (kind != "reflection") {
+        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is not a reflection model", model));
+    }
+    const candela::PluginFile& file = registry.require(candela::PluginKind::reflection, name);
+    for (const candela::Parameter& parameter : file.manifest.parameters) {
+        if (parameter.type == candela::ParamType::file && !parameter.default_value)
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("reflection/{} needs a file ({}), which exercises cannot provide", name,
+                                    parameter.name));
+    }
+    // Creating an instance loads the library.
+    static_cast<void>(registry.create<candela::ReflectionModel>(
+        name, registry.parameters(candela::PluginKind::reflection, name), candela::ColorEncoding::none));
+    if (file.descriptor == nullptr || file.descriptor->kernel.text == nullptr)
+        throw Error(ErrorCategory::bad_request, fmt::format("reflection/{} has no kernel text", name));
+    return file;
+}
+
+TextAroundBody text_around_body(const std::string& text, const std::string& function) {
+    const std::regex defined(fmt::format(R"(\bKERNEL\s+\w+\s+{}\s*\([^)]*\)\s*\{{)", function));
+    std::smatch found;
+    if (!std::regex_search(text, found, defined))
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("the kernel declares {}() in a way that exercises do not support", function));
+    const auto begin = static_cast<std::size_t>(found.position() + found.length());
+    std::size_t end = begin;
+    for (std::size_t depth = 1; end < text.size(); ++end) {
+        if (text[end] == '{') ++depth;
+        if (text[end] == '}' && --depth == 0) break;
+    }
+    return {.before = text.substr(0, begin), .after = text.substr(end)};
+}
+
+Exercise exercise_about(const std::string& model, const std::string& function, candela::Registry& registry) {
+    const candela::PluginFile& file = loaded_model(model, registry);
+    const std::string text = candela::target::without_comments(file.descriptor->kernel.text);
+    const std::string prefix = std::string(file.descriptor->kernel.prefix) + "_";
+    const std::vector<std::string> names = functions_of(text);
+    const auto is_defined = [&](const std::string& name) {
+        return std::ranges::find(names, name) != names.end();
+    };
+    const std::string name = is_defined(function) ? function : prefix + function;
+    if (!is_defined(name)) {
+        std::vector<std::string> short_names;
+        for (const std::string& each : names)
+            short_names.push_back(each.starts_with(prefix) ? each.substr(prefix.size()) : each);
+        if (function.empty())
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("--blank is missing: the function of reflection/{} to leave blank (possible: {})",
+                            file.manifest.name, fmt::join(short_names, ", ")));
+        std::vector<std::string> possible = short_names;
+        possible.insert(possible.end(), names.begin(), names.end());
+        const std::string meant = candela::suggestion(function, possible);
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("the kernel of reflection/{} has no function '{}'{} (possible: {})",
+                                file.manifest.name, function, meant.empty() ? "" : "; " + meant,
+                                fmt::join(short_names, ", ")));
+    }
+    candela::kernel_language::Source kernel{.name = file.manifest.name + ".kernel",
+                                            .text = file.descriptor->kernel.text};
+    try {
+        static_cast<void>(candela::kernel_language::read_kernel(kernel));
+    } catch (const candela::kernel_language::Problem& problem) {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("the kernel of reflection/{} is not in the kernel language: {}",
+                                file.manifest.name, problem.text()));
+    }
+    return {.model = "reflection/" + file.manifest.name,
+            .function = name,
+            .plugin = &file,
+            .text = text_around_body(text, name),
+            .kernel = std::move(kernel)};
+}
+
+Answer answer_from(const fs::path& file) {
+    const std::optional<std::string> text = candela::read_text_file(file, k_largest_file);
+    if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", file.string()));
+    if (text->size() > k_largest_file)
+        throw no_answer(file, fmt::format("it is larger than {} bytes", k_largest_file));
+    const Json json = json_or_discarded(*text);
+    if (!json.is_object())
+        throw no_answer(file, "it is not a JSON object; expected a file saved by the exercise's page");
+    const auto text_of = [&](const char* key) {
+        if (!json.contains(key) || !json[key].is_string())
+            throw no_answer(file, fmt::format("'{}' is missing; expected a string", key));
+        return json[key].get<std::string>();
+    };
+    if (!json.contains("candela_exercise") || json["candela_exercise"] != k_version)
+        throw no_answer(file, fmt::format("'candela_exercise' is missing or not {}", k_version));
+    Answer answer{.file = file, .model = text_of("model"), .function = text_of("function"), .body = {}};
+    if (!json.contains("answer") || !json["answer"].is_array())
+        throw no_answer(file, "'answer' is missing; expected an array of lines");
+    for (const Json& line : json["answer"]) {
+        if (!line.is_string() || line.get_ref<const std::string&>().find('\n') != std::string::npos)
+            throw no_answer(file, "'answer' contains something that is not a line of text");
+        answer.body += (answer.body.empty() ? "" : "\n") + line.get<std::string>();
+    }
+    return answer;
+}
+
+std::vector<fs::path> answers_in(const std::vector<std::string>& files_and_folders) {
+    std::vector<fs::path> files;
+    for (const std::string& named : files_and_folders) {
+        std::error_code problem;
+        if (!fs::is_directory(named, problem)) {
+            if (!fs::is_regular_file(named, problem))
+                throw Error(ErrorCategory::failure, fmt::format("there is no file or folder '{}'", named));
+            files.emplace_back(named);
+            continue;
+        }
+        auto names = candela::names_in(named, k_most_files);
+        if (!names) throw Error(ErrorCategory::failure, fmt::format("the folder '{}' cannot be read", named));
+        std::ranges::sort(*names);
+        const std::size_t before = files.size();
+        for (const std::string& name : *names)
+            if (name.ends_with(".answer")) files.push_back(fs::path(named) / name);
+        if (files.size() == before)
+            throw Error(ErrorCategory::failure,
+                        fmt::format("there are no answers (*.answer) in '{}'", named));
+    }
+    return files;
+}

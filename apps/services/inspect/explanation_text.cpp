@@ -1,0 +1,183 @@
+// Explanations as text.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "inspect/explanation.h"
+
+import candela.color;
+import candela.math;
+import candela.shading;
+import candela.text;
+
+using candela::FragmentProbe;
+using candela::LightTrace;
+using candela::PointTrace;
+using candela::Vec3;
+
+namespace {
+
+std::string text_of(Vec3 v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z); }
+
+std::string text_of(const std::vector<double>& numbers) {
+    if (numbers.size() == 1) return fmt::format("{:.6g}", numbers[0]);
+    std::string result;
+    for (const double number : numbers)
+        result += fmt::format("{}{:.6g}", result.empty() ? "[" : ", ", number);
+    return result + "]";
+}
+
+/// Where light is evaluated.
+std::string_view place_of(candela::ShadingRate rate) {
+    switch (rate) {
+        case candela::ShadingRate::face:
+            return "once per face: at its centroid";
+        case candela::ShadingRate::vertex:
+            return "once per vertex, and interpolated";
+        default:
+            return "once per pixel: here";
+    }
+}
+
+class Writer {
+  public:
+    explicit Writer(const Explanation& explanation) : e_(explanation) {}
+
+    std::string written() {
+        const auto& image = e_.compiled.image;
+        const auto& bytes = e_.pixel.bytes;
+        line(0, fmt::format("pixel {},{} of {} x {}: {} {} {}", e_.x, e_.y, image.width, image.height,
+                            bytes[0], bytes[1], bytes[2]));
+        for (const FragmentProbe& fragment : e_.pixel.fragments) write(fragment);
+        if (e_.pixel.background_weight > 0)
+            value(0, "background", e_.pixel.background,
+                  e_.pixel.background_weight < 1
+                      ? fmt::format("{:.4g} of the pixel", e_.pixel.background_weight)
+                      : "no object is visible");
+        if (e_.pixel.fragments.size() + (e_.pixel.background_weight > 0 ? 1 : 0) > 1)
+            value(0, "I", e_.pixel.intensity, "the sum, weighted by share of the pixel");
+        write_encoding();
+        if (!e_.why_no_steps().empty()) line(0, "note: " + e_.why_no_steps());
+        if (const auto difference = e_.kernel_difference())
+            line(0, fmt::format(
+                        "the steps come from the kernels' text, compiled here; plugin and text differ by "
+                        "{:.1g} of the intensity",
+                        *difference));
+        return candela::printable(text_, candela::LineBreaks::kept);
+    }
+
+  private:
+    void line(int indent, const std::string& text) {
+        text_ += std::string(static_cast<std::size_t>(2 * indent), ' ') + text + "\n";
+    }
+    void value(int indent, std::string_view name, Vec3 v, const std::string& remark = {}) {
+        line(indent, fmt::format("{} = {}{}{}", name, text_of(v), remark.empty() ? "" : "  ", remark));
+    }
+
+    void write(const FragmentProbe& fragment) {
+        const candela::Object& object = e_.scene.objects[fragment.object];
+        line(0,
+             fmt::format("object {}, {}: triangle {}, barycentric {}{}", object.label, object.shape.name,
+                         fragment.triangle, text_of(fragment.barycentric),
+                         fragment.weight < 1 ? fmt::format(", {:.4g} of the pixel", fragment.weight) : ""));
+        value(1, "p", fragment.position, "metres");
+        line(1,
+             fmt::format("{} shading: light is evaluated {}", object.shading.name, place_of(fragment.rate)));
+        for (std::size_t i = 0; i < fragment.points.size(); ++i) {
+            if (fragment.points.size() > 1) line(1, fmt::format("vertex {}", i + 1));
+            write(fragment.points[i], object);
+        }
+        if (fragment.points.size() > 1) value(1, "I", fragment.intensity, "interpolated");
+    }
+
+    void write(const PointTrace& point, const candela::Object& object) {
+        value(2, "p", point.position);
+        value(2, "N", point.normal, point.from_behind ? "seen from behind: reversed" : "");
+        steps(3, e_.normal_steps(point));
+        value(2, "V", point.to_observer);
+        if (length(point.tangent) > 0) value(2, "T", point.tangent);
+        value(2, "C_o", point.color);
+        for (const LightTrace& light : point.lights) write(light, point, object);
+        if (length(point.surroundings) > 0) value(2, "surroundings", point.surroundings);
+        value(2, "I_a", point.ambient);
+        value(2, "I_d", point.diffuse);
+        value(2, "I_s", point.specular);
+        value(2, "I", point.intensity, "I_a + I_d + I_s");
+    }
+
+    void write(const LightTrace& light, const PointTrace& point, const candela::Object& object) {
+        const candela::LightSource& source = e_.scene.lights[light.light];
+        const bool is_ambient = light.sample == LightTrace::k_ambient;
+        line(2, fmt::format("light {}, {}{}", source.label, source.model.name,
+                            light.sample > 0 ? fmt::format(", sample {}", light.sample) : ""));
+        if (is_ambient) {
+            value(3, "arriving", light.diffuse);
+        } else {
+            const Vec3 n = point.normal, l = light.to_light, v = point.to_observer;
+            const Vec3 half = l + v;
+            value(3, "L", l, fmt::format("N.L = {:.6g}", dot(n, l)));
+            const Vec3 r = 2 * dot(n, l) * n - l;
+            value(3, "R", r, fmt::format("R.V = {:.6g}", dot(r, v)));
+            if (length(half) > 0) {
+                const Vec3 h = (1 / length(half)) * half;
+                value(3, "H", h, fmt::format("N.H = {:.6g}", dot(n, h)));
+            }
+            value(3, "arriving", light.diffuse);
+            if (light.specular != light.diffuse) value(3, "arriving, for highlights", light.specular);
+        }
+        steps(4, e_.light_steps(light));
+        line(3, fmt::format("{} reflection", object.reflection.name));
+        steps(4, e_.reflection_steps(light));
+        if (is_ambient) return value(3, "I_a", light.reflected_ambient);
+        value(3, "I_d", light.reflected_diffuse);
+        value(3, "I_s", light.reflected_specular);
+    }
+
+    /// Of the outermost function's arguments, shows only those not shown yet: its parameters.
+    void steps(int indent, const std::vector<KernelValue>& values) {
+        for (const KernelValue& value : values) {
+            const KernelStep& step = *value.step;
+            const int at = indent + value.depth + (step.kind == KernelStep::Kind::function ? 0 : 1);
+            if (step.kind == KernelStep::Kind::function) {
+                line(at, fmt::format("{}:{} {}()", step.file, step.line, step.name));
+                continue;
+            }
+            const bool is_argument = step.kind == KernelStep::Kind::argument;
+            if (is_argument && value.depth == 0 && is_shown(step.text)) continue;
+            const std::string name = step.kind == KernelStep::Kind::result ? "result" : step.name;
+            line(at, fmt::format("{}{} = {}{}", name, value.member, text_of(value.numbers),
+                                 is_argument ? "" : fmt::format("    {};", step.text)));
+        }
+    }
+    static bool is_shown(const std::string& argument) {
+        constexpr std::array<std::string_view, 5> k_shown{"Surface ", "Receiver ", "ShadingPoint ",
+                                                          "Triangle ", "vec3 to_light"};
+        return std::ranges::any_of(k_shown,
+                                   [&](std::string_view begin) { return argument.starts_with(begin); });
+    }
+
+    void write_encoding() {
+        const Vec3 i = e_.pixel.intensity;
+        const bool is_srgb = e_.compiled.image.color_management == candela::ColorEncoding::srgb;
+        const std::array<float, 3> channels{i.x, i.y, i.z};
+        constexpr std::array<const char*, 3> k_names{"red", "green", "blue"};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float clamped = std::clamp(channels[c], 0.0f, 1.0f);
+            const float encoded = is_srgb ? candela::linear_to_srgb(clamped) : clamped;
+            line(0,
+                 fmt::format("{}: I = {:.6g}{}, {}{:.6g}, x 255 = {:.2f}, byte {}", k_names[c], channels[c],
+                             clamped != channels[c] ? fmt::format(", clamped to {:g}", clamped) : "",
+                             is_srgb ? "sRGB " : "not encoded ", encoded, 255 * encoded, e_.pixel.bytes[c]));
+        }
+    }
+
+    const Explanation& e_;
+    std::string text_;
+};
+
+}  // namespace
+
+std::string explanation_text(const Explanation& explanation) { return Writer(explanation).written(); }

@@ -1,0 +1,158 @@
+#include "inspect/kernel_run.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "inspect/kernel_compiler.h"
+
+import candela.diagnostics;
+import candela.files;
+import candela.process;
+
+namespace fs = std::filesystem;
+using candela::Error;
+using candela::ErrorCategory;
+using candela::PluginDescriptor;
+
+namespace {
+
+std::string text_of_file(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw Error(ErrorCategory::failure, fmt::format("cannot write '{}'", file.string()));
+}
+
+/// Hashes all headers that the programs are compiled with, but not the modules, which are installed in a
+/// folder next to them.
+std::size_t hash_of_headers(const fs::path& include) {
+    std::vector<std::string> names =
+        candela::names_in(include / "candela").value_or(std::vector<std::string>());
+    std::ranges::sort(names);
+    std::string all;
+    for (const std::string& name : names) {
+        const fs::path file = include / "candela" / name;
+        std::error_code problem;
+        if (fs::is_regular_file(file, problem)) all += name + text_of_file(file);
+    }
+    return std::hash<std::string>()(all);
+}
+
+/// Whether only this user can have written to a folder, whose contents will be run.
+bool is_own_folder(const fs::path& folder) {
+    struct stat status{};
+    return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid() &&
+           (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+}  // namespace
+
+KernelRunner::KernelRunner(std::vector<const PluginDescriptor*> plugins, fs::path kept)
+    : program_(std::move(plugins)),
+      kept_(std::move(kept)),
+      folder_(kept_.empty() ? fs::temp_directory_path() : kept_, "candela-explain-") {}
+
+void KernelRunner::prepare() {
+    if (std::exchange(is_prepared_, true)) return;
+    const fs::path include = kernel_headers();
+    std::error_code problem;
+    if (!fs::exists(include / "candela/kernel.h", problem)) {
+        why_not_ =
+            "the kernels' steps are left out: Candela's headers are not installed (package "
+            "candela-dev)";
+        return;
+    }
+    const std::string prelude = program_.traced_prelude(text_of_file(include / "candela/prelude.kernel"));
+    const std::string text =
+        fmt::format("// with headers {:016x}\n", hash_of_headers(include)) + program_.source();
+    const fs::path kept_program =
+        kept_.empty() ? fs::path() : kept_ / fmt::format("{:016x}", std::hash<std::string>()(prelude + text));
+    const bool is_there = !kept_.empty() && is_own_folder(kept_program) &&
+                          text_of_file(kept_program / "kernels.cpp") == text &&
+                          text_of_file(kept_program / "candela/prelude.kernel") == prelude;
+    const fs::path made = folder_.path() / "program";
+    if (!is_there) {
+        fs::create_directories(made / "candela");
+        fs::permissions(made, fs::perms::owner_all);  // see is_own_folder()
+        write_text(made / "candela/prelude.kernel", prelude);
+        write_text(made / "kernels.cpp", text);
+        if (!compile(made)) return;
+        // Appears complete or not at all; another process may have been faster.
+        if (!kept_.empty()) fs::rename(made, kept_program, problem);
+    }
+    executable_ = (fs::exists(made / "kernels", problem) ? made : kept_program) / "kernels";
+}
+
+bool KernelRunner::compile(const fs::path& folder) {
+    const auto program = candela::cxx_compiler();
+    if (!program) {
+        why_not_ = "the kernels' steps are left out: no C++ compiler is installed";
+        return false;
+    }
+    // The compiler searches this folder before that of kernel.h, for "candela/prelude.kernel".
+    const candela::ProgramOutput compiled = run_kernel_compiler(
+        *program,
+        {"-std=c++20", "-O0", "-w", "-fno-math-errno", "-ffp-contract=off", "-I", folder.string(), "-I",
+         kernel_headers().string(), (folder / "kernels.cpp").string(), "-o", (folder / "kernels").string()},
+        folder_.path());
+    if (compiled.exit_code == 0) return true;
+    why_not_ = fmt::format("the kernels' steps are left out: {} could not compile them: {}",
+                           program->filename().string(), first_error(compiled.err));
+    return false;
+}
+
+KernelValues KernelRunner::run(const std::vector<KernelCall>& calls) {
+    KernelValues values(calls.size());
+    if (calls.empty()) return values;
+    prepare();
+    if (!why_not_.empty()) return values;
+    const std::vector<float> input = program_.input(calls);
+    const fs::path file = folder_.path() / "input";
+    write_text(file, std::string(reinterpret_cast<const char*>(input.data()), sizeof(float) * input.size()));
+    const candela::ProgramOutput run = candela::run_program({executable_.string(), file.string()});
+    if (run.exit_code != 0) {
+        why_not_ = "the kernels' steps are left out: the compiled kernels cannot be run";
+        return values;
+    }
+    read(run.out, values);
+    return values;
+}
+
+void KernelRunner::read(const std::string& printed, KernelValues& values) const {
+    std::istringstream lines(printed);
+    lines.exceptions(std::ios::badbit);  // or std::getline() swallows std::bad_alloc, and the rest is lost
+    std::size_t call = 0;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        words.exceptions(std::ios::badbit);  // as above
+        std::string kind;
+        std::size_t number = 0;
+        words >> kind >> number;
+        if (kind == "call") {
+            call = number;
+            continue;
+        }
+        KernelValue value{.step = &program_.steps().at(number)};
+        words >> value.depth >> value.member;
+        if (value.member == ".") value.member.clear();
+        if (kind == "note") --value.depth;
+        for (std::string word; words >> word;) value.numbers.push_back(std::strtod(word.c_str(), nullptr));
+        values.at(call).push_back(std::move(value));
+    }
+}
